@@ -14,15 +14,15 @@ namespace carrom {
 
 namespace {
 
-/// Cells are no narrower than so many mean distances of discs: smaller ones save no time, and each
-/// takes 4 bytes.
+/// The least width of cells, in mean distances of discs. Smaller cells save no time,
+/// and each takes 4 bytes.
 constexpr double least_spacings = 1.15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for
-/// all, and a few more cells than last time do not take twice the memory. The old
-/// numbers may be lost.
+/// Resizes without much spare memory. Windows of many lengths have cells of many
+/// sizes, so the memory of the smallest cells is not kept for all, and a few more
+/// cells than last time do not take twice the memory. The old numbers may be lost.
 template <class T> void resize_close(std::vector<T>& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
         std::vector<T>().swap(numbers);
@@ -35,15 +35,15 @@ int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
 
-/// Where discs are without periodic sides.
+/// The places of discs in a box without periodic sides.
 struct StoredPlaces {
     static double x_of(const Disc& disc, double time) { return disc.x_at(time); }
     static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
     static double vx_of(const Disc& disc) { return disc.vx; }
 };
 
-/// Where images are whose boxes are at rest. A kind of its own, so that they do not pay for boxes
-/// that move.
+/// The places of images in a box that repeats itself at rest. It is a type of its own,
+/// so that such boxes do not pay for images that move.
 struct PlacesAtRest {
     const Periods& periods;
 
@@ -52,7 +52,7 @@ struct PlacesAtRest {
     static double vx_of(const Disc& disc) { return disc.vx; }
 };
 
-/// Calls `work` with what knows where discs are in a box that repeats itself like this.
+/// Calls `work` with the type that knows the places of discs in such a box.
 template <class Work> void with_places(const Periods& periods, Work work) {
     if (periods.are_moving())
         work(periods);
@@ -72,10 +72,10 @@ GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::s
     // In a thin tube one cell holds its whole height.
     const double sparse_width = std::max(std::sqrt(width / n_cells) * std::sqrt(height),
                                          std::max(width, height) / n_cells);
-    // Two cells to the reach save a third of the pairs where cells of one reach would hold many
-    // discs.
+    // Two cells to the reach save a third of the pairs if cells as wide as the reach
+    // would hold many discs.
     const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
-    // Cells much smaller than that would be more to the reach of fast discs than an int counts.
+    // With much smaller cells the reach of fast discs would be more cells than an int counts.
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
                                          : (discs_per_reach > 4 ? reach / 2 : reach);
     GridGeometry geometry;
@@ -139,7 +139,7 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, dou
     anchor_ = time;
     has_flights_ = false;
     sort(own, n_threads, companions);
-    std::vector<float>().swap(lanes_); // they were the sorter's alone
+    std::vector<float>().swap(lanes_); // only the sorter used them
 }
 
 void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
@@ -164,8 +164,8 @@ void CellGrid::sort_columns(SideColumns& columns, Lent order) const {
     });
 }
 
-/// First which disc goes where, in the second of the lanes; then they go. Nearly all come from near
-/// by: a pass over the discs.
+/// Writes which disc goes where into the second of the lanes, and then moves the
+/// discs. Nearly all come from near by, so this is one pass over the discs.
 template <class Places>
 void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
                     const Companions& companions) {
@@ -204,7 +204,7 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
     halo_column_.assign(static_cast<std::size_t>(geometry_.n_columns), no_halo);
     for (std::size_t i = 0; i < halo.size(); ++i) {
         const Cell cell = cell_at(places, halo[i]);
-        halo_order_[i] = static_cast<LocalIndex>(cell.column); // for now, both
+        halo_order_[i] = static_cast<LocalIndex>(cell.column); // temporarily the cell
         halo_slot_[i] = static_cast<std::uint32_t>(cell.row);
         halo_column_[halo_order_[i]] = 0;
     }
@@ -250,7 +250,7 @@ void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) {
 void CellGrid::set_apart(double speed) {
     const double flight = speed * duration_ * geometry_.cells_per_length();
     const auto longest = static_cast<float>(flight * flight);
-    std::vector<float> kept; // four numbers a disc
+    std::vector<float> kept; // four numbers for each disc
     float longest_squared = 0;
     const auto look_through = [&](std::vector<float>& lanes, std::size_t length,
                                   std::size_t n_slots, const auto& index_of) {
@@ -262,8 +262,8 @@ void CellGrid::set_apart(double speed) {
             longest_squared = std::max(longest_squared, squared);
             apart_.push_back(index_of(static_cast<std::uint32_t>(slot)));
             kept.insert(kept.end(), {x[slot], y[slot], vx[slot], vy[slot]});
-            // Far from everybody and from each other, and flying away: the filter keeps pairs
-            // without relative velocity.
+            // Far from all discs and from each other, and flying away, because the
+            // filter keeps pairs without relative velocity.
             x[slot] = y[slot] = 1e6f * static_cast<float>(apart_.size());
             vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
         }
@@ -287,10 +287,10 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 }
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
-    constexpr double margin = 1e-6; // where a cell ends is rounded
+    constexpr double margin = 1e-6; // the ends of cells are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
-    // Cells first .. end - 1 of n from `origin` on lie within low .. high; those at the ends hold
-    // what is beyond them, too.
+    // The cells first .. end - 1 of n that lie within low .. high, if the first one
+    // begins at `origin`. The cells at the ends also hold discs from beyond them.
     const auto cells_within = [this](double low, double high, double origin, int n) {
         const double from = (low - origin) / geometry_.cell_width + margin,
                      to = (high - origin) / geometry_.cell_width - margin;
@@ -337,8 +337,8 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
 }
 
 float CellGrid::touching_squared(double diameter) const {
-    // Positions and velocities carry an error of 2^-24 of the grid's size; the filter allows for
-    // its own rounding.
+    // Positions and velocities have an error of 2^-24 of the grid's size. The filter
+    // allows for its own rounding itself.
     const double extent = std::max(geometry_.n_columns, geometry_.n_rows) +
                           4.0 * std::max<double>(geometry_.n_reach, longest_flight_);
     const double touching = diameter / geometry_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;

@@ -27,10 +27,10 @@ namespace carrom {
 /// all cells are put into its border cells, which brings no two discs further apart.
 struct GridGeometry {
     Axis axis = Axis::x;
-    double low = 0, across_low = 0; ///< of the first column and the first row
+    double low = 0, across_low = 0; ///< where the first column and the first row begin
     double cell_width = 1;          ///< see set_cell_width
     int n_columns = 1, n_rows = 1;
-    int n_reach = 1; ///< cells on each side that can hold a partner
+    int n_reach = 1; ///< a partner is at most this many cells away
 
     int column_of(double place) const {
         return clamp_cell((place - low) * cells_per_length_, n_columns);
@@ -47,20 +47,20 @@ struct GridGeometry {
 
 private:
     double cells_per_length_ =
-        1; ///< a division a disc costs as much as all else that finds its cell
+        1; ///< one division for each disc would cost as much as the rest of finding its cell
     static int clamp_cell(double cell, int n) {
         if (!(cell > 0)) return 0;
         return cell < n ? static_cast<int>(cell) : n - 1;
     }
 };
 
-/// Cells over `extent` for partners within `reach`, not many more than `n_discs` cells.
-/// `cell_width` in units of reach, 0 for a choice by density.
+/// Returns cells over `extent` for partners within `reach`, not many more than
+/// `n_discs` cells. `cell_width` is in units of the reach; 0 chooses it by density.
 GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::size_t n_discs,
                            double cell_width);
 
-/// The same for a look now and then, with no more than half as many cells as discs: less memory,
-/// more pairs.
+/// Returns at most half as many cells as discs, for a search now and then. They take
+/// less memory, and a search tries more pairs.
 GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
                                   std::size_t n_discs);
 
@@ -81,10 +81,10 @@ struct DiscPair {
     LocalIndex first = 0, second = 0;
 };
 
-/// Slots that must be readable beyond the last one: a vector may look past its run's end.
+/// Slots that must be readable beyond the last one, because vectors read past their run's end.
 inline constexpr std::size_t filter_padding = 64;
 
-/// What runs along the own discs and goes where they go; what is empty does not exist.
+/// Arrays that run along the own discs and are moved with them. Empty arrays do not exist.
 struct Companions {
     std::span<Disc> states;
     SideColumns* columns = nullptr;
@@ -92,29 +92,29 @@ struct Companions {
 
 class CellGrid {
 public:
-    /// Brings `own` into the order of their cells at `anchor`; flights begin at `time` and last for
-    /// `duration`. Where there are periods discs are where their images are. There is no halo until
-    /// one is added.
+    /// Brings `own` into the order of their cells at `anchor`. Flights begin at `time`
+    /// and last for `duration`. In a periodic box a disc is where its image is. There
+    /// is no halo until add_halo.
     void sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
-    /// The same for cells alone, by where discs are at `time`: there are no `lanes()`, and nothing
-    /// is found by them.
+    /// Sorts into cells by the places at `time`, without flights: there are no
+    /// `lanes()`, so searches find nothing.
     void sort_cells(std::span<Disc> own, const GridGeometry& geometry, double time, int n_threads,
                     const Periods& periods = {}, const Companions& companions = {});
-    /// Puts discs that lie behind the own ones, in this order, into cells of theirs.
+    /// Puts the discs that follow the own ones in memory into cells of the halo.
     void add_halo(std::span<const Disc> halo);
 
-    /// Takes the flights of discs faster than `speed`, in lengths per unit of time, out of the
-    /// lanes, where no search finds them any more. They are listed in `apart()` until discs are
-    /// sorted again.
+    /// Takes the flights of discs faster than `speed`, in lengths per unit of time,
+    /// out of the lanes, so that no search finds them. They are listed in `apart()`
+    /// until discs are sorted again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
     FlightLanes apart_lanes() const {
         return lanes_of(apart_lanes_, apart_.size() + filter_padding);
     }
 
-    /// Takes over a disc's new free flight. Its cell stays what it was.
+    /// Replaces a disc's free flight. Its cell stays the same.
     void update_flight(LocalIndex index, const Disc& disc);
     void update_flight_of_image(LocalIndex index, const Disc& disc);
 
@@ -122,7 +122,7 @@ public:
     std::size_t n_own() const { return n_own_; }
     bool has_halo() const { return !halo_order_.empty(); }
 
-    /// By own disc, and by slot of the halo.
+    /// Indexed by own disc; for the halo by slot.
     FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
     FlightLanes halo_lanes() const {
         return lanes_of(halo_lanes_, halo_order_.size() + filter_padding);
@@ -132,7 +132,7 @@ public:
     }
     std::uint32_t halo_slot(LocalIndex index) const { return halo_slot_[index - n_own_]; }
 
-    /// The column or row of a position in cells.
+    /// The column or row of a position in cells, cut at the grid's ends.
     int clamped_column(float x) const {
         return x > 0 ? (x < static_cast<float>(geometry_.n_columns) ? static_cast<int>(x)
                                                                     : geometry_.n_columns - 1)
@@ -144,12 +144,12 @@ public:
                      : 0;
     }
 
-    /// Own discs of the cells (column, first_row .. last_row); rows are cut at the grid's ends.
+    /// The own discs of the cells (column, first_row .. last_row). Rows are cut at the grid's ends.
     SlotRange run(int column, int first_row, int last_row) const {
         return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row,
                         last_row);
     }
-    /// Slots of the halo's discs there.
+    /// The slots of the halo's discs in these cells.
     SlotRange halo_run(int column, int first_row, int last_row) const {
         if (!has_halo_in(column)) return {};
         return run_from(halo_start_, halo_column_[static_cast<std::size_t>(column)], first_row,
@@ -159,21 +159,21 @@ public:
         return has_halo() && halo_column_[static_cast<std::size_t>(column)] != no_halo;
     }
 
-    /// Where an own disc is filed: a search. In a loop over discs, go over their cells instead.
+    /// Finds the cell of an own disc by a search. Loops over discs go over the cells instead.
     struct Cell {
         int column = 0, row = 0;
     };
     Cell cell_of(LocalIndex own_index) const;
 
-    /// Own discs, ascending, with all that were not within `inner` at the anchor; many others, too.
+    /// Ascending ranges that hold all own discs outside of `inner` at the anchor, and many others.
     std::vector<SlotRange> outside(const Inside& inner) const;
 
-    /// First columns of `n_shares` shares with about as many own discs each, and the number of
-    /// columns.
+    /// The first columns of `n_shares` shares with about equally many own discs, and
+    /// the number of columns at the end.
     std::vector<std::int64_t> column_shares(int n_shares) const;
 
-    /// Ask for what a look around an own disc will need: its flight, some time later where the
-    /// cells around it begin, and then the flights in them.
+    /// Prefetch what a search around an own disc needs: its flight, later the starts
+    /// of the cells around it, and then the flights in these cells.
     void prefetch_flight(LocalIndex index) const {
         if (index >= n_own_) return;
         const float* flight = lanes_.data() + index;
@@ -192,8 +192,8 @@ public:
         });
     }
 
-    /// Squared distance in cells, with a margin for single precision, beyond which flights cannot
-    /// touch.
+    /// The squared distance in cells beyond which flights cannot touch, with a margin
+    /// for single precision.
     float touching_squared(double diameter) const;
     /// `length` in cells, with a margin for single precision.
     float cells_of(double length) const;
@@ -214,7 +214,7 @@ private:
         return {starts[base + static_cast<std::size_t>(low)],
                 starts[base + static_cast<std::size_t>(high) + 1]};
     }
-    /// Its cell and those to the left and right, where its flight says that it is.
+    /// Calls visit for the disc's cell and those to the left and right, by the place of its flight.
     template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
         if (index >= n_own_) return;
         const int column = clamped_column(lanes_[index]);
@@ -225,7 +225,7 @@ private:
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(geometry_.n_rows); }
 
-    // `Places` says where discs are: their states, or their images.
+    // `Places` gives the places of discs: those of their states, or of their images.
     void sort(std::span<Disc> own, int n_threads, const Companions& companions);
     template <class Places>
     void sort(const Places& places, std::span<Disc> own, int n_threads,
@@ -242,22 +242,22 @@ private:
     double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;
     std::size_t n_own_ = 0;
-    std::vector<std::uint32_t> cell_start_; ///< by cell, and one more
+    std::vector<std::uint32_t> cell_start_; ///< by cell, with an end
     std::size_t lane_length_ = 0;           ///< own discs and padding for whole vectors
     std::vector<float>
-        lanes_; ///< x, y, vx, vy by own disc, one after the other; before that the sorter's
+        lanes_; ///< x, y, vx, vy by own disc, one array after the other; the sorter borrows it
     DiscSorter sorter_;
 
     std::vector<std::uint32_t>
-        halo_column_; ///< by column: where its cells begin in the next, or no_halo
-    std::vector<std::uint32_t> halo_start_; ///< by cell of the columns that have any, and one more
+        halo_column_; ///< by column: the start of its cells in the next array, or no_halo
+    std::vector<std::uint32_t> halo_start_; ///< by cell of the columns with a halo, with an end
     std::vector<LocalIndex> halo_order_;    ///< by slot: places in the halo
     std::vector<std::uint32_t> halo_slot_;  ///< by place in the halo
     std::vector<float> halo_lanes_;         ///< x, y, vx, vy by slot
 
     std::vector<LocalIndex> apart_;
-    std::vector<float> apart_lanes_; ///< the same by place in `apart_`
-    double longest_flight_ = 0;      ///< of those, in cells
+    std::vector<float> apart_lanes_; ///< x, y, vx, vy by place in `apart_`
+    double longest_flight_ = 0;      ///< of the discs in `apart_`, in cells
 };
 
 } // namespace carrom

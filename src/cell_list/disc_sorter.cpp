@@ -54,8 +54,8 @@ bool DiscSorter::make_room_for_counts(std::size_t n_cells, SortMemory memory) {
     return !are_too_many;
 }
 
-/// Calls visit(cell, place of the count) for all sorters' counts of the cells begin .. end, cell by
-/// cell.
+/// Calls visit(cell, place of the count) for the counts of all sorters in the cells
+/// begin .. end, cell by cell.
 template <class Visit>
 void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const {
     std::vector<Sorter> here;
@@ -65,7 +65,7 @@ void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit&
         return sorter.first_cell <= cell && cell < sorter.end_cell;
     };
     for (std::size_t cell = begin;
-         cell < end;) { // up to where another sorter begins or ends, mostly one counts
+         cell < end;) { // up to where another sorter begins or ends; most cells have one sorter
         std::size_t stretch_end = end;
         const Sorter* one = nullptr;
         std::size_t n_here = 0;
@@ -95,7 +95,7 @@ void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit&
 void DiscSorter::turn_into_places(std::vector<std::uint32_t>& cell_start, Lent all_counts) {
     const std::size_t n_cells = cell_start.size() - 1;
     const auto n_shares = static_cast<std::size_t>(n_threads_);
-    std::vector<std::uint32_t> starts(n_shares + 1, 0); // of shares of the cells
+    std::vector<std::uint32_t> starts(n_shares + 1, 0); // the first cells of the shares
 #pragma omp parallel num_threads(n_threads_)
     {
 #pragma omp for schedule(static, 1)
@@ -165,7 +165,7 @@ void DiscSorter::rearrange(std::initializer_list<std::span<Disc>> arrays, SortMe
     constexpr std::size_t quarter = sizeof(Disc) / 4;
     static_assert(quarter == 4 * sizeof(float));
     if (memory.lanes.size() < 4 * memory.lane_length) {
-        std::vector<float>().swap(memory.lanes); // else the old ones would be there, too
+        std::vector<float>().swap(memory.lanes); // so that the old lanes do not exist beside them
         memory.lanes.resize(4 * memory.lane_length);
     }
     auto* lent = reinterpret_cast<std::byte*>(memory.lanes.data());

@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// Whole numbers in memory of floats.
+/// Stores whole numbers in memory of floats.
 class Lent {
 public:
     explicit Lent(float* at) : at_(at) {}
@@ -33,8 +33,8 @@ private:
     float* at_;
 };
 
-/// What sorting borrows: lanes of `lane_length` numbers, the first for cells by disc, the second
-/// for the order, and what follows for counts.
+/// The memory that sorting borrows: lanes of `lane_length` numbers. The first lane
+/// holds each disc's cell, the second the order, and the rest holds counts.
 struct SortMemory {
     std::vector<float>& lanes;
     std::size_t lane_length = 0;
@@ -46,9 +46,9 @@ struct SortMemory {
 
 class DiscSorter {
 public:
-    /// Sorts `discs` by `find_cell(disc)`, a number below that of cells. Writes which disc goes
-    /// where to `memory.order()`, and for each cell its first place to `cell_start`, which has one
-    /// entry more. `n_columns`: how many stretches of cells follow each other.
+    /// Sorts `discs` by `find_cell(disc)`, a number below the count of cells. Writes
+    /// which disc goes where to `memory.order()`, and the first place of each cell,
+    /// and the end, to `cell_start`. `n_columns` is the number of stretches of cells.
     template <class CellOf>
     void find_order(std::span<const Disc> discs, const CellOf& find_cell, std::size_t n_columns,
                     int n_threads, std::vector<std::uint32_t>& cell_start, SortMemory memory) {
@@ -59,8 +59,8 @@ public:
             order_together(discs, find_cell, cell_start, memory);
     }
 
-    /// Shows each thread which of its places are travellers'. False if they are many: these discs
-    /// are in no order yet, and have to be rearranged.
+    /// Gives each thread the travellers among its places. Returns false if there are
+    /// many: such discs are in no order yet, and have to be rearranged.
     bool share_out_travellers();
     /// Brings discs to their places, ascending. Calls placed(i) when the disc of place i is there;
     /// the order up to i is not needed any more.
@@ -69,23 +69,23 @@ public:
         set_travellers_aside(discs, memory);
         bring(discs, memory, placed);
     }
-    /// The same for arrays of discs in no order; empty ones are left out.
+    /// Brings discs in no order to their places, in each of the arrays that are not empty.
     void rearrange(std::initializer_list<std::span<Disc>> arrays, SortMemory memory);
 
 private:
-    /// A share of the discs, which lie in the cells first .. end, and where the counts of those
+    /// A share of the discs, which lie in the cells first .. end, and where its counts
     /// begin.
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
         std::size_t counts = 0;
     };
-    /// What a thread keeps while it brings its share of the places into order.
+    /// The state of a thread while it brings its share of the places into order.
     struct Carrier {
-        std::vector<Disc> passed;         ///< discs of the places before the present one, in a ring
-        std::vector<Disc> travellers;     ///< discs from afar, set aside beforehand
-        std::vector<LocalIndex> arrivals; ///< their new places, ascending, and one that is none
-        std::vector<LocalIndex> sent;     ///< new places of such discs of this share, in no order
+        std::vector<Disc> passed;         ///< a ring with the discs of the places just passed
+        std::vector<Disc> travellers;     ///< discs that come from afar, set aside beforehand
+        std::vector<LocalIndex> arrivals; ///< their new places, ascending, with an end
+        std::vector<LocalIndex> sent;     ///< new places of travellers that leave, in no order
     };
 
     void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);
@@ -102,8 +102,8 @@ private:
     bool make_room_for_counts(std::size_t n_cells, SortMemory memory);
     template <class Visit>
     void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
-    /// A disc whose new place is another thread's, or was passed so long ago that the disc that was
-    /// there is not at hand any more.
+    /// Notes a disc whose new place belongs to another thread, or was passed so long
+    /// ago that the disc that was there is not at hand any more.
     void note_traveller(Carrier& carrier, std::uint32_t place) const {
         if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
     }
@@ -115,9 +115,9 @@ private:
     std::size_t n_discs_ = 0;
     std::vector<Sorter> sorters_;     ///< scratch for several threads
     std::vector<Carrier> carriers_;   ///< by thread
-    std::size_t n_passed_ = 1;        ///< how many passed discs are kept, a power of two
-    std::size_t most_travellers_ = 0; ///< of a share
-    bool are_in_disorder_ = false;    ///< whether too many discs come from afar
+    std::size_t n_passed_ = 1;        ///< the length of the ring of passed discs, a power of two
+    std::size_t most_travellers_ = 0; ///< in one share
+    bool are_in_disorder_ = false;    ///< true if too many discs come from afar
 };
 
 } // namespace carrom

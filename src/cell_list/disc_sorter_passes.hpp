@@ -9,22 +9,22 @@
 
 namespace carrom {
 
-/// Asks for what is read in a row further ahead than the processor does by itself. Asking beyond
-/// the last one is no access.
+/// Prefetches numbers that are read in a row, further ahead than the processor does by
+/// itself. A prefetch beyond the last number is no access.
 inline void ask_ahead(const Disc& disc) {
     constexpr std::uintptr_t ahead = 32 * sizeof(Disc);
     __builtin_prefetch(
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
 }
 
-/// One counting sort: states are read in the order in which they lie.
+/// Counting sort by one thread. It reads states in the order in which they lie in memory.
 template <class CellOf>
 void DiscSorter::order_alone(std::span<const Disc> discs, const CellOf& find_cell,
                              std::vector<std::uint32_t>& cell_start, SortMemory memory) {
     Lent cell_of = memory.cells(), order = memory.order();
     std::fill(cell_start.begin(), cell_start.end(), 0u);
     std::uint32_t* next = cell_start.data() +
-                          1; // by cell: how many discs, then the place of the next one
+                          1; // by cell: the number of discs, then the place of the next one
     for (std::size_t i = 0; i < discs.size(); ++i) {
         ask_ahead(discs[i]);
         const std::uint32_t cell = find_cell(discs[i]);
@@ -66,9 +66,9 @@ void DiscSorter::find_cells(std::span<const Disc> discs, const CellOf& find_cell
     }
 }
 
-/// The same by several threads. Each sorter counts only between the first and the last cell of its
-/// share of the discs. Those lie nearly in the order of their cells, so all counts together are not
-/// many more than there are cells.
+/// Counting sort by several threads. Each sorter counts only between the first and the
+/// last cell of its share of the discs. Shares are nearly in the order of their cells,
+/// so all counts together are hardly more than the cells.
 template <class CellOf>
 void DiscSorter::order_together(std::span<const Disc> discs, const CellOf& find_cell,
                                 std::vector<std::uint32_t>& cell_start, SortMemory memory) {

@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// A rank's discs: its own first, then the halo's. Pairs of halo discs are somebody else's
-/// business.
+/// A rank's discs: its own first, then the halo's. Other ranks treat the pairs of two
+/// halo discs.
 struct Population {
     std::span<const Disc> discs;
     std::size_t n_own = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of a loop for several threads: each takes those of its own share first, in order, then
-// what others have left.
+// Chunks of a loop for several threads. Each thread takes the chunks of its own share
+// first, in order, and then those that others have left.
 //
-// Where the work is the same from window to window so are the shares, and a thread finds its data
-// in its own cache. No thread waits while there is work.
+// Shares stay the same while the work does, so a thread finds its data in its own
+// cache. No thread waits while there is work.
 #pragma once
 
 #include <atomic>
@@ -28,8 +28,8 @@ public:
         for (std::size_t k = 0; k < n_shares_; ++k) next_[k].item = bounds_[k];
     }
 
-    /// Calls work(item) for items of thread `thread` and of others, until none is left. By all
-    /// threads at once.
+    /// Calls work(item) for items of thread `thread`, and then of others, until none
+    /// is left. All threads call it at once.
     template <class Work> void run(int thread, const Work& work) {
         for (std::size_t k = 0; k < n_shares_; ++k) {
             const std::size_t share = (static_cast<std::size_t>(thread) + k) % n_shares_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two axes. Strips cut the box's longer side, that of x in a square; cells follow each other
-// along it. Code of strips and cells asks for places along that axis and across it. No decision
-// depends on which one it is.
+// The two axes. Strips cut the box across its longer side, which is x in a square, and
+// cells follow each other along it. Code for strips and cells asks for places along
+// that axis and across it. No decision depends on which axis it is.
 #pragma once
 
 #include <cstddef>

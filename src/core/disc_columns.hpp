@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc's stored numbers by name, for files that keep them column by column.
 //
-// A new number in the 64-byte state is one more line here. What is no part of the stored state, an
-// image, is no column.
+// A new number in the 64-byte state is one more line here. Image counts are not
+// stored, so they have no column.
 #pragma once
 
 #include <array>

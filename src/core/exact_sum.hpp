@@ -13,8 +13,8 @@ namespace carrom {
 
 class ExactSum {
 public:
-    /// `bound` >= the sum of the terms' magnitudes, the same number wherever parts are to be added
-    /// together.
+    /// `bound` is at least the sum of the terms' magnitudes. It must be the same
+    /// number in all parts that are added together.
     explicit ExactSum(double bound);
 
     void add(double term) {
@@ -24,10 +24,10 @@ public:
         else
             add_large(term);
     }
-    /// Of sums with the same bound.
+    /// Both sums must have the same bound.
     ExactSum& operator+=(const ExactSum& other);
     ExactSum& operator-=(const ExactSum& other);
-    /// Of integers of the sum's unit.
+    /// Adds integers in the sum's unit.
     void add_units(std::int64_t units) { sum_ += units; }
     double scale() const { return scale_; } ///< 1 over the unit, or infinite
     void clear() { sum_ = 0; }

@@ -14,19 +14,19 @@ namespace carrom {
 
 struct Frame {
     bool is_moving =
-        false; ///< or its clock is another one, or places are to be brought into a periodic box
-    double x = 0, y = 0;   ///< its origin in the box
-    double vx = 0, vy = 0; ///< its velocity, per micro-step
-    double slowing = 1;    ///< how fast its clock goes
-    double clock = 0;      ///< its time
-    Periods periods{};     ///< of a periodic box
+        false; ///< or its clock is another one, or places have to be brought into a periodic box
+    double x = 0, y = 0;   ///< the origin in the box
+    double vx = 0, vy = 0; ///< the frame's velocity, per micro-step
+    double slowing = 1;    ///< how fast the frame's clock goes
+    double clock = 0;      ///< the frame's time
+    Periods periods{};     ///< periods of the box, if it is periodic
 
     bool keeps_velocities() const {
         return vx == 0 && vy == 0 && slowing == 1 && !periods.are_moving();
     }
 
-    /// The disc at `time`, which is the frame's, as the box sees it. One that has left the box is
-    /// stored so.
+    /// The disc at the frame's time `time`, as the box sees it. A disc that has left
+    /// the box is already stored as the box sees it.
     Disc in_box(const Disc& stored, double time) const {
         if (stored.has_departed()) return stored;
         Disc disc = stored;

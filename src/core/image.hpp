@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// In boxes.
+/// A displacement in numbers of boxes.
 struct Image {
     int x = 0, y = 0;
 
@@ -34,7 +34,7 @@ struct Image {
     friend Image operator-(Image image) { return {-image.x, -image.y}; }
 };
 
-/// From a disc to an image of it, or from one image to another one.
+/// The displacement from a disc to an image of it, or from one image to another one.
 struct Shift {
     double x = 0, y = 0;
     double vx = 0; ///< how fast the shift grows; it never does along y
@@ -47,12 +47,12 @@ inline Image image_of(const Disc& disc) {
 /// Whether the disc's image is the one at its stored place, as nearly all are.
 inline bool is_unshifted(const Disc& disc) { return disc.image_x == 0 && disc.image_y == 0; }
 
-/// Whether the two discs' images are displaced by the same, as nearly all pairs' are.
+/// Whether both discs' images are displaced alike, which is so for nearly all pairs.
 inline bool are_shifted_alike(const Disc& p, const Disc& q) {
     return p.image_x == q.image_x && p.image_y == q.image_y;
 }
 
-/// Less than 16000 boxes along each axis (Periods::home).
+/// The image is less than 16000 boxes away along each axis (Periods::home).
 inline void set_image(Disc& disc, Image image) {
     disc.image_x = static_cast<std::int16_t>(image.x);
     disc.image_y = static_cast<std::int16_t>(image.y);
@@ -62,8 +62,8 @@ inline void move_image(Disc& disc, Image by) {
     set_image(disc, {image_of(disc).x + by.x, image_of(disc).y + by.y});
 }
 
-/// Places at which nothing has to be done about images, without end where a box does not repeat
-/// itself.
+/// The places at which nothing has to be done about images. They have no end along an
+/// axis where the box does not repeat itself.
 struct Inside {
     double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 
@@ -92,16 +92,16 @@ inline double wrapped(double place, double period, double* lengths = nullptr) {
 
 /// How a box repeats itself. Times are micro-steps since the last sync.
 struct Periods {
-    double x = 0, y = 0; ///< the lengths after which it does so along x and y; 0 where it does not
-    double offset = 0;   ///< by which the row of boxes above is shifted along x at time 0
-    double speed = 0;    ///< with which it moves along x; 0 where boxes are at rest
+    double x = 0, y = 0; ///< the box repeats itself after these lengths; 0: it does not
+    double offset = 0;   ///< the row of boxes above is shifted by this along x at time 0
+    double speed = 0;    ///< that row moves along x at this speed; 0 where boxes are at rest
 
     bool are_any() const { return x != 0 || y != 0; }
     bool are_moving() const { return speed != 0; }
-    /// 0 where there are none.
+    /// Returns 0 if there are no periods.
     double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
     double along(Axis axis) const { return carrom::along(axis, x, y); }
-    /// Of the row above the box.
+    /// The shift of the row above the box.
     double offset_at(double time) const { return offset + speed * time; }
 
     /// From now on times count from micro-step `n` of the scene. The offset is exact to a rounding
@@ -113,16 +113,16 @@ struct Periods {
         offset = wrapped(wrapped(gone, x) + rest, x);
     }
 
-    /// What an image is.
+    /// The shift and the velocity of an image.
     Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
-    /// From the image of `p` to that of `q`, beside the difference of their stored states: the same
-    /// numbers with the other sign for (q, p).
+    /// The shift from the image of `p` to that of `q`, beside the difference of their
+    /// stored states. For (q, p) the numbers are the same with the other sign.
     Shift between(const Disc& p, const Disc& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
-    /// Where boxes are at rest.
+    /// For boxes at rest.
     double x_between(const Disc& p, const Disc& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x;
     }
@@ -136,7 +136,7 @@ struct Periods {
         const double at_rest = shifted_x(disc, time);
         return are_moving() ? moved(at_rest, disc, time) : at_rest;
     }
-    /// Where boxes are at rest.
+    /// For boxes at rest.
     [[gnu::always_inline]] double x_at_rest(const Disc& disc, double time) const {
         return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
     }
@@ -174,7 +174,7 @@ struct Periods {
         return {x != 0 ? dx - x * std::round(dx / x) : dx, dy};
     }
 
-    /// The box.
+    /// The box itself.
     Inside inside() const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         return {x == 0 ? -infinity : 0, x == 0 ? infinity : x, y == 0 ? -infinity : 0,
@@ -184,7 +184,7 @@ struct Periods {
     friend bool operator==(const Periods&, const Periods&) = default;
 
 private:
-    // Not inlined, so that what nearly all discs need is.
+    // Not inlined, so that the common case, an unshifted disc, is.
     [[gnu::noinline]] double shifted_x(const Disc& disc, double time) const {
         return disc.x_at(time) + image_of(disc).x * x;
     }

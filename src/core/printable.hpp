@@ -7,8 +7,8 @@
 
 namespace carrom {
 
-/// The text with each control character as an escape, such as \x1b. Ends of lines stay where
-/// `keeps_lines`. Other bytes stay as they are, UTF-8 or not.
+/// Replaces each control character by an escape, such as \x1b. Ends of lines are kept
+/// if `keeps_lines`. Other bytes stay as they are, UTF-8 or not.
 std::string printable(std::string_view text, bool keeps_lines = false);
 
 } // namespace carrom

@@ -29,7 +29,7 @@ Direction random_direction(DiscRandom& random) {
         const double y = 2 * random.uniform() - 1;
         const double square = x * x + y * y;
         if (square > 1 || square < 0x1p-20)
-            continue; // very short ones would have coarse directions
+            continue; // very short vectors would have coarse directions
         const double length = std::sqrt(square);
         return {x / length, y / length};
     }

@@ -14,8 +14,8 @@
 
 namespace carrom {
 
-/// What numbers are for. The values are part of the promise that a seed always gives the same
-/// discs.
+/// The purposes of numbers. The values are part of the promise that a seed always
+/// gives the same discs.
 enum class Purpose : std::uint64_t {
     position = 1,
     shake = 2,
@@ -31,10 +31,10 @@ std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, D
 /// The top 53 bits of a word as a number in [0, 1).
 inline double unit_number(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; }
 
-/// One disc's own endless row of numbers for one purpose.
+/// One disc's endless sequence of numbers for one purpose.
 class DiscRandom {
 public:
-    /// `occasion`: another row of the same disc's for each.
+    /// Each `occasion` gives another sequence for the same disc.
     DiscRandom(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t occasion = 0)
         : seed_(seed), purpose_(purpose), id_(id), occasion_(occasion) {}
 

@@ -12,13 +12,13 @@ struct Pair {
     double high = 0, low = 0;
 };
 
-/// Exact if a is not smaller than b (Dekker, Numer. Math. 18, 224 (1971)).
+/// The sum is exact if a is not smaller than b (Dekker, Numer. Math. 18, 224 (1971)).
 Pair sum_of_ordered(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-/// Exact (Knuth, The Art of Computer Programming 2, section 4.2.2).
+/// The sum is exact (Knuth, The Art of Computer Programming 2, section 4.2.2).
 Pair exact_sum(double a, double b) {
     const double sum = a + b, b_part = sum - a;
     return {sum, (a - (sum - b_part)) + (b - b_part)};

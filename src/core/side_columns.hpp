@@ -25,10 +25,10 @@ struct SideColumnInfo {
     const char* name; ///< in checkpoints, and where a scene gives the discs' first numbers
     const char* unit;
     const char* shown;      ///< its name in recordings, tables and the fields of a trajectory
-    const char* shown_unit; ///< per step where it is a rate
+    const char* shown_unit; ///< the unit of a rate is per step
     bool is_rate;           ///< stored per micro-step
     bool is_of_dynamics;    ///< effects decide who has it; else whoever is given first numbers
-    const char* needs;      ///< said where discs do not have it
+    const char* needs;      ///< the message about discs that do not have it
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
     {{"spin", "angle per micro-step", "angular_velocity", "angle per step", true, true,
@@ -44,7 +44,7 @@ inline constexpr std::array<SideColumn, n_side_columns> all_side_columns = [] {
     return all;
 }();
 
-/// Something for each column there is.
+/// One value for each column.
 template <class T> struct BySideColumn {
     std::array<T, n_side_columns> values{};
 
@@ -55,13 +55,13 @@ template <class T> struct BySideColumn {
     friend bool operator==(const BySideColumn&, const BySideColumn&) = default;
 };
 
-/// Some of the columns.
+/// A subset of the columns.
 struct SideColumnSet {
     std::array<bool, n_side_columns> flags{};
 
     bool has(SideColumn column) const { return flags[static_cast<std::size_t>(column)]; }
     void add(SideColumn column) { flags[static_cast<std::size_t>(column)] = true; }
-    /// Calls visit(column) for each of them.
+    /// Calls visit(column) for each column of the set.
     template <class Visit> void for_each(const Visit& visit) const {
         for (std::size_t k = 0; k < n_side_columns; ++k)
             if (flags[k]) visit(static_cast<SideColumn>(k));
@@ -69,7 +69,7 @@ struct SideColumnSet {
     friend bool operator==(const SideColumnSet&, const SideColumnSet&) = default;
 };
 
-/// Numbers along a list of discs that is kept elsewhere; none of a column that is not present.
+/// Numbers along a list of discs that is kept elsewhere. An absent column has no numbers.
 using SideSpans = BySideColumn<std::span<const double>>;
 
 /// The columns that are present, each along the same list of discs.
@@ -85,7 +85,7 @@ public:
 
     const SideColumnSet& present() const { return present_; }
     bool has(SideColumn column) const { return present_.has(column); }
-    /// `values` that are left out are 0.
+    /// Without `values` all numbers are 0.
     void add(SideColumn column, std::vector<double> values = {}) {
         present_.add(column);
         (*this)[column] = std::move(values);
@@ -96,13 +96,13 @@ public:
         return spans;
     }
 
-    /// Empty where the column is not present.
+    /// Empty if the column is not present.
     std::vector<double>& operator[](SideColumn column) { return values_[place_of(column)]; }
     const std::vector<double>& operator[](SideColumn column) const {
         return values_[place_of(column)];
     }
 
-    /// Calls visit(column) for each that is present.
+    /// Calls visit(column) for each column that is present.
     template <class Visit> void for_each(const Visit& visit) const { present_.for_each(visit); }
     void resize(std::size_t n) {
         for_each([&](SideColumn column) { (*this)[column].resize(n, 0); });
@@ -130,7 +130,7 @@ private:
     std::array<std::vector<double>, n_side_columns> values_;
 };
 
-/// Those that the dynamics' collisions change, empty.
+/// The columns that the dynamics' collisions change, without numbers yet.
 template <class Dynamics> SideColumns side_columns_of() {
     SideColumns columns;
     if constexpr (Dynamics::has_spin) columns.add(SideColumn::spin);

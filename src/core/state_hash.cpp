@@ -34,7 +34,7 @@ StateHash hash_of(std::span<const Disc> discs) {
     return sum;
 }
 
-/// The column is the seed; that of spins, 0, is the same as none.
+/// The column is the seed. Spins are column 0, and seed 0 is the same as no seed.
 StateHash hash_of(SideColumn column, DiscId id, double number) {
     const std::array<std::uint64_t, 2> record = {id, std::bit_cast<std::uint64_t>(number + 0.0)};
     const XXH128_hash_t hash = XXH3_128bits_withSeed(record.data(), sizeof record,

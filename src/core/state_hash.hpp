@@ -18,7 +18,7 @@ namespace carrom {
 StateHash hash_of(const Disc& disc);
 StateHash hash_of(std::span<const Disc> discs);
 
-/// What a disc's number in a column beside the states adds, where there is one.
+/// What a disc's number in a side column adds to the hash, if the run has that column.
 StateHash hash_of(SideColumn column, DiscId id, double number);
 inline StateHash hash_of_spin(DiscId id, double spin) {
     return hash_of(SideColumn::spin, id, spin);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A request to stop, as a handler of signals notes it, and what all ranks throw who obey it.
 //
-// A run obeys between two steps. What takes too long for that gives itself up: a start, or a step
-// whose end does not come within the patience. Ranks get signals at different times, so they must
-// agree before they throw.
+// A run obeys between two steps. Work that takes too long for that ends itself: a
+// start, or a step that does not end within the patience. Ranks get signals at
+// different times, so they must agree before they throw.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ extern std::atomic<std::int64_t> asked_at; ///< in nanoseconds of the steady clo
 bool has_patience_ended();
 } // namespace stop_request
 
-/// Notes a request; the first one counts. A handler of signals may call it.
+/// Notes a request; only the first one counts. Signal handlers may call it.
 void request_stop();
 
 inline bool is_stop_requested() {

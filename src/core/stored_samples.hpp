@@ -14,10 +14,10 @@ namespace carrom {
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
-    double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been
-                                         ///< brought back by since then
-    double vx = 0, vy = 0;               ///< then, per step
-    double image_x = 0, image_y = 0;     ///< box lengths likewise, since the scene's start
+    double lengths_x = 0, lengths_y = 0; ///< in a periodic box: by how many box lengths
+                                         ///< it has been brought back since then
+    double vx = 0, vy = 0;               ///< at that time, per step
+    double image_x = 0, image_y = 0;     ///< the same count since the scene's start
 };
 
 /// How many box lengths a disc has flown on beyond a periodic box since the scene's start.
@@ -31,11 +31,11 @@ struct StoredSamples {
     std::vector<std::int64_t> averages; ///< the same on all ranks; empty before the first block
     std::vector<std::int64_t> sums;     ///< the same on all ranks; empty where nothing is measured
     bool have_first_places = false;     ///< the same on all ranks
-    bool have_lengths = false;          ///< likewise
-    bool have_velocities = false;       ///< likewise
-    bool have_images = false;           ///< likewise; of a trajectory
-    /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of
-    /// its slab (slabs.hpp).
+    bool have_lengths = false;          ///< the same on all ranks
+    bool have_velocities = false;       ///< the same on all ranks
+    bool have_images = false;           ///< the same on all ranks; for the images of a trajectory
+    /// A run of ids without gaps. To be written, these are the discs of this rank's
+    /// pieces (pieces.hpp); as read, those of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;
 };
 

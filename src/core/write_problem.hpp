@@ -10,7 +10,7 @@ namespace carrom {
 struct WriteProblem {
     std::string text;
     bool is_failure =
-        false; ///< of the disk, or a lack of rights: the place could be right. Else it cannot be.
+        false; ///< because of the disk or a lack of rights; else the place cannot be right
 };
 
 /// The problem with the system's words for `error`, an errno, after `what`.

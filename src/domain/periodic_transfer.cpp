@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans where boundaries are periodic: strips are neighbours across them too, and a rank is its own
-// neighbour.
+// Plans for periodic boundaries, where strips are neighbours across the sides of the
+// box too, and a rank is its own neighbour.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// What lists of partners allow for beyond what discs need: places of images are rounded.
+/// What lists of partners allow for beyond the distances, because places of images are rounded.
 constexpr double margin = 1e-9;
 
 /// A strip that ends where the box does.
@@ -36,15 +36,15 @@ struct Slab {
     }
 };
 
-/// In one order, so that two ranks that ask for each other get one answer.
+/// Always asks in the same order, so that two ranks that ask for each other get the same answer.
 bool are_near(const Strips& a, int rank_a, const Strips& b, int rank_b, double distance,
               double period) {
     if (a.is_empty(rank_a) || b.is_empty(rank_b)) return false;
     return Slab(a, rank_a, period).is_near(Slab(b, rank_b, period), distance, period);
 }
 
-/// Displacements by n periods that may bring `place` to within `reach` of low .. high; some that do
-/// not among them.
+/// The displacements by n periods that may bring `place` to within `reach` of low ..
+/// high. There may be a few too many.
 struct Shifts {
     int first = 0, last = 0;
 
@@ -52,7 +52,7 @@ struct Shifts {
         if (period == 0) return;
         if (place - low < (1 - margin) * period - reach &&
             high - place < (1 - margin) * period - reach)
-            return; // as most along one axis
+            return; // nearly always so along one axis
         const double lowest = low - reach - margin * period,
                      highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;
@@ -79,7 +79,7 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
     double distance = farthest;
     if (period != 0)
         distance = std::min(farthest, period) +
-                   margin * period; // further than once around is anywhere
+                   margin * period; // no place is further than once around
     for (int other = 0; other < strips.size(); ++other) {
         if (other != rank && (are_near(old_strips, rank, strips, other, distance, period) ||
                               are_near(old_strips, other, strips, rank, distance, period)))
@@ -122,7 +122,7 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     std::vector<Slab> slabs;
     for (const int other : plan.partners) slabs.emplace_back(strips, other, period);
     const double period_across = periods.along(other_axis(axis));
-    // Rows of boxes move along x, so strips are cut along y where they do.
+    // Moving rows of boxes slide along x, so strips are cut along y then.
     ensure(axis == Axis::y || !periods.are_moving(), "strips are cut along the rows of boxes");
     const double slide = axis == Axis::y ? periods.offset_at(time) : 0;
     const Inside box = periods.inside();

@@ -14,14 +14,14 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// A disc's new state and its place among the discs that went to this neighbour's halo.
+/// A disc's new state, and its place in the neighbour's halo.
 struct Update {
     Disc disc;
     std::uint64_t place;
 };
 
-/// Rows of boxes that move slide along x. Strips are rows then, so that only the first and the last
-/// one see the others move.
+/// Moving rows of boxes slide along x. Strips are rows then, so that only the first
+/// and the last one have images that move.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
@@ -33,7 +33,7 @@ Strips equal_strips(const Box& box, const Periods& periods, int n_ranks) {
     return Strips(cuts, axis);
 }
 
-/// Places further than `reach` from the ends of the strip.
+/// The places further than `reach` from both ends of the strip.
 Inside inner_part(const Strips& strips, int rank, double reach) {
     const double low = strips.low(rank) + reach, high = strips.high(rank) - reach;
     return strips.axis() == Axis::x ? Inside{low, high, -unbounded, unbounded}
@@ -117,7 +117,7 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
     redistributed_strips_ = strips_;
 }
 
-/// Sends away what goes with the discs that leave, and appends what comes.
+/// Sends the values of the discs that leave, and appends those of the discs that come.
 template <Message T> void StripDiscs::move_along(const TransferPlan& plan, std::vector<T>& values) {
     Received<T> arrived;
     transfer(exchange_, plan, std::span<const T>(values), arrived);
@@ -135,7 +135,7 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     return plan_migration(redistributed_strips_, strips_, rank, own(), looked_at, time, farthest);
 }
 
-/// Own discs, ascending, with all that were not within `inner` when they were sorted.
+/// Ascending ranges that hold all own discs outside of `inner` at the time of sorting.
 std::vector<PlaceRange> StripDiscs::places_outside(const Inside& inner) const {
     if (!is_sorted_) return {{0, n_own_}};
     std::vector<PlaceRange> places;
@@ -169,9 +169,9 @@ void StripDiscs::drop_grid() {
     is_sorted_ = false;
 }
 
-/// The companion of a disc stands for the same image, wherever its own state takes it.
-/// Discs that were far from all sides of the box when they were sorted still have the right image.
-/// For that no frame may jump along a periodic axis (scene/rules.cpp).
+/// A disc's companion stands for the same image, wherever the disc's own state takes
+/// it. Discs far from all sides at the time of sorting still have the right image.
+/// This holds because no frame may jump along a periodic axis (scene/rules.cpp).
 void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
@@ -183,7 +183,7 @@ void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>
             Disc& disc = discs_[i];
             const Image image = image_of(disc);
             const bool is_at_home = inside.holds(periods_.x_of(disc, time),
-                                                 periods_.y_of(disc, time)); // nearly all
+                                                 periods_.y_of(disc, time)); // for nearly all discs
             if (is_at_home && !companion) continue;
             const Image home = is_at_home ? image : periods_.home(disc, time);
             if (!is_at_home) set_image(disc, home);
@@ -351,7 +351,7 @@ bool StripDiscs::is_valid(double time) const {
                        communicator_.rank();
     }
     communicator_.sum(sums);
-    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, like the expected sums
     for (std::uint64_t id = 0; id < n_with_departed_; ++id) {
         id_sum += id;
         square_sum += id * id;

@@ -2,8 +2,8 @@
 // The discs of one rank: its own, in the order of their cells, and behind them the halo that its
 // neighbours have sent. Moves them between ranks: migrate, sort, fetch the halo.
 //
-// Who may send to whom follows from the cuts and from bounds that all ranks share; so `farthest`
-// and `reach` must be the same on all ranks. Price: two passes over the own
+// Who may send to whom follows from cuts and bounds that all ranks share, so
+// `farthest` and `reach` must be the same on all ranks. Price: two passes over the own
 // discs, and two messages to each neighbour.
 #pragma once
 
@@ -25,10 +25,10 @@ namespace carrom {
 
 class StripDiscs {
 public:
-    /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips.
-    /// **Collective.** Where there are periods, own discs get the images in the box when they
-    /// migrate, and the halo has images of own discs, too. `columns` run along the discs; what
-    /// they leave out is 0.
+    /// Takes discs in any distribution and gives them to the owners of equal strips.
+    /// In a periodic box own discs get the images in the box when they migrate, and
+    /// the halo has images of own discs, too. `columns` run along the discs; missing
+    /// numbers are 0. **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
                const Periods& periods = {}, SideColumns columns = {});
 
@@ -37,11 +37,11 @@ public:
     /// discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<Disc>* companion);
 
-    /// Brings the own discs, and what runs along them, into the order of their cells at `anchor`
-    /// (CellGrid::sort), without a halo. `companion` as above.
+    /// Brings the own discs, and all arrays along them, into the order of their cells
+    /// at `anchor` (CellGrid::sort), without a halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
               int n_threads, std::vector<Disc>* companion);
-    /// The same without flights.
+    /// Sorts into cells without flights.
     void sort_cells(const GridGeometry& geometry, double time, int n_threads);
 
     /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
@@ -54,8 +54,8 @@ public:
     /// **Collective.**
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 
-    /// Of values that run along the own discs, sends those of discs in other ranks' halos; puts
-    /// those of the own halo's discs behind the own ones. **Collective.**
+    /// `values` run along the own discs. Sends those of discs in other ranks' halos,
+    /// and appends those of the own halo's discs. **Collective.**
     template <Message T> void show(std::vector<T>& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
@@ -76,12 +76,12 @@ public:
     Population population() const { return {discs_, n_own_}; }
     const CellGrid& grid() const { return grid_; }
     CellGrid& grid() { return grid_; }
-    /// Gives back what the cells take.
+    /// Frees the memory of the cells.
     void drop_grid();
     std::vector<Disc>& all() { return discs_; }
     std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
     std::span<Disc> own() { return std::span(discs_).first(n_own_); }
-    /// By disc, own and halo.
+    /// Along all discs, own and halo.
     SideColumns& columns() { return columns_; }
     const SideColumns& columns() const { return columns_; }
     SideSpans own_columns() const {
@@ -92,21 +92,21 @@ public:
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
     const Strips& strips() const { return strips_; }
-    /// Other ranks in whose halo own discs are, since it was fetched.
+    /// The other ranks that had own discs in their halo when it was fetched.
     std::span<const int> neighbours() const {
         return periods_.are_any() ? other_partners_ : halo_plan_.partners;
     }
 
     const Periods& periods() const { return periods_; }
-    /// After a sync: boxes that move are elsewhere.
+    /// After a sync, because images that move are elsewhere then.
     void set_periods(const Periods& periods) { periods_ = periods; }
-    /// Whether no rank has a halo, for want of neighbours.
+    /// Whether no rank has a halo, because there are no neighbours.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
-    /// Takes the images of own discs away.
+    /// Removes the images of own discs from the halo.
     void forget_images();
 
-    /// What a rank looks at that has a halo of `reach`, in a box of this extent where it is not
-    /// periodic.
+    /// The places that a rank with a halo of `reach` sees, in a box of this extent. It
+    /// matters along axes that are not periodic.
     Extent extent_seen(const Extent& box, double reach) const;
 
     /// Takes discs that have left the box out of the own ones, for good, and forgets the halo.
@@ -116,14 +116,14 @@ public:
     const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
     std::uint64_t n_with_departed() const { return n_with_departed_; }        ///< over all ranks
 
-    /// Drops the halo's discs.
+    /// Removes the discs of the halo.
     void forget_halo() {
         discs_.resize(n_own_);
         columns_.resize(n_own_);
     }
 
-    /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once,
-    /// departed ones too. **Collective.**
+    /// Whether each own disc lies in its strip at `time`, and all ranks together have
+    /// each of 0 .. n-1 once, departed ones included. **Collective.**
     bool is_valid(double time) const;
 
 private:
@@ -134,24 +134,24 @@ private:
     Companions companions(std::vector<Disc>* states);
 
     Communicator communicator_;
-    double length_; ///< of the box along the strips' axis
+    double length_; ///< length of the box along the strips' axis
     Periods periods_;
     std::vector<Disc> discs_; ///< own, then halo
-    SideColumns columns_;     ///< likewise
+    SideColumns columns_;     ///< along `discs_`
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_departed_ = 0;
-    std::vector<Disc> departed_;   ///< where they have left
-    SideColumns departed_columns_; ///< along them
+    std::vector<Disc> departed_;   ///< discs at the places where they have left
+    SideColumns departed_columns_; ///< along `departed_`
     Strips strips_,
-        redistributed_strips_; ///< wanted, and those of the last migration
+        redistributed_strips_; ///< the cuts now, and those of the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false;  ///< whether the grid has the own discs' places
-    bool has_images_ = false; ///< whether own discs had the images at home when they were sorted
+    bool is_sorted_ = false;  ///< the grid has the own discs' places
+    bool has_images_ = false; ///< own discs had the images in the box when they were sorted
     TransferPlan halo_plan_;
-    std::vector<int> other_partners_;       ///< of a periodic box, where a rank is its own partner
-    std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
-    std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo
+    std::vector<int> other_partners_;       ///< in a periodic box, where a rank is its own partner
+    std::vector<std::size_t> halo_offsets_; ///< of each partner's discs, behind the own ones
+    std::vector<std::uint8_t> is_shown_;    ///< by own disc: a partner has it in its halo
 };
 
 } // namespace carrom

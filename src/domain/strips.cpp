@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether a disc of `sender` before can belong to `receiver` after it has moved.
+/// Whether a disc that was in the strip of `sender` can belong to `receiver` after it has moved.
 bool can_move(const Strips& before, const Strips& after, int sender, int receiver,
               double distance) {
     if (before.is_empty(sender) || after.is_empty(receiver)) return false;
@@ -83,7 +83,7 @@ std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double
     const double bin_width = length / static_cast<double>(std::max<std::size_t>(1, weights.size()));
     std::vector<double> cuts;
     std::size_t bin = 0;
-    double below = 0; // weight of the bins below `bin`: whole numbers, exact up to 2^53
+    double below = 0; // the weight of the bins below `bin`: whole numbers, exact up to 2^53
     for (int k = 1; k < n_ranks; ++k) {
         const double share = static_cast<double>(k) / n_ranks;
         double cut = length * share;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank owns which slab of the strips' axis, x unless said otherwise, and which ranks
-// therefore may exchange discs. Pure arithmetic, no MPI.
+// Which rank owns which slab of the strips' axis, by default x, and which ranks may
+// therefore exchange discs. Pure arithmetic, no MPI.
 //
-// All lists follow from numbers that every rank knows, so both partners of an exchange know of it
-// without a message. They are symmetric: a lists b if and only if b lists a. They are complete
-// to the last bit for senders that pick receivers with `meets(x - reach, x + reach)` or `owner(x)`:
-// the comparisons round the same way.
+// All lists follow from numbers that every rank knows, so both partners of an exchange
+// know of it without a message. Lists are symmetric: a lists b if and only if b lists
+// a. They are complete to the last bit if senders pick receivers with `meets(x -
+// reach, x + reach)` or `owner(x)`, because these comparisons round the same way.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Strip {
     double low = 0, high = 0;
 
     bool is_empty() const { return !(low < high); }
-    /// Whether it meets [from, to], if it is not empty.
+    /// Whether a strip that is not empty meets [from, to].
     bool meets(double from, double to) const { return from < high && to >= low; }
 };
 
@@ -30,14 +30,14 @@ struct Strip {
 /// ends at +infinity. Equal cuts make empty strips; those own nothing and have no neighbours.
 class Strips {
 public:
-    /// One strip, everything.
+    /// One strip that holds everything.
     Strips() = default;
 
     /// `cuts` ascending, finite, one fewer than strips.
     explicit Strips(std::vector<double> cuts, Axis axis = Axis::x);
 
     Axis axis() const { return axis_; }
-    /// The disc's place along that axis.
+    /// The disc's place along the strips' axis.
     double place_of(const Disc& disc, double time) const {
         return axis_ == Axis::x ? disc.x_at(time) : disc.y_at(time);
     }
@@ -71,9 +71,9 @@ private:
 std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
                                 double distance);
 
-/// Cuts that give `n_ranks` strips equal weight. `weights` are those of equal bins of [0,
-/// length]; weight is taken as spread evenly inside a bin. Ascending, within the box, and a
-/// function of the arguments alone.
+/// Cuts that give `n_ranks` strips equal weight. `weights` belong to equal bins of [0,
+/// length], and are taken as spread evenly inside a bin. The cuts ascend, lie within
+/// the box, and are a function of the arguments alone.
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   int n_ranks);
 

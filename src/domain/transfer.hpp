@@ -25,42 +25,42 @@ struct PlaceRange {
 };
 
 struct TransferPlan {
-    std::vector<int> partners;                    ///< ranks, each once
+    std::vector<int> partners;                    ///< ranks, each of them once
     std::vector<std::vector<LocalIndex>> leaving; ///< by partner, ascending
     std::vector<std::vector<Image>>
-        images; ///< along `leaving`: what goes there; of halos of periodic boxes only
+        images; ///< along `leaving`: the images that go there; only for halos of periodic boxes
 };
 
-/// Discs whose place at `time` lies in another rank's strip. They were in `old_strips`' own strip
-/// at most `farthest` away. `looked_at`: places of the own discs, ascending, with all that are
-/// outside of the strip.
+/// The discs whose place at `time` lies in another rank's strip. They were in this
+/// rank's strip of `old_strips`, or at most `farthest` away. `looked_at` are ascending
+/// ranges of own discs that hold all discs outside of the strip.
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
                             std::span<const Disc> own, std::span<const PlaceRange> looked_at,
                             double time, double farthest);
 
-/// Discs that at `time` lie within `reach` of another rank's strip. Empty strips get none.
-/// `looked_at`: places of the own discs, ascending, with all that are not further than `reach`
-/// inside the strip.
+/// The discs within `reach` of another rank's strip at `time`. Empty strips get none.
+/// `looked_at` are ascending ranges of own discs that hold all discs not further than
+/// `reach` inside the strip.
 TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own,
                        std::span<const PlaceRange> looked_at, double time, double reach);
 
-/// The same in a box with periodic sides, for the places of the discs' images; those are the ones
-/// in the box. In a halo a disc goes to its own rank as well, as other images, and may go to a rank
-/// several times.
+/// Plans by the places of the discs' images in a box with periodic sides. After a
+/// migration these are the images in the box. In a halo a disc also goes to its own
+/// rank, as other images, and may go to a rank several times.
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
                                      std::span<const Disc> own, double time, double farthest,
                                      const Periods& periods);
-/// `looked_at`: places of the own discs, ascending, with all that are outside of `interior`.
+/// `looked_at` are ascending ranges of own discs that hold all discs outside of `interior`.
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
                                 std::span<const PlaceRange> looked_at, double time, double reach,
                                 const Periods& periods);
 
-/// Places in the rank's strip that are further than `reach` from its ends, and from the box's where
-/// it repeats itself along y.
+/// The places in the rank's strip that are further than `reach` from its ends, and
+/// from the sides of the box that are periodic along y.
 Inside interior(const Strips& strips, int rank, double reach, const Periods& periods);
 
-/// Sends what `plan` says of an array that runs along the own discs; returns what came, grouped by
-/// partner.
+/// Sends the values that `plan` names of an array along the own
+/// discs. Returns the values that came, grouped by partner.
 /// **Collective.**
 template <Message T>
 void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const T> values,
@@ -73,14 +73,14 @@ void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<c
     exchange.exchange(std::span<const int>(plan.partners), out, in);
 }
 
-/// The same of discs, as the images that the plan says. **Collective.**
+/// Sends discs as the images that the plan names. **Collective.**
 void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
                      std::span<const Disc> values, Received<Disc>& in);
 
-/// What a rank that is alone sends itself: appends the images that the plan says.
+/// Appends the images that a rank without others sends to itself.
 void append_images(const TransferPlan& plan, std::vector<Disc>& values);
 
-/// Takes out what has left and closes the gaps from the end.
+/// Removes the discs that have left, and fills the gaps from the end.
 template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {
     std::vector<LocalIndex> all;
     for (const std::vector<LocalIndex>& leaving : plan.leaving)

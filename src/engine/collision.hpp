@@ -12,15 +12,15 @@ namespace carrom {
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
 
-    std::int64_t micro_step = 0;  ///< that `time` counts from, since the scene's start
+    std::int64_t micro_step = 0;  ///< `time` counts from it; since the scene's start
     double time = 0;              ///< in micro-steps
     std::uint64_t generation = 0; ///< orders chains that take no time in the event-driven method
     DiscId p = 0, q = wall;       ///< p is the lower id of a pair
-    double impulse = 0;           ///< what p has got, in mass times length per step
+    double impulse = 0;           ///< that p has got, in mass times length per step
 };
 
-/// A disc that has flown on through periodic sides has been brought into the box by so many box
-/// lengths.
+/// A disc that has flown on through periodic sides has been brought back into the box
+/// by this many box lengths.
 struct Crossing {
     DiscId disc = 0;
     double x = 0, y = 0; ///< whole numbers

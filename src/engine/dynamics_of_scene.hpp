@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene to the dynamics that engines are compiled for: the one place where the choice is
-// made.
+// Chooses one of the dynamics that engines are compiled for, by the scene. No other
+// place makes this choice.
 #pragma once
 
 #include <type_traits>
@@ -10,9 +10,9 @@
 
 namespace carrom {
 
-/// Calls `make.template operator()<D>()` with the scene's dynamics and returns its result, of the
-/// same type for every dynamics. Effects have the default precision and arithmetic: the reader of
-/// scenes sees to that.
+/// Calls `make.template operator()<D>()` with the scene's dynamics and returns its
+/// result, which has the same type for every dynamics. Effects have the default
+/// precision and arithmetic, because the reader of scenes refuses others.
 template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make) {
     const Effects& effects = scene.effects;
     const bool is_periodic = effects.are_periodic();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves a run's discs: one engine for each method. A run has one of them from its start to its
-// end.
+// An engine moves a run's discs. There is one for each method. A run has one of them
+// from its start to its end.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@
 
 namespace carrom {
 
-/// A rank's discs at `time`, as every window begins: own ones in their strip, the halo behind them,
-/// all in cells.
+/// A rank's discs at `time` as every window begins with them: own discs in their
+/// strip, the halo behind them, all sorted into cells.
 struct LocalView {
     Population population;
     const CellGrid* grid = nullptr; ///< partners within a diameter are within its reach
     const Strips* strips = nullptr;
     double time = 0;   ///< since the last sync
-    Frame frame;       ///< that the coordinates are in
-    Periods periods{}; ///< of a periodic box: discs are where their images are
+    Frame frame;       ///< the coordinates are in this frame
+    Periods periods{}; ///< if the box is periodic; discs are where their images are
 };
 
 class Engine {
@@ -45,10 +45,10 @@ public:
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Redistributes the discs as they are now, for a look at pairs within a diameter, or `reach`
-    /// where that is more. Good until the next step. **Collective.**
+    /// Redistributes the discs as they are now, to inspect pairs within a diameter, or
+    /// within `reach` if that is more. Good until the next step. **Collective.**
     virtual LocalView local_view(double reach = 0) = 0;
-    /// Takes the images of own discs away again after such a look in a periodic box.
+    /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
 
     /// **Collective.**
@@ -57,14 +57,14 @@ public:
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const Disc> own() const = 0;
     virtual std::span<const Disc> departed()
-        const = 0; ///< of this rank, those that have left the box and are no more among its own
+        const = 0; ///< the discs of this rank that have left the box, which own() does not have
     virtual SideSpans side_columns() const { return {}; }     ///< along `own()`
     virtual SideSpans departed_columns() const { return {}; } ///< along `departed()`
     virtual const SpeciesTable* species_table() const {
         return nullptr;
-    } ///< of dynamics with several species
+    } ///< null unless the dynamics has several species
     virtual double clock() const = 0;
-    virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
+    virtual Frame frame() const { return {}; } ///< the frame of the own discs at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too
     /// See SyncAction::energy_given.
     virtual double energy_given() const { return 0; }
@@ -85,7 +85,7 @@ public:
         no_stress_ = *sums;
         no_stress_.clear();
     }
-    /// What flights have gathered since the last sync, and no sum has yet.
+    /// The integrals over flights since the last sync, which no sum has yet.
     virtual FlightIntegral flight_integral() const { return {}; }
     /// See Simulation::note_crossings_in.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
@@ -94,7 +94,7 @@ public:
     }
 
 protected:
-    /// From (x, y) to where the disc is now. Threads may call it at once.
+    /// Notes the flight from (x, y) to where the disc is now. Threads may call it at once.
     void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
     bool is_followed() const { return log_ != nullptr || impulses_ != nullptr; }
 
@@ -102,7 +102,7 @@ protected:
     WallImpulses* impulses_ = nullptr;
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
-    /// Where parts of it begin. In its units all terms are 0 until somebody asks for them.
+    /// Partial sums begin as copies of it. In its units all terms are 0 until sums are asked for.
     StressSums no_stress_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;
 };

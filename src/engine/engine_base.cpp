@@ -23,7 +23,7 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
 
 namespace {
 
-/// Those of the scene, too, that no collision changes: they go where the discs go.
+/// Includes columns of the scene that no collision changes, because they go where the discs go.
 template <class Dynamics> SideColumns stored_columns(const Scene& scene, StoredState& state) {
     SideColumnSet wanted = side_columns_of<Dynamics>().present();
     side_columns_of(scene).for_each([&](SideColumn column) {
@@ -82,7 +82,7 @@ template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double lea
     discs_.fetch_halo(time_, reach, nullptr);
 }
 
-/// Stops early, at the end of a step, where a sync is due: stops there cost nothing.
+/// Stops early, at the end of a step at which a sync is due, because stops cost nothing there.
 template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_t last_step) {
     const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
                                          micro_steps_;
@@ -93,7 +93,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         if (n_micro_done_ == next_sync) sync();
     }
     discs_.forget_images();
-    if (n_micro_done_ == last_micro_step_) drop_scratch(); // memory for what follows a run
+    if (n_micro_done_ == last_micro_step_) drop_scratch(); // leaves memory for what follows a run
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::sync() {
@@ -152,8 +152,8 @@ template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {
     return energy;
 }
 
-/// Brings a state that a sync has rewritten into the box. Threads call it for different discs at
-/// once.
+/// Replaces a state that a sync has rewritten by its image in the box. Threads call it
+/// for different discs at once.
 template <class Dynamics> void EngineBase<Dynamics>::wrap(Disc& disc) {
     if constexpr (Dynamics::is_periodic) {
         const double x = disc.x, y = disc.y;
@@ -186,7 +186,7 @@ template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
     return box;
 }
 
-/// In a periodic box the frame moves in that places are to be brought into the box.
+/// In a periodic box the frame counts as moving, because places have to be brought into the box.
 template <class Dynamics> Frame EngineBase<Dynamics>::frame() const {
     Frame frame = dynamics_.frame_at(time_);
     if (!discs_.periods().are_any()) return frame;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What both methods do alike. They keep discs, clock and communicator, go from sync to sync, bring
-// discs to their ranks for a look at pairs, and report totals. A method adds its windows.
+// The base of both methods. It keeps discs, clock and communicator, goes from sync to
+// sync, brings discs to their ranks, and reports totals. A method adds its windows.
 //
 //   advance_towards   until the stop or the next sync:
 //     advance_to        the method's windows
@@ -47,15 +47,15 @@ protected:
     EngineBase(const Scene& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
 
-    /// Runs windows until `n_micro_done_` is `target`, which is no later than the next sync.
-    /// **Collective.**
+    /// Runs windows until `n_micro_done_` is `target`, which is not beyond the next
+    /// sync. **Collective.**
     virtual void advance_to(std::int64_t target) = 0;
     /// Sends each own disc to the rank whose strip holds it now. **Collective.**
     virtual void migrate() = 0;
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
-    /// Gives back what windows keep from one to the next.
+    /// Frees what windows keep from one to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
     /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
@@ -63,14 +63,14 @@ protected:
     /// Redistributes discs, halo and cells as they are now, for partners within a diameter or
     /// `least_reach`. No state changes. **Collective.**
     void redistribute_now(double least_reach = 0);
-    /// Takes departed discs out of the arrays. They stay there until then. **Collective.**
+    /// Takes departed discs out of the arrays, where they stay until then. **Collective.**
     void set_departed_aside();
 
     Population population() const { return discs_.population(); }
-    /// The walls in the coordinates of states, now.
+    /// The present walls in the coordinates of states.
     Extent extent() const;
     std::int64_t last_sync() const { return n_micro_done_ / sync_every_ * sync_every_; }
-    /// How far rounding can put a disc from its place.
+    /// The largest distance between a disc's place and its exact place, by rounding.
     double place_margin() const {
         return 64 * 0x1p-53 * dynamics_.box().longest() + dynamics_.slack();
     }
@@ -78,13 +78,13 @@ protected:
     Communicator communicator_;
     Tuning tuning_;
     Dynamics dynamics_;
-    std::int64_t micro_steps_, sync_every_; ///< micro-steps to a step, and from sync to sync
+    std::int64_t micro_steps_, sync_every_; ///< micro-steps of a step, and between syncs
     StripDiscs discs_;
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
-    double time_ = 0;               ///< the clock's, since the last sync
-    double redistributed_time_ = 0; ///< the last migration's
-    double largest_speed_ = 0;      ///< of the own discs
+    double time_ = 0;               ///< on the clock, since the last sync
+    double redistributed_time_ = 0; ///< of the last migration
+    double largest_speed_ = 0;      ///< of any own disc
     double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
     PhaseClock phases_;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the wall time of a rank goes. A `PhaseClock::Scope` bills the time of its life to one
-// phase; scopes nest, and the outer one is not billed for the inner. Price: two readings of the
-// clock per scope, so none inside loops over discs.
+// Measures where the wall time of a rank goes. A `PhaseClock::Scope` bills the time of
+// its life to one phase. Scopes nest, and the outer one is not billed for the inner.
+// Price: two readings of the clock per scope, so loops over discs have none inside.
 #pragma once
 
 #include <array>
@@ -49,7 +49,7 @@ private:
     }
 
     std::array<double, static_cast<std::size_t>(Phase::n_phases) + 1>
-        seconds_{}; ///< the last is outside all scopes
+        seconds_{}; ///< the last entry is the time outside all scopes
     Phase phase_ = Phase::n_phases;
     Clock::time_point since_ = Clock::now();
 };

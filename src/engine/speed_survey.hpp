@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many discs are how fast, to choose windows by.
+// Counts discs by speed, so that windows can be chosen.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// `largest_speed` > 0 is that of all ranks. **Collective.**
+/// `largest_speed` > 0 is the largest on all ranks. **Collective.**
 SpeedSpread survey_speeds(std::span<const Disc> own, double largest_speed,
                           const Communicator& communicator);
 

@@ -73,7 +73,7 @@ double largest_mass(std::span<const Disc> own, const SpeciesTable* species_table
 
 void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals) {
-    double largest = 0; // of any component of a velocity
+    double largest = 0; // of all components of velocities
     for (const Disc& disc : own)
         largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
     largest = communicator.max(largest) * velocity_unit;
@@ -129,7 +129,7 @@ void measure_height(std::span<const Disc> own, const SpeciesTable* species_table
 
 namespace {
 
-/// Two discs of a population at a time.
+/// Access to two discs of a population at a time.
 class PairsAt {
 public:
     PairsAt(const Population& population, double time, const Touching& touching)
@@ -143,7 +143,7 @@ public:
         const auto [dx, dy] = separation(a, b);
         return touching_.diameter_of(disc(a), disc(b)) - std::sqrt(dx * dx + dy * dy);
     }
-    /// Of two that touch.
+    /// Whether two discs that touch slide along each other.
     bool slide(LocalIndex a, LocalIndex b) const {
         const auto [dx, dy] = separation(a, b);
         const Shift shift = touching_.periods.between(disc(a), disc(b), time_);
@@ -168,7 +168,7 @@ private:
     const Touching& touching_;
 };
 
-/// Of this rank's discs: pairs that touch, those of them that slide, discs that touch several.
+/// Counts this rank's pairs that touch, those of them that slide, and discs that touch several.
 std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Population& population,
                                             const CellGrid& grid, double tolerance) {
     std::array<std::uint64_t, 3> counts{};
@@ -208,7 +208,7 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     }
     totals.overlapping_pairs = communicator.sum(n_pairs);
     totals.deepest_overlap = communicator.max(deepest);
-    // Such pairs are rare: whoever has none does not pay for a second look.
+    // Such pairs are rare. Ranks without any do not pay for a second pass.
     std::array<std::uint64_t, 3> counts{};
     if (n_touching > 0) counts = count_touching(pairs, population, grid, touching.tolerance);
     communicator.sum(counts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over all discs that come out the same for every machine shape: integers and 128-bit fixed
-// point.
+// Sums over all discs with the same bits for every machine shape: integers and 128-bit
+// fixed point.
 #pragma once
 
 #include <span>
@@ -24,13 +24,13 @@ void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
 void measure_departures(std::span<const Disc> own, const Box& box, const Communicator& communicator,
                         Totals& totals);
 
-/// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step.
-/// `species_table`: null for masses of 1. **Collective.**
+/// Fills in energy and momentum. `velocity_unit` turns stored velocities into
+/// velocities per step. `species_table` is null if all masses are 1. **Collective.**
 void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals);
 
-/// The discs themselves, or where `effects` open sides those whose centres are in the box at
-/// `time`, copied to `kept`.
+/// Returns the discs themselves, or, if `effects` open sides, copies in `kept` of
+/// those whose centres are in the box at `time`.
 std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects,
                                    const Extent& box, double time, std::vector<Disc>& kept);
 
@@ -44,18 +44,18 @@ void measure_height(std::span<const Disc> own, const SpeciesTable* species_table
                     const Gravity& gravity, const Box& box, const Communicator& communicator,
                     Totals& totals);
 
-/// When two discs count as overlapping: closer than the diameter by more than the tolerance.
+/// Two discs overlap if they are closer than the diameter by more than the tolerance.
 struct Touching {
     double diameter = 0, tolerance = 0;
-    const SpeciesTable* species_table = nullptr; ///< null where all diameters are equal
-    double growth = 1;                           ///< of the table's radii
+    const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
+    double growth = 1;                           ///< by which the table's radii have grown
 
     double diameter_of(const Disc& p, const Disc& q) const {
         return species_table
                    ? growth * (species_table->of(p.id).radius + species_table->of(q.id).radius)
                    : diameter;
     }
-    Periods periods = {}; ///< of the discs' images
+    Periods periods = {}; ///< for the discs' images
 };
 template <class Dynamics>
 Touching touching_of(const Dynamics& dynamics, double time, const Periods& periods) {
@@ -66,11 +66,11 @@ Touching touching_of(const Dynamics& dynamics, double time, const Periods& perio
         return {diameter, dynamics.tolerance(), nullptr, growth, periods};
 }
 
-/// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, the
-/// pairs that touch, and how many discs touch several. Pairs that touch slide along each other
-/// where (d.w)^2 <= 4 tolerance sigma w.w, with d and w their separation and relative velocity.
-/// Their distance of closest approach is a diameter then, to within the tolerance. The grid holds
-/// the population at that time, for partners within a diameter and the tolerance. **Collective.**
+/// Fills in the pairs that overlap at `time`, each counted once, the deepest overlap, the pairs
+/// that touch, and the discs that touch several. Pairs that touch slide along each other if
+/// (d.w)^2 <= 4 tolerance sigma w.w, with d and w their separation and relative velocity. To
+/// within the tolerance their distance of closest approach is a diameter then. The grid holds the
+/// population at that time, for partners within a diameter and the tolerance. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,
                       Totals& totals);

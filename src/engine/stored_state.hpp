@@ -15,7 +15,7 @@ namespace carrom {
 struct StoredState {
     std::vector<Disc> discs;
     std::int64_t micro_steps_done = 0;
-    SideColumns columns{}; ///< along the discs; what is left out is 0
+    SideColumns columns{}; ///< along the discs; missing numbers are 0
 };
 
 } // namespace carrom

@@ -9,8 +9,8 @@ namespace carrom {
 
 namespace {
 
-/// A number of less than 2^51 units that is added to this many leaves its nearest integer in the
-/// last bits. Bits of such sums can be added up as integers, in vectors.
+/// A number of less than 2^51 units that is added to this constant leaves its nearest
+/// integer in the last bits. The bits of such sums can be added up as integers, in vectors.
 constexpr double shift = 0x1.8p52;
 constexpr double most_units = 0x1p51;
 
@@ -49,9 +49,9 @@ void StressTerms::add_flight(double mass, const Disc& disc, const FlightIntegral
             sum);
 }
 
-/// The mean of xy and yx counts: rough discs make them differ.
+/// The sum counts the mean of xy and yx, because rough discs make them differ.
 void StressTerms::add_to(StressSums& sum) {
-    const double from = shift / sum.xx.scale(), // of all three: they have one bound
+    const double from = shift / sum.xx.scale(), // all three sums have one bound
         from_twice = 2 * from;
     std::uint64_t xx = 0, xy = 0, yy = 0, changed = 0;
 #pragma GCC unroll 4
@@ -64,7 +64,7 @@ void StressTerms::add_to(StressSums& sum) {
         yy += term_yy;
         changed |= (term_xx ^ bits(from)) | (term_xy ^ bits(from_twice)) | (term_yy ^ bits(from));
     }
-    const bool are_large = changed >> 52 != 0; // an exponent is not that of the shift
+    const bool are_large = changed >> 52 != 0; // an exponent is not that of the constant
     if (are_large || !std::isnormal(from)) {
         add_each(sum);
     } else {
@@ -75,7 +75,7 @@ void StressTerms::add_to(StressSums& sum) {
     n_ = 0;
 }
 
-/// To the same bits.
+/// Gives the same bits as add_to, one term after the other.
 void StressTerms::add_each(StressSums& sum) const {
     const auto add_one = [](ExactSum& part, double term) {
         const double units = term * part.scale();

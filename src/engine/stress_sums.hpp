@@ -3,10 +3,10 @@
 // between discs, and the integral of the sum of m v_a v_b (core/flight_integral.hpp). The pressure
 // tensor follows from it (docs/understanding/pressure.md).
 //
-// Nothing is sampled, so nothing depends on how often anybody looks. Sums are exact: neither the
-// order of collisions nor the rank that carries them out affects them. A pair's collision adds to
-// one tensor for both parts, which costs a handful of instructions more than impulse times distance
-// alone. The kinetic energy has a sum of its own, and elastic collisions add nothing to it.
+// Nothing is sampled, so nothing depends on how often sums are read. They are exact, so neither
+// the order of collisions nor the rank that carries them out affects them. A pair's collision
+// adds to one tensor for both parts, which costs a handful of instructions more than impulse
+// times distance alone. The kinetic energy has its own sum; elastic collisions add nothing to it.
 #pragma once
 
 #include <array>
@@ -32,20 +32,20 @@ struct StressSums {
     StressSums& operator+=(const StressSums& other);
     StressSums& operator-=(const StressSums& other);
 
-    /// Adds what a disc of that mass has gathered since the last sync with its present velocity,
-    /// times `sign`. A collision that is not one of a pair adds that of the disc before it, and
-    /// takes that after it away.
+    /// Adds `sign` times the integral that a disc of this mass has gathered since the
+    /// last sync at its present velocity. A collision that is not one of a pair adds
+    /// the integral of the disc before it, and subtracts that of the disc after it.
     void add_flight(double sign, double mass, const Disc& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
-    ExactSum energy; ///< integral of the sum of m v^2
+    ExactSum energy; ///< the integral of the sum of m v^2
 };
 
-/// Terms that are still to be added to sums: many at a time take a third of the instructions.
+/// Terms that wait to be added to sums, because adding many at a time takes a third of the work.
 class StressTerms {
 public:
-    /// A disc has got the impulse (ix, iy) from another one at the separation `to` from it. Its
-    /// term gets to `sum` at the latest by `add_to`.
+    /// Notes that a disc has got the impulse (ix, iy) from another one at the
+    /// separation `to`. `add_to` at the latest adds the term to `sum`.
     void add(double ix, double iy, const Separation& to, StressSums& sum) {
         ix_[n_] = ix;
         iy_[n_] = iy;
@@ -53,9 +53,9 @@ public:
         y_[n_] = to.y;
         if (++n_ == most) add_to(sum);
     }
-    /// As StressSums::add_flight, with the sign 1, but for the energy.
+    /// Does what StressSums::add_flight does with the sign 1, but not for the energy.
     void add_flight(double mass, const Disc& disc, const FlightIntegral& integral, StressSums& sum);
-    /// Adds what is left, and forgets it.
+    /// Adds the terms that are left, and forgets them.
     void add_to(StressSums& sum);
 
 private:
@@ -67,16 +67,16 @@ private:
     std::size_t n_ = 0;
 };
 
-/// A collision of a pair, noted before it happens. The integral of m v_a v_b changes by the weight
-/// of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse that p gets and u the sum of
-/// the relative velocities before and after. That is impulse times distance for another distance:
-/// both parts are one term.
+/// A collision of a pair, noted before it happens. The integral of m v_a v_b changes
+/// by the weight of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse
+/// that p gets and u the sum of the relative velocities before and after. This has the
+/// form of impulse times distance for another distance, so both parts are one term.
 class PairStress {
 public:
     PairStress(const Disc& p, const Disc& q)
         : vx_(p.vx), vy_(p.vy), ux_(q.vx - p.vx), uy_(q.vy - p.vy) {}
 
-    /// After it, at `time`, `to` from p to q then. Returns the impulse that p got along x.
+    /// Called after it, at `time`, with the separation from p to q. Returns p's impulse along x.
     template <class Dynamics>
     [[gnu::always_inline]] double add_to(StressTerms& terms, StressSums& sum,
                                          const Dynamics& dynamics, const Disc& p, const Disc& q,

@@ -14,8 +14,8 @@ public:
     SyncAction(const Scene& scene, const Communicator& communicator, int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
-    /// The halo is forgotten, and all states have been brought to the time of the sync. Adds to
-    /// `energy_given()`, and returns the largest speed of an own disc. **Collective.**
+    /// Called when the halo is forgotten and all states have been brought to the time of the sync.
+    /// Adds to `energy_given()`, and returns the largest speed of an own disc. **Collective.**
     double act(StripDiscs& discs, std::int64_t n_syncs);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
     /// included, per micro-step. For checks: its last bits depend on the machine shape.

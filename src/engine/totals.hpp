@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run reports of the work that led to its state; the state's own sums are public.
+// The work that led to a run's state, for reports. The sums over the state itself are public.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace carrom {
 
-/// How the run got on in the event-driven method; depends on the machine shape. Zero in the
-/// time-stepped method.
+/// Counts of windows and blocks of the event-driven method. They depend on the machine
+/// shape, and are zero in the time-stepped method.
 struct RollbackCounts {
-    std::uint64_t windows = 0, windows_redone = 0; ///< redone: in some block at least, on any rank
+    std::uint64_t windows = 0, windows_redone = 0; ///< redone: some block on some rank was repeated
     std::uint64_t blocks = 0,
-                  blocks_redone = 0; ///< block runs on all ranks, first and repeated
+                  blocks_redone = 0; ///< block runs on all ranks, first ones and repetitions
 };
 
 /// Seconds this rank has spent, by phase, in the order they are reported.

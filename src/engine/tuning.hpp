@@ -15,10 +15,10 @@ struct Tuning {
         window; ///< micro-steps per window; below 1 the micro-step is cut into parts
     std::optional<double> cell_width; ///< in units of the window's reach
     std::optional<double>
-        usual_speed; ///< in units of the largest: what cells allow for where a micro-step is cut
-    std::int64_t rebalance_every = 1; ///< in syncs; 0 keeps the first strips for ever
+        usual_speed; ///< in units of the largest speed; cells allow for it if a micro-step is cut
+    std::int64_t rebalance_every = 1; ///< in syncs; 0 never moves the first cuts
     double rebalance_above =
-        1.05; ///< largest over mean load that is tolerated; 0 moves the cuts every time
+        1.05; ///< the largest over mean load that is tolerated; 0 moves the cuts every time
 };
 
 } // namespace carrom

@@ -12,14 +12,14 @@
 namespace carrom {
 
 struct WallImpulses {
-    /// `largest_sum` bounds the sum of any side's impulses, the same on all ranks; mass times
-    /// length per step.
+    /// `largest_sum` bounds the sum of any side's impulses. It is the same on all
+    /// ranks; mass times length per step.
     explicit WallImpulses(double largest_sum)
         : normal{ExactSum(largest_sum), ExactSum(largest_sum), ExactSum(largest_sum),
                  ExactSum(largest_sum)} {}
 
-    /// `change` of the velocity across the side: away from the side that a disc has met. `axis` 0:
-    /// left and right.
+    /// `change` is that of the velocity across the side, away from the side that a
+    /// disc has met. Axis 0 means left and right.
     void add(std::size_t axis, double change) {
         const std::size_t side = 2 * axis + (change < 0 ? 1 : 0);
         normal[side].add(change < 0 ? -change : change);

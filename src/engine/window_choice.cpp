@@ -8,17 +8,17 @@ namespace carrom {
 
 namespace {
 
-// In nanoseconds, on one core, with discs in cache. In main memory all take some 1.2 times that
-// (docs/log/performance.md).
-constexpr double disc = 30;       ///< of a disc in a window of any length
-constexpr double partner = 1.3;   ///< and of each disc within a square of one reach
-constexpr double hit = 85;        ///< of predicting a disc again that was hit inside the window
-constexpr double hit_partner = 3; ///< and of each disc within a square of one reach
+// Times in nanoseconds, on one core, with discs in cache. In main memory all take some
+// 1.2 times as long (docs/log/performance.md).
+constexpr double disc = 30;       ///< for each disc in a window of any length
+constexpr double partner = 1.3;   ///< for each partner within a square of one reach
+constexpr double hit = 85;        ///< for predicting a disc again that was hit inside the window
+constexpr double hit_partner = 3; ///< for each partner of such a disc within a square of one reach
 constexpr double disc_in_part =
-    65; ///< of a disc in a part of a micro-step, what the part's end costs it included
-constexpr double partner_in_part = 0.7; ///< most pass by, and are seen to at little cost
-/// Of a fast disc in a part of a micro-step, and of each disc that it looks at: those in the cells
-/// along its path, which come in runs, and the other fast ones, which lie side by side.
+    65; ///< for each disc in a part of a micro-step, the part's end included
+constexpr double partner_in_part = 0.7; ///< most pairs are rejected at little cost
+/// For a fast disc in a part of a micro-step, and for each disc that it is tried with: those in
+/// cells along its path, which come in runs, and the other fast discs, which lie side by side.
 constexpr double fast_disc = 200, fast_partner = 1, fast_pair = 0.1;
 constexpr double largest_fast_share = 0.1;
 
@@ -34,7 +34,7 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 
-/// The same for a part of a micro-step in which a share of the discs is faster than `usual_speed`.
+/// The cost of a part of a micro-step in which some discs are faster than `usual_speed`.
 double cost_with_fast_discs(const WindowNeeds& needs, double duration, double usual_speed,
                             double share) {
     WindowNeeds usual = needs;
