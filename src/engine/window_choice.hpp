@@ -26,7 +26,7 @@ struct SpeedSpread {
     std::array<double, n_parts> share_above{}; ///< the share of discs faster than k parts of that
 
     SpeedSpread() = default;
-    /// `counts`: discs whose speed is between k and k + 1 parts of `largest`, of all ranks.
+    /// `counts[k]`: discs of all ranks whose speeds are between k and k + 1 parts of the largest.
     SpeedSpread(const Counts& counts, double largest_speed);
     double speed_of(std::size_t part) const {
         return largest * static_cast<double>(part) / n_parts;
@@ -59,7 +59,7 @@ struct WindowChoice {
     int n_micro = 1;
     int n_parts = 1;
     double usual_speed =
-        0; ///< cells allow for it; the few faster discs search around themselves
+        0; ///< cells allow for it; the few discs that are faster have to search around themselves
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 

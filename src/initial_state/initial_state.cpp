@@ -54,7 +54,7 @@ std::vector<InputDisc> read_discs(const Scene& scene, std::istream* lines,
     return discs;
 }
 
-/// The ids this rank makes where places are functions of the id.
+/// The ids that this rank makes if places are functions of the id.
 Slab share_of(const Scene& scene, const Communicator& communicator) {
     return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
 }
@@ -65,15 +65,15 @@ std::vector<InputDisc> listed_discs(const Scene& scene, const Communicator& comm
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// Coprime to n and near its golden section: sites taken in such strides mix species, which come in
-/// the order of ids.
+/// A number coprime to n and near its golden section. Sites taken in such strides mix
+/// species, which come in the order of ids.
 std::uint64_t mixing_stride(std::uint64_t n) {
     auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) | 1;
     while (std::gcd(stride, n) != 1) stride += 2;
     return stride;
 }
 
-/// One disc on each site; `place_of` has the place of a site.
+/// Places one disc on each site; `place_of` gives the place of a site.
 template <class PlaceOf>
 std::vector<InputDisc> discs_on_sites(const Scene& scene, const Communicator& communicator,
                                       const PlaceOf& place_of) {
@@ -103,7 +103,7 @@ std::vector<InputDisc> triangular_discs(const Scene& scene, const Communicator& 
                           [&](std::uint64_t site) { return lattice->site(site); });
 }
 
-/// Places without velocities.
+/// The generated discs with places, but without velocities.
 std::vector<InputDisc> generated_discs(const Scene& scene, const Communicator& communicator) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
@@ -136,8 +136,8 @@ std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& comm
     return discs;
 }
 
-/// Every listed disc has to be clear of all obstacles; the first few that are not are named.
-/// **Collective.**
+/// Refuses listed discs that are not clear of all obstacles; the message names the
+/// first few. **Collective.**
 void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator) {
     constexpr std::size_t most_named = 5;

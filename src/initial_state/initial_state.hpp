@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs that a scene begins with, in any distribution over the ranks: generated where it asks
-// for that, read where it lists them.
+// The discs that a scene begins with, in any distribution over the ranks: generated if
+// it asks for that, or read from its list or file.
 #pragma once
 
 #include <istream>

@@ -3,9 +3,9 @@
 // then y, uniform in [r, L-r] and drawn anew on overlap; then for each disc its speed, uniform in
 // L/8r .. L/4, and its angle.
 //
-// The sequence is glibc's (its reentrant random_r with 128 bytes of state, what rand uses), the
-// sine and cosine are the C library's: the one place where the scene depends on them. Serial by
-// nature: one rank draws, O(1) a draw by a grid.
+// The sequence is that of glibc's rand (its reentrant random_r with 128 bytes of
+// state); sine and cosine are the C library's, here and nowhere else in a scene. One
+// rank draws, because each number depends on those before. A grid makes a draw O(1).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// glibc's `rand` with a state of its own.
+/// glibc's `rand` with its own state.
 class LegacyRandom {
 public:
     explicit LegacyRandom(unsigned seed);
@@ -33,11 +33,11 @@ private:
     random_data data_{};
 };
 
-/// All positions by id, or nothing where the box is too full to find them in a bounded number of
-/// draws.
+/// All positions by id; nothing if the box is too full to find them in a bounded
+/// number of draws.
 std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRandom& random);
 
-/// The next disc's velocity per step; ask in the order of ids, after the positions.
+/// The next disc's velocity per step. To be called in the order of ids, after the positions.
 InputDisc legacy_disc(const Scene& scene, LegacyRandom& random, DiscId id, Point place);
 
 } // namespace carrom

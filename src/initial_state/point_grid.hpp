@@ -3,8 +3,8 @@
 // its own cell or the eight around it. Linked lists: adding a point is O(1), and 4 bytes each for a
 // point and for a cell.
 //
-// The grid knows points by number only; the caller keeps their coordinates and decides what near
-// means. Clearing costs as much as was added, not as many cells as there are.
+// The grid knows points by number only; the caller keeps their coordinates and decides
+// what near means. Clearing costs as much as was added, however many cells there are.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ public:
         head = static_cast<std::uint32_t>(next_.size() - 1);
     }
 
-    /// Whether `is_hit(number)` holds for any point near `place`; stops at the first.
+    /// Whether `is_hit(number)` holds for a point near `place`; stops at the first such point.
     template <class IsHit> bool any_near(Point place, const IsHit& is_hit) const {
         const std::uint64_t c = column(place.x), r = row(place.y);
         const std::uint64_t last_column = std::min(c + 1, columns_ - 1),
@@ -51,7 +51,7 @@ public:
         return false;
     }
 
-    /// Forgets all points. `points` are the ones that were added.
+    /// Forgets all points; `points` must be those that were added.
     template <class Points> void clear(const Points& points) {
         for (const auto& point : points) heads_[column(point.x) * rows_ + row(point.y)] = none;
         next_.clear();

@@ -24,10 +24,10 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t most_idle_rounds =
-    10000; ///< without any disc finding a place, before all starts anew
+    10000; ///< without a place for any disc, before all starts anew
 constexpr std::uint64_t most_starts = 10;
 constexpr DiscId copy_mark = DiscId{1}
-                             << 63; ///< on the id of a neighbour's disc among the placed ones
+                             << 63; ///< set in the id of a neighbour's disc among the placed discs
 
 /// A proposal, or the update of a place taken near a strip's edge.
 struct Notice {
@@ -36,7 +36,7 @@ struct Notice {
     std::uint32_t is_placed = 0;
 };
 
-/// Works in the box lying down: x is along its longer side, where the strips are.
+/// Works in a box that lies down: x is along the longer side, which strips cut.
 class Insertion {
 public:
     Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
@@ -50,14 +50,14 @@ public:
         placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
     }
 
-    /// The places, or nothing where the discs have jammed. **Collective.**
+    /// Returns the places, or nothing if the discs have jammed. **Collective.**
     std::optional<std::vector<InputDisc>> run() {
         std::vector<double> radii{scene_.radius};
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
         for (const double radius :
-             radii) { // the largest first: they find no room among smaller ones
+             radii) { // the largest first, because they find no room among smaller ones
             if (!place_all_of(radius)) return std::nullopt;
         }
         placed_.erase(std::remove_if(placed_.begin(), placed_.end(),
@@ -73,7 +73,7 @@ private:
         return {x, y};
     }
 
-    /// False where the discs have jammed. **Collective.**
+    /// Returns false if the discs have jammed. **Collective.**
     bool place_all_of(double radius) {
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
@@ -90,7 +90,7 @@ private:
         return n_left == 0;
     }
 
-    /// Of all ranks. Ends a start that is asked to stop and takes long. **Collective.**
+    /// Over all ranks. Ends the start after a request to stop if it takes long. **Collective.**
     std::uint64_t n_unplaced() const {
         std::array<std::uint64_t, 2> sums = {unplaced_.size(), is_stop_overdue() ? 1u : 0u};
         communicator_.sum(sums);
@@ -145,8 +145,8 @@ private:
     }
     std::size_t n_ranks() const { return static_cast<std::size_t>(communicator_.size()); }
 
-    /// Brings the round's proposals to whom they concern, together with the last round's updates.
-    /// **Collective.**
+    /// Sends the round's proposals, together with the last round's updates, to the
+    /// ranks that they concern. **Collective.**
     void exchange(std::uint64_t round) {
         std::vector<std::vector<Notice>> out(static_cast<std::size_t>(communicator_.size()));
         const auto me = static_cast<std::size_t>(communicator_.rank());
@@ -171,8 +171,8 @@ private:
         for (auto updates = proposals_.begin(); updates != first_proposal; ++updates)
             place({copy_mark | updates->id, updates->x, updates->y, 0, 0});
         proposals_.erase(proposals_.begin(), first_proposal);
-        // The verdicts do not depend on the order; memory does: columns of cells that are near in x
-        // are near in memory.
+        // The verdicts do not depend on the order. It serves memory: columns of cells
+        // that are near in x are near in memory.
         std::sort(proposals_.begin(), proposals_.end(),
                   [](const Notice& a, const Notice& b) { return a.x < b.x; });
         for (const Notice& notice : proposals_) proposal_grid_.add({notice.x, notice.y});
@@ -198,8 +198,8 @@ private:
             return true;
         if (is_refused_at({notice.x, notice.y}, notice)) return true;
         if (!periods_.are_any()) return false;
-        // Discs across a seam are near its images; grids file what is beyond their ends with what
-        // is at them.
+        // Discs across a seam are near its images. A grid files places beyond its ends
+        // in its last cells.
         for (const double dx : {-periods_.x, 0.0, periods_.x}) {
             for (const double dy : {-periods_.y, 0.0, periods_.y}) {
                 const Point image{notice.x + dx, notice.y + dy};
@@ -245,7 +245,7 @@ private:
     std::optional<Obstacles> obstacles_;
     const Communicator& communicator_;
     std::uint64_t start_;
-    double diameter_; ///< the largest
+    double diameter_; ///< of the largest discs
     SpeciesTable species_;
     Axis axis_;
     Box box_;

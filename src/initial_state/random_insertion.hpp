@@ -16,8 +16,8 @@
 
 namespace carrom {
 
-/// The scene's discs with places and without velocities, each on the rank whose strip holds it.
-/// InputError on every rank where no arrangement is found. **Collective.**
+/// Returns the scene's discs with places and without velocities, each on the rank whose
+/// strip holds it. InputError on every rank if no arrangement is found. **Collective.**
 std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator);
 
 } // namespace carrom

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// The same for the columns of the file of discs. **Collective.**
+/// Replaces the columns of the file of discs by those of rank 0. **Collective.**
 void broadcast(DiscColumns& columns, const Communicator& ranks) {
     ranks.broadcast(columns.species);
     for (std::vector<NumberRun>& runs : columns.numbers.values) ranks.broadcast(runs);
@@ -45,7 +45,7 @@ DiscColumns load_columns(const Scene& scene, std::istream* following, const Comm
                 file = open_input(discs_path(scene));
                 columns = read_disc_columns(file, scene);
             }
-        } catch (const InputError&) { // the reader of lines says it again, with all problems
+        } catch (const InputError&) { // the reader of lines reports it with all other problems
         }
     }
     broadcast(columns, ranks);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rank 0 reads of a scene's files, and how the other ranks get it.
+// Rank 0 reads a scene's files, and the other ranks get their contents from it.
 #pragma once
 
 #include <istream>
@@ -15,14 +15,14 @@ namespace carrom {
 /// Replaces the text on every rank by that of rank 0. **Collective.**
 void broadcast(SceneText& text, const Communicator& ranks);
 
-/// The columns of the scene's file of discs beyond places and velocities. They are not whole where
-/// the file cannot be read: the reader of its lines reports why. `following` as below; it is left
-/// where it was. **Collective.**
+/// The columns of the scene's file of discs beyond places and velocities. They are
+/// incomplete if the file cannot be read; the reader of its lines reports why.
+/// `following`: see load_discs; it stays where it is. **Collective.**
 DiscColumns load_columns(const Scene& scene, std::istream* following, const Communicator& ranks);
 
-/// The discs that a scene starts with. `following` is on rank 0 the stream of a legacy text behind
-/// its header; null where no discs follow. A file of discs is opened here. Throws InputError on
-/// every rank. **Collective.**
+/// The discs that a scene starts with. `following` is on rank 0 the rest of a legacy
+/// text after its header, or null if no discs follow. Opens a file of discs itself.
+/// Throws InputError on every rank. **Collective.**
 std::vector<InputDisc> load_discs(const Scene& scene, std::istream* following,
                                   const Communicator& ranks);
 

@@ -18,7 +18,7 @@ Velocity drawn_velocity(const Scene& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // A box that is taller than wide has the gas of the same one lying down.
+    // A box that is taller than wide gets the same gas as when it lies down, turned.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }
@@ -46,7 +46,7 @@ void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
 
 namespace {
 
-/// Masses are taken over the heaviest, so that sums of any masses stay within range.
+/// Masses are divided by the heaviest one, so that sums of any masses stay within range.
 class Motion {
 public:
     Motion(const Scene& scene, const std::vector<InputDisc>& discs, const Communicator& ranks)
@@ -73,7 +73,7 @@ public:
         return {x / total_, y / total_};
     }
 
-    /// The mean of m v^2 over that of m. **Collective.**
+    /// The mean of m v^2 over the mean of m. **Collective.**
     double mean_square(const std::vector<InputDisc>& discs) const {
         const double largest = largest_component(discs);
         return sum_over(discs, 2 * largest * largest,
@@ -83,7 +83,7 @@ public:
                total_;
     }
 
-    /// Of all discs, over the heaviest.
+    /// The mass of all discs, over the heaviest one.
     double total_mass() const { return total_; }
 
 private:
@@ -96,7 +96,7 @@ private:
         return ranks_.max(largest);
     }
 
-    /// No term is larger than `largest`.
+    /// `largest` bounds the size of a term.
     template <class Term>
     double sum_over(const std::vector<InputDisc>& discs, double largest, const Term& term) const {
         if (largest == 0) return 0;
@@ -124,8 +124,8 @@ void subtract_drift(const Scene& scene, std::vector<InputDisc>& discs, const Mot
     }
 }
 
-/// What speeds are multiplied by. With a temperature the discs have speeds of sqrt(heaviest / m)
-/// until then, so that all species have one kT on average.
+/// The factor for speeds. With a temperature, drawn discs have speeds of sqrt(heaviest
+/// / m) before it is applied, so that all species have one kT on average.
 double scale_of(const Scene& scene, const std::vector<InputDisc>& discs, const Motion& motion) {
     const double root = std::sqrt(motion.mean_square(discs));
     if (root == 0) return 0;

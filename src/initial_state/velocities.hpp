@@ -27,11 +27,11 @@ struct Velocity {
 /// The velocity drawn for disc `id`, of root mean square 1.
 Velocity drawn_velocity(const Scene& scene, DiscId id);
 
-/// What the streams add to a disc at `place`: the sum over all regions that hold it (edges
-/// included).
+/// The velocity that streams add to a disc at `place`: the sum over all regions that
+/// hold it, edges included.
 Velocity stream_velocity(const Scene& scene, Point place);
 
-/// Adds them, and the flow of sheared sides, to all discs, which have their places.
+/// Adds streams, and the flow of sheared sides, to all discs, which have their places.
 void add_streams(const Scene& scene, std::vector<InputDisc>& discs);
 
 /// Gives velocities per step to the discs that the scene generates, in any distribution over the

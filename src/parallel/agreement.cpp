@@ -11,14 +11,14 @@ namespace carrom {
 
 namespace {
 
-/// A problem without its texts; those follow each other in a string.
+/// A problem without its texts, which follow each other in a string.
 struct PackedProblem {
     std::int64_t line = 0;
     std::uint64_t place_length = 0;
     std::uint64_t text_length = 0;
 };
 
-/// All ranks' items on every rank, in rank order.
+/// Returns all ranks' items on every rank, in rank order.
 template <Message T>
 std::vector<T> concatenate(const Communicator& communicator, std::vector<T> mine) {
     std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How ranks come to know that one of them has failed: every rank throws, or none does.
+// How ranks learn that one of them has failed: every rank throws, or none does.
 //
-// For set-up and around input and output, not inside the step. Price when all is well: one
+// This is for set-up, input and output, not for the step. Price when all is well: one
 // reduction.
 #pragma once
 
@@ -27,7 +27,7 @@ void agree(const Communicator& communicator, bool ok, const std::string& text,
 void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
                        std::size_t most = 1000);
 
-/// Lets rank 0 work alone; an InputError that it meets is thrown on every rank. **Collective.**
+/// Lets rank 0 work alone. If it throws InputError, every rank does. **Collective.**
 void let_root(const Communicator& communicator, const std::function<void()>& work);
 
 } // namespace carrom

@@ -23,14 +23,14 @@ namespace detail {
 /// How many bytes each rank will send here, given how many go to each. **Collective.**
 std::vector<std::uint64_t> announce(const Communicator& communicator,
                                     std::span<const std::uint64_t> bytes_to);
-/// Moves parcels of known sizes; parcel k of `out` goes to rank k and parcel k of `in` comes from
-/// it.
+/// Moves parcels of known sizes: parcel k of `out` goes to rank k, and parcel k of
+/// `in` comes from rank k.
 void move_parcels(const Communicator& communicator, std::span<const std::span<const std::byte>> out,
                   std::span<const std::span<std::byte>> in);
-/// Every rank's number on rank 0, nothing elsewhere. **Collective.**
+/// Returns every rank's number on rank 0, and nothing on the others. **Collective.**
 std::vector<std::uint64_t> gather_to_root(const Communicator& communicator, std::uint64_t value);
-/// One piece of a stream; the sender waits until it is being received, so that pieces never pile
-/// up.
+/// Sends one piece of a stream. The sender waits until it is being received, so that
+/// pieces do not pile up.
 void send_piece(const Communicator& communicator, std::span<const std::byte> piece);
 void receive_piece(const Communicator& communicator, int sender, std::span<std::byte> piece);
 } // namespace detail

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Where a launcher writes how many processes it has started, and which one this is.
+/// The variables in which a launcher notes the number of processes, and the number of this one.
 struct LauncherVariables {
     const char *size, *rank;
 };
@@ -31,7 +31,7 @@ bool has_launcher() {
     constexpr std::array variables = {
         "OMPI_COMM_WORLD_SIZE", // mpirun of Open MPI
         "PMIX_RANK",
-        "PMI_RANK",      // what many launchers speak, srun and MPICH's among them
+        "PMI_RANK",      // for many launchers, among them srun's and MPICH's
         "SLURM_STEP_ID", // srun
         "PALS_RANKID",
         "ALPS_APP_PE", // Cray

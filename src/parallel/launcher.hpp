@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the environment tells about the launcher that has started this process.
+// What the environment says about the launcher of this process.
 #pragma once
 
 #include <string>
 
 namespace carrom {
 
-/// Whether a launcher has started this process, as the first of several perhaps. One that is
-/// missing here leaves each process to itself.
+/// Whether a launcher has started this process, perhaps as the first of several.
+/// Processes of a launcher that is not listed here each run alone.
 bool has_launcher();
 
-/// What a launcher of another MPI library has started: processes that do not know each other, each
-/// of which would write the same files.
+/// A process that the launcher of another MPI library has started with others. They do
+/// not know each other, and each would write the same files.
 struct LoneProcess {
-    std::string problem;  ///< empty where all is well
-    bool is_first = true; ///< among those that the launcher has started
+    std::string problem;  ///< empty if there is no problem
+    bool is_first = true; ///< among the processes that the launcher has started
 };
 
-/// `n_ranks`: those that MPI knows of.
+/// `n_ranks` is the number of ranks that MPI knows of.
 LoneProcess lone_process(int n_ranks);
 
 } // namespace carrom

@@ -16,11 +16,11 @@ namespace carrom {
 
 namespace {
 
-/// A rank that has met the others and left at once may be ahead of their messages.
+/// A rank that has met the others and left at once may arrive ahead of their messages.
 constexpr std::chrono::seconds grace(10);
 constexpr std::size_t longest_reason = 2000;
 
-/// The rank that has departed, if one has said so; -1 else.
+/// The rank that has reported its departure, or -1.
 int departed_rank(MPI_Comm comm) {
     int is_there = 0;
     MPI_Status status;

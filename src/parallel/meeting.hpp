@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where ranks meet before a call that all of them must make, so that one that calls something else,
-// or has left, is a message and not a hang. Price: one small reduction for each call.
+// Ranks meet before a call that all of them must make. A rank that calls something else, or
+// has left, then gives a message instead of a hang. Price: one small reduction for each call.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace carrom {
 
-/// What differs between ranks that should make the same call with the same argument: a hash.
+/// A hash that differs if ranks make the same call with different arguments.
 std::uint64_t hash_of_argument(std::string_view text);
 
-/// Returns once all ranks have come to the same call. Throws InputError on every rank where calls
-/// or arguments differ. Where a rank has departed, all are aborted with a message (code 70) after
-/// ten seconds. **Collective.**
+/// Returns once all ranks have come to the same call. Throws InputError on every rank
+/// if calls or arguments differ. If a rank has departed, all are aborted with a
+/// message (code 70) after ten seconds. **Collective.**
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
 
-/// A rank that leaves the others tells them, and waits for them at the end.
+/// Reports to the other ranks that this one leaves, and waits for them at the end.
 class Departure {
 public:
     /// `communicator` must outlive this.

@@ -27,10 +27,10 @@ namespace {
 
 constexpr int abort_code = 70;
 
-int world_rank = 0;          // kept, so that any thread may print it without a call of MPI
-bool is_mpi_running = false; // the same for handlers of signals
+int world_rank = 0;          // kept, so that any thread may print it without calling MPI
+bool is_mpi_running = false; // kept for handlers of signals
 
-/// Ends all ranks; this process where MPI does not run.
+/// Ends all ranks, or this process if MPI does not run.
 [[noreturn]] void end_all(int code) {
     if (is_mpi_running) MPI_Abort(MPI_COMM_WORLD, code);
     std::_Exit(code);
@@ -48,7 +48,7 @@ void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
 }
 
-/// Whichever thread asked for the memory, in a parallel region or not: nothing flies out of those.
+/// The memory may be missing on any thread, in a parallel region, which exceptions must not leave.
 void on_no_memory() {
     abort_all("out of memory", "take fewer discs, or more ranks on more nodes",
               static_cast<int>(ExitCode::collective_failure));
@@ -65,7 +65,7 @@ void on_mpi_error(MPI_Comm*, int* code,
 struct Outcome {
     int code = 0;
     std::string text; ///< of an error that all ranks should have met; empty if the body returned
-    int code_alone = abort_code; ///< where other ranks do not come to the same end in time
+    int code_alone = abort_code; ///< if other ranks do not come to the same end in time
 };
 
 Outcome run(const Communicator& communicator, const std::function<int(const Communicator&)>& body) {
@@ -74,8 +74,8 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     } catch (const InputError& error) {
         return {static_cast<int>(ExitCode::bad_input), error.what()};
     } catch (const CollectiveError& error) {
-        // All ranks have agreed on it. One that comes late is slow at leaving: it removes files on
-        // a disk that stalls.
+        // All ranks have agreed on this error. A rank that comes late may still be
+        // removing files on a disk that stalls.
         const int code = static_cast<int>(error.code());
         return {code, error.what(), code};
     } catch (const std::exception& error) {
@@ -85,8 +85,8 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     }
 }
 
-/// The largest code of any rank; waits without limit after a return, for `patience_seconds` after
-/// an error.
+/// The largest code of all ranks. Waits without limit after a return, and for
+/// `patience_seconds` after an error.
 int agreed_code(const Communicator& communicator, const Outcome& outcome, double patience_seconds) {
     if (communicator.handle().is_alone()) return outcome.code;
     int largest = outcome.code;
@@ -97,7 +97,7 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
     return largest;
 }
 
-/// Settings of Open MPI that the user has not chosen.
+/// Sets settings of Open MPI that the user has not set.
 void choose_settings() {
     // Its own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns
     // the error.
@@ -106,11 +106,11 @@ void choose_settings() {
     // never does, and the daemon takes 0.4 s. Open MPI 5 and MPICH start none.
     if (has_launcher()) return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    // Such processes have one name, and so one folder for what they share with others, which they
-    // do not need: two that start at once would fail to make it.
+    // Such processes use one folder of the same name for what they share with others,
+    // which they do not need. Two that start at once would fail to make it.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-    // They talk to nobody. Where libraries of fast networks are installed, to look for these takes
-    // 0.2 s.
+    // They exchange no messages. If libraries of fast networks are installed,
+    // searching for these takes 0.2 s.
     setenv("OMPI_MCA_pml", "ob1", 0);
 }
 
@@ -209,15 +209,15 @@ Mpi::Mpi(int& argc, char**& argv, Start start) {
 Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 
 Mpi::~Mpi() {
-    if (is_mpi_running && !has_mpi_ended()) MPI_Finalize(); // the program may have ended it
+    if (is_mpi_running && !has_mpi_ended()) MPI_Finalize(); // the program may have ended MPI
     is_mpi_running = false;
 }
 
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds) {
     const Outcome outcome = run(communicator, body);
-    // Rank 0 speaks for all; should it not have met the error, the rank that waits in vain will
-    // speak.
+    // Rank 0 prints for all. If it has not met the error, the rank that waits in vain
+    // prints it.
     if (communicator.is_root() && !outcome.text.empty()) {
         std::fflush(stdout);
         std::fprintf(stderr, "%s\n", printable(outcome.text, true).c_str());

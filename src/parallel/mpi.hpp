@@ -18,11 +18,11 @@ class Mpi {
 public:
     enum class Start {
         always,
-        under_launcher ///< not by hand: `Communicator::world()` is this process alone then
+        under_launcher ///< otherwise `Communicator::world()` is this process alone
     };
 
     Mpi(int& argc, char**& argv, Start start = Start::always);
-    /// For programs whose arguments are not MPI's.
+    /// For programs that do not pass their arguments to MPI.
     Mpi();
     ~Mpi();
     Mpi(const Mpi&) = delete;

@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// What `communicator` stands for; good as long as it is. MPI_COMM_NULL where MPI has not been
-/// started. **Not collective.**
+/// MPI's handle of `communicator`; it is valid as long as the latter. MPI_COMM_NULL if
+/// MPI has not been started. **Not collective.**
 MPI_Comm native(const Communicator& communicator);
 
 } // namespace carrom

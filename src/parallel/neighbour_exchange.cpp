@@ -11,15 +11,15 @@ namespace carrom {
 
 namespace {
 
-/// What opens a first message. The number of the exchange shows when two ranks disagree on being
-/// neighbours.
+/// The head of a first message. The number of the exchange shows it when two ranks
+/// disagree on being neighbours.
 struct Header {
     std::uint64_t n_bytes = 0;
     std::uint64_t exchange = 0;
 };
 
-/// Below the size up to which common MPI libraries send at once, without asking the receiver (4096
-/// in shared memory).
+/// A little less than the size up to which common MPI libraries send at once, without
+/// asking the receiver (4096 in shared memory).
 constexpr std::size_t first_message_bytes = 3968;
 
 } // namespace
@@ -43,7 +43,7 @@ struct NeighbourExchange::State {
 
     Communicator communicator;
     int message_tag = 0;
-    std::size_t first_capacity = 0; ///< payload of a first message
+    std::size_t first_capacity = 0; ///< bytes of data in a first message
     std::uint64_t n_begun = 0;
     std::vector<int> neighbours;
     std::vector<std::span<const std::byte>> parcels;

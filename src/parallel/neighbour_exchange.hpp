@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchange with a few known ranks: what halo, migration and verdicts of neighbouring strips travel
-// by.
+// Exchange with a few known ranks. Halo, migration and verdicts of neighbouring strips
+// travel by it.
 //
 // Both sides know that they are neighbours, the receiver does not know how much comes. The first
 // few kilobytes travel with the size in one message whose receive is posted in advance; only what

@@ -24,8 +24,8 @@
 
 namespace carrom {
 
-/// Which ids make up a piece, and which pieces are a rank's: runs as equal as pieces allow, longer
-/// ones first.
+/// Cuts the ids into pieces, and gives each rank a run of pieces. Runs are as equal as
+/// pieces allow, longer ones first.
 class Pieces {
 public:
     static constexpr std::uint64_t least_rows = 1 << 10, most_rows = 1 << 15;
@@ -38,11 +38,11 @@ public:
     std::uint64_t count() const { return (n_ + rows_ - 1) / rows_; }
     std::uint64_t rows() const { return rows_; }
     std::uint64_t of(std::uint64_t id) const { return id / rows_; }
-    /// The first id of a piece; that of piece count() is n.
+    /// The first id of a piece. Piece count() begins at n.
     std::uint64_t begin(std::uint64_t piece) const { return std::min(piece * rows_, n_); }
-    /// The first piece of a rank; that of rank `n_ranks` is count().
+    /// The first piece of a rank. Rank `n_ranks` begins at count().
     std::uint64_t first_of(int rank) const { return slab_begin(rank, count(), n_ranks_); }
-    /// The most pieces that a rank has.
+    /// The largest number of pieces of a rank.
     std::uint64_t n_rounds() const { return first_of(1); }
 
 private:
@@ -51,7 +51,7 @@ private:
     std::uint64_t rows_;
 };
 
-/// Hands each rank its pieces, one a round.
+/// Gives each rank its pieces, one in each round.
 template <Message T, class IdOf> class PieceStream {
 public:
     /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (checked as
@@ -95,7 +95,7 @@ public:
 private:
     static constexpr std::uint64_t rounds_per_exchange = 8;
     static constexpr std::size_t records_ahead =
-        64; ///< asked for early: they lie anywhere in memory
+        64; ///< prefetched, because they lie anywhere in memory
 
     void sort_by_piece() {
         first_in_order_.assign(pieces_.count() + 1, 0);
@@ -138,8 +138,8 @@ private:
         piece_[i] = record;
     }
 
-    /// Sends what is of the others' pieces of the next rounds, piece after piece, and takes what
-    /// comes.
+    /// Exchanges the records of the next rounds' pieces, piece after piece, with all
+    /// other ranks.
     void exchange() {
         for (int rank = 0; rank < communicator_.size(); ++rank) {
             std::vector<T>& out = out_[static_cast<std::size_t>(rank)];
@@ -154,7 +154,7 @@ private:
         n_taken_.assign(received_.n_senders(), 0);
     }
 
-    /// Places what every sender has sent of the piece: returns how many.
+    /// Places the records of the piece from every sender, and returns their number.
     std::size_t place_received(std::uint64_t piece) {
         std::size_t n_placed = 0;
         for (std::size_t k = 0; k < received_.n_senders(); ++k) {
@@ -179,8 +179,8 @@ private:
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;
     std::vector<std::vector<T>> out_;
-    Received<T> received_;             ///< by each sender in the order of pieces
-    std::vector<std::size_t> n_taken_; ///< of each sender's
+    Received<T> received_;             ///< from each sender in the order of pieces
+    std::vector<std::size_t> n_taken_; ///< by sender
 };
 
 } // namespace carrom

@@ -38,7 +38,7 @@ template <class T, class Less> std::vector<T> merge_groups(Received<T> in, const
     return std::move(in.items);
 }
 
-/// Every rank's list on rank 0, nothing elsewhere.
+/// Returns every rank's list on rank 0, and nothing on the others.
 template <Message T>
 Received<T> collect_on_root(const Communicator& communicator, std::vector<T> mine) {
     std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
@@ -46,8 +46,8 @@ Received<T> collect_on_root(const Communicator& communicator, std::vector<T> min
     return send_to_owners(communicator, out);
 }
 
-/// The records that open slices 1 .. n_slices - 1, the same on all ranks; none if no rank has a
-/// record.
+/// Returns the first records of slices 1 .. n_slices - 1, the same on all ranks;
+/// nothing if no rank has a record.
 template <Message T, class Less>
 std::vector<T> choose_splitters(const Communicator& communicator, const std::vector<T>& sorted,
                                 const Less& less, int n_slices) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records with ids 0 .. n-1 in equal shares by id: how arrays that belong to the run, not to a
-// rank, are laid out.
+// Records with ids 0 .. n-1 in equal shares by id. Arrays that belong to the run, not
+// to a rank, are laid out like this.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace carrom {
 
-/// The first id of a rank's slab; that of rank `size` is n. Slabs differ by at most one record,
-/// larger ones first.
+/// The first id of a rank's slab; slab `size` begins at n. Slabs differ by at most one
+/// record, larger ones first.
 inline std::uint64_t slab_begin(int rank, std::uint64_t n, int size) {
     const auto r = static_cast<std::uint64_t>(rank), p = static_cast<std::uint64_t>(size);
     return r * (n / p) + std::min(r, n % p);
 }
 
-/// Ids [begin, end).
+/// The ids [begin, end).
 struct Slab {
     std::uint64_t begin = 0, end = 0;
 

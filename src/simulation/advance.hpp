@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop of every run: steps to a wanted step, with something to do between steps.
+// The loop of every run: it advances to a wanted step, and calls actions between steps.
 #pragma once
 
 #include <cstdint>

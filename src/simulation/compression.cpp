@@ -22,11 +22,11 @@ namespace carrom {
 namespace {
 
 constexpr double first_packing = 0.3; ///< of the random gas
-/// Of radii in a stretch: at first, at most, and of the room that is left.
+/// Shares by which radii grow in a stretch: at first, at most, and of the room that is left.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
-/// With less room discs have jammed. The pressure is then N kT / A over this.
+/// With less room discs have jammed: the pressure is N kT / A over the room.
 constexpr double jammed_room = 1e-6;
-/// Radii grow by so much more than is wanted, so that rounding leaves no overlap.
+/// Radii grow by this share more than is wanted, so that rounding leaves no overlap.
 constexpr double margin = 0x1p-30;
 
 class Compression {
@@ -35,7 +35,7 @@ public:
         : scene_(scene), communicator_(communicator), tuning_(tuning),
           size_(std::min(1.0, std::sqrt(first_packing / scene.packing()))) {}
 
-    /// Places, and velocities of no meaning.
+    /// Returns places; the velocities have no meaning.
     std::vector<InputDisc> run() {
         discs_ = insert_at_random(stretch(), communicator_);
         if (size_ == 1) return std::move(discs_);
@@ -76,10 +76,10 @@ private:
         return scene;
     }
 
-    /// Discs begin and end with a root mean square speed of 1; in the stretch's step they fly as
-    /// far as the rate of growth asks for. Returns the growth that is left before discs jam: the
-    /// nearer they come, the faster they heat up. Where gaps shrink from a to b, speeds grow by a /
-    /// b.
+    /// Discs begin and end with a root mean square speed of 1. In the stretch's step
+    /// they fly as far as the rate of growth asks for. Returns the growth that is left
+    /// before discs jam: the nearer they come to that, the faster they heat up. If
+    /// gaps shrink from a to b, speeds grow by a / b.
     double run_stretch() {
         const double speed = 2 * scene_.radius * size_ * growth_ / scene_.growth_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;
@@ -115,7 +115,7 @@ private:
     const Scene& scene_;
     const Communicator& communicator_;
     const Tuning& tuning_;
-    double size_;                  ///< of radii, over what is wanted
+    double size_;                  ///< of radii, over the wanted ones
     double growth_ = first_growth; ///< in the next stretch, as a share
     std::vector<InputDisc> discs_;
 };

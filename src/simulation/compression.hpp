@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dense starts by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990)), and the
-// one way to the discs that a scene starts with.
+// Dense starts by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561
+// (1990)), and the only function that returns the discs that a scene starts with.
 //
-// A random gas of small discs runs under the event-driven method while radii grow, in stretches.
-// After each stretch speeds are scaled back. From a stretch's heating follows how much room is
-// left, and from that how far discs grow in the next one. All of it follows from exact sums, so the
-// discs have the same bits on any ranks and threads.
+// A random gas of small discs runs under the event-driven method while radii grow, in
+// stretches. After each stretch speeds are scaled back. The heating in a stretch shows
+// how much room is left, and this decides how far discs grow in the next one. All sums
+// are exact, so the discs have the same bits on any ranks and threads.
 #pragma once
 
 #include <istream>
@@ -17,13 +17,13 @@
 
 namespace carrom {
 
-/// The places of a scene whose generator is "compressed", in any distribution over the ranks, and
-/// velocities as for other generators. Throws InputError on every rank if the discs jam before they
-/// have their radii. **Collective.**
+/// Returns the places of a scene whose generator is "compressed", in any distribution
+/// over the ranks, with velocities that other generators would give. Throws InputError
+/// on every rank if the discs jam before they have their radii. **Collective.**
 std::vector<InputDisc> compressed_discs(const Scene& scene, const Communicator& communicator,
                                         const Tuning& tuning);
 
-/// As load_discs, for every generator. **Collective.**
+/// Returns load_discs, or compressed discs, for any generator. **Collective.**
 std::vector<InputDisc> first_discs(const Scene& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 

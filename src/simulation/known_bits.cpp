@@ -27,7 +27,7 @@ const char* known_hash(Method method) {
                                           : "27f1b7fd3822c8519554c9040e1df5c3";
 }
 
-/// Discs on a square lattice, at a packing fraction of 0.4, whose velocities have no pattern.
+/// Discs on a square lattice at a packing fraction of 0.4, with velocities without a pattern.
 std::string hash_of(Method method) {
     Scene scene;
     scene.box = {side, side};

@@ -27,11 +27,11 @@ constexpr std::size_t discs_in_part = 1 << 16;
 /// of the box. Without it all discs would move when it grows.
 constexpr double halo_per_root = 128;
 
-/// The same in many lists. What was one no longer exists then, though a parameter may live as long
-/// as the expression that the call is in.
+/// Moves the discs into many lists and frees the one list, which a parameter alone
+/// might keep until the end of the expression that the call is in.
 std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     std::vector<std::vector<InputDisc>> parts;
-    parts.reserve(discs.size() / discs_in_part + 1); // below them on the heap
+    parts.reserve(discs.size() / discs_in_part + 1); // allocated first, so it is below them
     for (auto begin = discs.begin(); begin != discs.end();
          begin += static_cast<std::ptrdiff_t>(parts.back().size()))
         parts.emplace_back(begin,
@@ -40,8 +40,8 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Uses the inputs up: they go as states come, for together they would be the most that a run
-/// keeps.
+/// Frees inputs as it makes states, because both together would take the most memory
+/// of a run.
 StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     StoredState state;
@@ -50,7 +50,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
-    for (; !parts.empty(); parts.pop_back()) { // from the end: there the heap shrinks
+    for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap shrinks
         for (const InputDisc& input : parts.back()) {
             Disc& disc = state.discs.emplace_back();
             disc.id = input.id;
@@ -76,7 +76,7 @@ std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state,
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
-/// A speed per micro-step that discs are likely to have, now or later; the same on all ranks.
+/// The speed per micro-step that discs are likely to have, now or later; the same on all ranks.
 double usual_speed(const Scene& scene, std::span<const Disc> own, const Communicator& ranks) {
     const Effects& effects = scene.effects;
     double fastest = 0;
@@ -141,7 +141,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
     const std::int64_t next = averages_->has_begun() ? averages_->next_look() : averages_from_;
     if (check_ && step() < last_step)
         advance_checked();
-    else // never beyond the first step after a sync
+    else // at most to the first step after a sync
         engine_->advance_towards(std::min(last_step, next));
     if (!averages_->has_begun() && step() >= averages_from_)
         average_anew();
@@ -150,7 +150,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
 }
 
 void Simulation::begin_stress_sums(double bound) {
-    if (stress_ && bound == stress_bound_) return; // it may go on from a checkpoint
+    if (stress_ && bound == stress_bound_) return; // the run may go on from a checkpoint
     stress_bound_ = bound;
     stress_ = std::make_unique<StressSums>(bound);
     engine_->add_stress_to(stress_.get());
@@ -224,7 +224,7 @@ void Simulation::go_on_averaging(std::span<const std::int64_t> words) {
         return;
     stress_.reset();
     begin_stress_sums(bound);
-    if (!communicator_.is_root()) return; // all ranks' sums are added up
+    if (!communicator_.is_root()) return; // the sums of all ranks are added later
     std::size_t next = 2;
     for (ExactSum* sum : stress_->parts()) {
         sum->add_words(static_cast<std::uint64_t>(words[next]),
@@ -308,12 +308,12 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
     engine_->forget_images();
 }
 
-/// Of all discs of the view that are no further than that beyond the own ones. The view is good
-/// until images are forgotten. **Collective.**
+/// The orders of all discs of the view that are at most `reach_beyond` from the own
+/// ones. The view is good until images are forgotten. **Collective.**
 LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
-    // Cells of a fluid are whole within three times the mean distance of neighbours.
+    // Voronoi cells of a fluid are whole within three times the mean distance of neighbours.
     for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs()));;
          reach *= 2) {
         const LocalView now = engine_->local_view(reach_beyond + reach);
@@ -340,7 +340,7 @@ std::vector<BondOrder> Simulation::bond_orders() const {
     const LocalView now = find_orders(0, orders);
     orders.resize(now.population.n_own);
     engine_->forget_images();
-    orders.resize(discs().size()); // departed discs lie behind, and have none
+    orders.resize(discs().size()); // departed discs come last, and have no order
     return orders;
 }
 

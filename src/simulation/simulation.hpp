@@ -37,13 +37,13 @@ struct WallImpulses;
 
 class Simulation {
 public:
-    /// Takes over `discs` as the scene has them (velocities per step, tau 0), in any distribution
-    /// over the ranks in any way.
+    /// Takes the scene's `discs` (velocities per step, tau 0), in any
+    /// distribution over the ranks. Velocities become those per micro-step.
     /// **Collective.**
     Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
                const Tuning& tuning);
-    /// Goes on from a stored state of the same scene, in any distribution over the ranks.
-    /// **Collective.**
+    /// Goes on from a stored state of the same scene, in any distribution over the
+    /// ranks. **Collective.**
     Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
     ~Simulation();
@@ -58,30 +58,30 @@ public:
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
     /// have left the box are among them (Disc::has_departed). Good until the next call.
     std::span<const Disc> discs() const;
-    /// Along `discs()`. Good until the next call.
+    /// The numbers of side columns along `discs()`. Good until the next call.
     SideSpans side_columns() const;
-    /// One of them, in angles per micro-step; empty where discs are not rough.
+    /// The spins, in angles per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
-    /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
+    /// The present time in micro-steps since the last sync, for Disc::x_at.
     double clock() const;
-    /// What the coordinates of `discs()` are in at `clock()`; the box's own unless there is
-    /// gravity.
+    /// The frame of the coordinates of `discs()` at `clock()`. It is the box's own
+    /// unless there is gravity.
     Frame frame() const;
-    /// The own discs as the box sees them at `clock()`: `discs()` itself unless there is gravity,
-    /// else good until the next call.
+    /// The own discs as the box sees them at `clock()`. This is `discs()` itself
+    /// unless there is gravity; else it is good until the next call.
     std::span<const Disc> shown() const;
-    /// What velocities are multiplied by to be per step.
+    /// The factor from stored velocities to velocities per step.
     double velocity_unit() const { return velocity_unit_; }
 
     /// From now on every collision is appended to `log` of one rank, in no particular order; null
     /// ends that.
     void log_to(std::vector<Collision>* log);
 
-    /// From now on what discs hand over to the sides of the box is added to `impulses` of one rank;
-    /// null ends that.
+    /// From now on the momentum that discs give to the sides of the box is added to
+    /// `impulses` of one rank; null ends that.
     void add_impulses_to(WallImpulses* impulses);
-    /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to
-    /// `crossings`, until it is forgotten.
+    /// From now on the box lengths by which syncs in a periodic box bring own discs
+    /// back are appended to `crossings`, until it is forgotten.
     void note_crossings_in(std::vector<Crossing>& crossings);
     void forget_crossings_in(std::vector<Crossing>& crossings);
     /// This rank's sums of stress since the simulation was made, up to the last sync and with all
@@ -121,20 +121,20 @@ public:
 
     /// Averages since the run's start, or since `average_anew`. **Collective.**
     Averages averages() const;
-    /// What `averages` and the sums of stress rest on, for a checkpoint; empty before they have
-    /// begun.
+    /// The numbers behind `averages` and the sums of stress, for a
+    /// checkpoint. They are empty before both have begun.
     /// **Collective.**
     std::vector<std::int64_t> stored_averages() const;
-    /// Goes on with those of a checkpoint of the present step, before any step. They begin anew
-    /// where there are none, or where averages are to be over other steps.
+    /// Goes on with the stored averages of a checkpoint of the present step, before any
+    /// step. Averages begin anew if there are none, or if they are to be over other steps.
     void go_on_averaging(std::span<const std::int64_t> words);
-    /// Forgets what has been averaged so far, as before a gas had come to equilibrium.
-    /// **Collective.**
+    /// Forgets all averages so far, for example those before a gas has come to
+    /// equilibrium. **Collective.**
     void average_anew();
 
     /// **Collective.**
     Totals totals() const;
-    /// Number, energies and momentum alone: two passes over the discs. **Collective.**
+    /// Number, energies and momentum alone, which takes two passes over the discs. **Collective.**
     Totals energies() const;
     RollbackCounts rollback_counts() const;
     PhaseSeconds phase_seconds() const;
@@ -143,9 +143,9 @@ private:
     void advance_checked();
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
     Look integrated_look() const;
-    /// As `shown()`, for whoever looks at velocities only.
+    /// Like `shown()`, but only the velocities are right.
     std::span<const Disc> in_motion() const;
-    /// The same without the mean flow between sheared sides, which is no temperature.
+    /// Like in_motion, without the mean flow between sheared sides, which is no temperature.
     std::span<const Disc> in_flow() const;
 
     Communicator communicator_;
@@ -154,7 +154,7 @@ private:
     SideColumnSet columns_;
     Box box_;
     int n_threads_;
-    double heaviest_ = 1; ///< mass of a disc
+    double heaviest_ = 1; ///< the largest mass of a disc
     double stress_bound_ = 1;
     std::int64_t averages_from_;
     std::unique_ptr<Engine> engine_;
@@ -162,9 +162,9 @@ private:
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
     mutable std::vector<Disc> shown_;       ///< under gravity
-    mutable std::vector<Disc> stored_;      ///< once discs have left
-    mutable SideColumns stored_columns_;    ///< likewise
-    std::vector<Collision>* log_ = nullptr; ///< the user's, while the check has a log of its own
+    mutable std::vector<Disc> stored_;      ///< once discs have left the box
+    mutable SideColumns stored_columns_;    ///< once discs have left the box
+    std::vector<Collision>* log_ = nullptr; ///< the user's log, while the check has its own
 };
 
 } // namespace carrom

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// A candidate as it travels: its key in the total order, and where its verdict has to go.
+/// A candidate in a message: its key in the total order, and where its verdict has to go.
 struct BoundaryResolution::Conflict {
     double time;
     DiscId p;
@@ -23,12 +23,12 @@ struct BoundaryResolution::Conflict {
     auto key() const { return std::tuple(time, p, second); }
 };
 
-/// What a rank says of a candidate with a disc of its own and one of another rank.
+/// What a rank reports of a candidate with one of its discs and one of another rank.
 struct BoundaryResolution::Statement {
     double time;
     DiscId p, q;
-    std::uint32_t number;      ///< among the undecided of the rank that says it
-    std::uint16_t is_first;    ///< for the own disc, among what is left
+    std::uint32_t number;      ///< among the undecided candidates of the rank that reports it
+    std::uint16_t is_first;    ///< for the own disc, among the candidates that are left
     std::uint16_t is_mine = 0; ///< found here, not received
 
     auto key() const { return std::tuple(time, p, q); }
@@ -55,7 +55,7 @@ void BoundaryResolution::resolve_boundary(const Population& population,
         mine.push_back({c.time, population.discs[c.p].id, population.discs[c.q].id,
                         static_cast<std::uint32_t>(k), is_first_[k]});
     }
-    // Who owns the other disc is not known here: all neighbours hear all of the few statements.
+    // The owner of the other disc is not known here, so all neighbours get these few statements.
     Received<Statement> received;
     with_neighbours_.exchange(neighbours, std::vector(neighbours.size(), mine), received);
     for (Statement& statement : mine) statement.is_mine = 1;
@@ -69,7 +69,7 @@ void BoundaryResolution::resolve_boundary(const Population& population,
         bool are_first = true;
         for (end = begin; end < mine.size() && mine[end].key() == mine[begin].key(); ++end)
             are_first = are_first && mine[end].is_first != 0;
-        const bool is_named_by_both = end - begin >= 2; // else one of its ranks has struck it
+        const bool is_named_by_both = end - begin >= 2; // else one of the ranks has struck it
         for (std::size_t k = begin; k < end; ++k) {
             if (mine[k].is_mine == 0 || (is_named_by_both && !are_first)) continue;
             const Candidate& c = undecided[mine[k].number];
@@ -82,8 +82,8 @@ void BoundaryResolution::resolve_boundary(const Population& population,
     walk_own(population, taken, is_struck, undecided, kept);
 }
 
-/// Of undecided candidates in total order, reports which come first for all of this rank's discs
-/// that they have.
+/// Reports which of the undecided candidates, in total order, come first for all of
+/// their discs that this rank owns.
 void BoundaryResolution::find_first(const Population& population,
                                     const std::vector<Candidate>& undecided) {
     is_first_.clear();
@@ -96,8 +96,8 @@ void BoundaryResolution::find_first(const Population& population,
     }
 }
 
-/// Decides what follows on this rank from the discs `taken` and the candidates struck, which are
-/// dropped.
+/// Decides what follows on this rank from the discs `taken` and the candidates struck,
+/// which are dropped.
 void BoundaryResolution::walk_own(const Population& population, Marks& taken,
                                   const std::vector<std::uint8_t>& is_struck,
                                   std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
@@ -168,7 +168,7 @@ void BoundaryResolution::sort(const Population& population, std::vector<Candidat
     undecided.clear();
 }
 
-/// The candidates of a sorted slice that happen, all copies of each; `taken` grows by their discs.
+/// Returns all copies of a sorted slice's candidates that happen; adds their discs to `taken`.
 std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(
     const std::vector<Conflict>& slice, std::vector<DiscId>& taken) const {
     std::unordered_set<DiscId> is_taken(taken.begin(), taken.end());
@@ -176,7 +176,7 @@ std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(
     for (std::size_t begin = 0, end = 0; begin < slice.size(); begin = end) {
         const Conflict& c = slice[begin];
         while (end < slice.size() && slice[end].key() == c.key()) ++end;
-        if (end - begin != c.n_copies) continue; // one of its ranks has struck it
+        if (end - begin != c.n_copies) continue; // one of the ranks has struck it
         const bool is_wall = c.second == 0;
         if (is_taken.contains(c.p) || (!is_wall && is_taken.contains(c.second - 1))) continue;
         is_taken.insert(c.p);

@@ -36,14 +36,14 @@ public:
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
                           std::vector<Candidate>& undecided, std::vector<Candidate>& kept);
 
-    /// Appends to `kept` those of this rank's `undecided` that happen; none is left undecided.
-    /// `n_conflicts` is their number over all ranks. **Collective.**
+    /// Appends to `kept` those of this rank's `undecided` candidates that happen, and
+    /// leaves none undecided. `n_conflicts` is their number over all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
                 std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
                 std::vector<Candidate>& kept);
 
-    int rounds_before_sort = 6;                ///< cost only; of `decide`
-    std::uint64_t candidates_per_slice = 8192; ///< cost only
+    int rounds_before_sort = 6;                ///< rounds of `decide`; affects the cost only
+    std::uint64_t candidates_per_slice = 8192; ///< affects the cost only
 
 private:
     struct Conflict;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A collision that may happen, and the total order that says which of two comes first.
 //
-// A candidate names its discs by their places in this rank's arrays; their ids are looked up only
-// to break ties.
+// A candidate names its discs by their places in this rank's arrays. Their ids are
+// read only to break ties.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct Candidate {
 };
 static_assert(sizeof(Candidate) == 16);
 
-/// Time, then id of P, then wall before pair, then id of Q: exactly, never with a tolerance.
+/// Orders by time, then id of P, then wall before pair, then id of Q: exactly, without a tolerance.
 class TotalOrder {
 public:
     explicit TotalOrder(std::span<const Disc> discs) : discs_(discs) {}
@@ -33,7 +33,7 @@ public:
     bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
-            return discs_[a.p].id < discs_[b.p].id; // or two images of one
+            return discs_[a.p].id < discs_[b.p].id; // the ids may be equal: two images of one disc
         if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
         return discs_[a.q].id < discs_[b.q].id;
     }
@@ -42,8 +42,8 @@ private:
     std::span<const Disc> discs_;
 };
 
-/// Whether neither disc has been hit since the prediction, before which the last state of any was
-/// `seen`; `states` by disc.
+/// Whether neither disc has been hit since the prediction, which saw the state `seen`
+/// as the last one of any disc. `states` is indexed by disc.
 inline bool is_current(const Candidate& candidate, WindowState seen,
                        std::span<const WindowState> states) {
     return states[candidate.p] <= seen && (candidate.is_wall() || states[candidate.q] <= seen);

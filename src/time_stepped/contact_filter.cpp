@@ -19,7 +19,7 @@ namespace carrom::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A flight in every lane of a vector.
+/// One flight in every lane of a vector.
 template <class D> struct Broadcast {
     HeldVector<D> x, y, vx, vy, touching;
 
@@ -28,11 +28,11 @@ template <class D> struct Broadcast {
           vy(hold(d, lanes.vy[slot])), touching(hold(d, touching_squared)) {}
 };
 
-/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits: those
-/// that are near already, and those that approach, do not pass by, and arrive before the window
-/// ends. Let d be the separation and w the relative velocity over the window, b = d.w, a = w.w, and
-/// c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's end, is less than
-/// 18 * 2^-24 a d.d. So c with d.d shortened by 2^-19 loses no contact.
+/// Which flights of the vector that begins at `slot` might touch `flight`, as bits: those
+/// that are near already, and those that approach, do not pass by, and arrive before the
+/// window ends. Let d be the separation and w the relative velocity over the window, b =
+/// d.w, a = w.w, c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's
+/// end, is less than 18 * 2^-24 a d.d. So c with d.d shortened by 2^-19 loses no contact.
 template <class D>
 HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
                                           std::uint32_t n_inside, const Broadcast<D>& flight) {
@@ -44,17 +44,17 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
     const auto c = hn::MulSub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Set(d, 1 - 0x1p-19f),
                               vector_of(d, flight.touching));
-    const auto b_end = hn::Add(b, a); // b at the window's end, and so on
+    const auto b_end = hn::Add(b, a); // b at the window's end
     const auto c_end = hn::Add(hn::Add(b, b_end), c);
-    // Each condition as a number that is not positive where it holds, so that one comparison does
-    // for all of them.
+    // Each condition is a number that is not positive if it holds, so that one
+    // comparison serves all of them.
     const auto passes_by = hn::MulAdd(b, hn::Abs(b),
-                                      hn::Mul(a, c)); // where c > 0: approaches, and b^2 >= a c
+                                      hn::Mul(a, c)); // if c > 0: approaches, and b^2 >= a c
     const auto too_late = hn::Min(hn::Neg(b_end), c_end);
     const auto misses = hn::Min(c, hn::Max(passes_by, too_late));
     const auto keep = hn::Le(misses, hn::Zero(d));
-    // Read back as wide as it was written: a wider load would have to wait until the store has
-    // reached the cache.
+    // Read back as wide as it was written, because a wider load would wait until the
+    // store has reached the cache.
     using Bits =
         std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t,
                            std::conditional_t<hn::MaxLanes(d) <= 16, std::uint16_t, std::uint64_t>>;
@@ -88,15 +88,15 @@ template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t
     return buffer.data();
 }
 
-/// touching^2 for find_near_passes, whose d x w is wrong by 5 * 2^-24 |d| |w| at most.
+/// touching^2 for find_near_passes, whose d x w has an error of at most 5 * 2^-24 |d| |w|.
 float passing_squared(const CellGrid& grid, float touching_squared) {
     const float margin = 0x1p-21f * 4 * static_cast<float>(grid.geometry().n_reach + 2);
     const float passing = std::sqrt(touching_squared) + margin;
     return passing * passing * (1 + 0x1p-20f);
 }
 
-/// A vector of flights, from slot `other` on, that holds one which does not pass that of `first`
-/// by.
+/// A vector of flights, from slot `other` on, with a flight that does not pass by that
+/// of `first`.
 struct NearPass {
     std::uint32_t first, other, n_inside;
 };
@@ -128,10 +128,10 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
     return n;
 }
 
-/// Discs of a cell whose partners are listed at a time: in a box of one cell it holds all of them.
+/// The partners of so many discs of a cell are listed at a time. A box of one cell has all in it.
 constexpr std::uint32_t discs_in_piece = 256;
 
-/// FilterColumn where discs fly much further than they are wide.
+/// FilterColumn for discs that fly much further than they are wide.
 template <class D>
 HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column,
                                            float touching_squared, std::vector<DiscPair>& pairs) {
@@ -175,7 +175,7 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
     return n_pairs;
 }
 
-/// FilterColumn where they do not.
+/// FilterColumn for all other discs.
 template <class D>
 HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column,
                                             float touching_squared, std::vector<DiscPair>& pairs) {
@@ -205,7 +205,7 @@ HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int colum
     return n_pairs;
 }
 
-/// write_pairs with the halo's discs of `run`, that are slots there.
+/// Does what write_pairs does for the halo's discs of `run`, which are slots of the halo.
 template <class D>
 HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                         const CellGrid& grid, SlotRange run,
@@ -217,7 +217,7 @@ HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::ui
     return n_now;
 }
 
-/// The column's own discs with those of the halo.
+/// Writes the pairs of the column's own discs with discs of the halo.
 template <class D>
 HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float touching_squared,
                                    std::vector<DiscPair>& pairs, std::size_t n_pairs) {
@@ -251,7 +251,7 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
                            : n_pairs;
 }
 
-/// A flight between two times, as cells.
+/// A flight between two times, in cells.
 struct Path {
     float x_begin, x_end, y_begin, y_end;
 
@@ -271,8 +271,8 @@ struct CellsAround {
           last_row(grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach)) {}
 };
 
-/// Pairs of a flight, which counts as `first`, with the own discs in `cells`, and with the halo's
-/// there if they are wanted.
+/// Writes the pairs of a flight, which counts as `first`, with own discs in `cells`,
+/// and, if wanted, with the halo's discs there.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D>& flight,
                                     std::uint32_t first, const CellsAround& cells, bool with_halo,
@@ -284,7 +284,7 @@ HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D
                                               room(pairs, n_pairs, run.end - run.begin), n_pairs);
     }
     for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column) {
-        if (!grid.has_halo_in(column)) continue; // as nearly all
+        if (!grid.has_halo_in(column)) continue; // nearly all columns have none
         n_pairs = write_halo_pairs(d, flight, first, grid,
                                    grid.halo_run(column, cells.first_row, cells.last_row), pairs,
                                    n_pairs);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of pairs, many lanes at a time: which flights of a run of slots might touch a
-// given disc's in this window. It may keep pairs that never touch; it never loses one that does.
-// The widest instruction set that the machine has is chosen when the program runs.
+// The first rejection of pairs, many lanes at a time: which flights of a run of slots
+// might touch a given disc's in this window. It may keep pairs that never touch, but loses
+// none that do. The widest instruction set of the machine is chosen when the program runs.
 #pragma once
 
 #include <cstddef>
@@ -19,16 +19,16 @@ namespace carrom {
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
                           std::vector<DiscPair>& pairs);
 
-/// Writes to `pairs`, behind the first `n_pairs`, the disc with each that it might touch between
-/// the fraction `from` of the window and its end. Pairs of halo discs are left out. Returns how
-/// many pairs there are now. Only cells within `half_reach` of that part of its path are looked at:
-/// so far from where two discs touch can the other one's cell be.
+/// Writes to `pairs`, behind the first `n_pairs`, the disc with each disc that it might touch
+/// between the fraction `from` of the window and its end. Omits pairs of halo discs. Returns
+/// the new number of pairs. Only cells within `half_reach` of that part of the path are
+/// searched, because the other disc's cell is no further than that from where the two touch.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
                           float touching_squared, std::vector<DiscPair>& pairs,
                           std::size_t n_pairs);
 
-/// The same for disc k of those that the grid has set apart, for all of the window; `first` is k.
-/// With filter_apart_pairs `second` is another place among those set apart, after k.
+/// filter_around for disc k of those that the grid has set apart, over the whole window; `first`
+/// is k. In filter_apart_pairs `second` is another place among the discs set apart, after k.
 std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach,
                          float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs);
 std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared,

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-// Marks beside candidate numbers.
+// Values of marks that are no candidate numbers.
 constexpr std::uint32_t free_disc = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t taken_disc = free_disc - 1;
 constexpr std::uint32_t blocked_disc = free_disc - 2;
@@ -27,15 +27,15 @@ void write(std::uint32_t& mark, std::uint32_t value) {
     std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
 }
 
-/// Puts candidate `number` into `mark` if it comes before the one that is there. Where threads do
-/// so at once one of them may be lost.
+/// Puts candidate `number` into `mark` if it comes before the one there. If threads do
+/// so at once, an offer may be lost.
 void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
            const TotalOrder& before) {
     const std::uint32_t seen = read(mark);
     if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
 }
 
-/// The same when all have offered, for what was lost then: hardly any.
+/// Offers again when all threads are done, for the few offers that were lost.
 void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
             const TotalOrder& before) {
     std::atomic_ref<std::uint32_t> place(mark);
@@ -89,7 +89,7 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
         first_[candidate.p] = taken_disc;
         if (!candidate.is_wall()) first_[candidate.q] = taken_disc;
     }
-    // Every rival of what was kept is struck: the discs' marks are no longer needed.
+    // All rivals of the kept candidates are struck, so the discs' marks are not needed any more.
     const auto is_struck = [&](const Candidate& candidate) {
         const bool p_taken = first_[candidate.p] == taken_disc,
                    q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
@@ -105,7 +105,7 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
     return verdicts.kept.size() - old_kept;
 }
 
-/// Makes room for what all threads have kept and left, and says where each thread's part goes.
+/// Makes room for what all threads have kept and left, and assigns each thread its part.
 void LocalResolution::join_lists(std::vector<Candidate>& live, Verdicts& verdicts) {
     std::size_t kept_end = verdicts.kept.size(), live_end = 0;
     for (std::size_t thread = 0; thread < kept_by_thread_.size(); ++thread) {
@@ -163,7 +163,7 @@ std::size_t LocalResolution::round_together(const Population& population,
             if (!candidate.is_wall() && !q_taken) write(first_[candidate.q], free_disc);
             if (!p_taken && !q_taken) rest.push_back(candidate);
         }
-        // Every rival of what was kept is struck: the discs' marks are no longer needed.
+        // All rivals of the kept candidates are struck, so the marks are not needed any more.
         for (const Candidate& candidate : kept) {
             write(first_[candidate.p], free_disc);
             if (!candidate.is_wall()) write(first_[candidate.q], free_disc);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which candidates of one micro-step (or part of one) happen, as far as this rank can decide.
+// Decides which candidates of one micro-step (or part of one) happen, as far as this rank can.
 //
 // The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate
 // that is first for both its discs is final, whatever comes later. To take all such, strike their
@@ -21,7 +21,7 @@ namespace carrom {
 
 struct Verdicts {
     std::vector<Candidate> kept;
-    std::vector<Candidate> undecided; ///< empty where there is no halo
+    std::vector<Candidate> undecided; ///< empty without a halo
     int n_rounds = 0;
 };
 
@@ -33,11 +33,11 @@ public:
     /// Decides `live`, which is used up. None of its discs is taken at the start.
     void resolve(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts);
 
-    int rounds_before_walk = 12; ///< cost only; 0 walks at once
+    int rounds_before_walk = 12; ///< affects the cost only; 0 walks at once
 
 private:
-    // A round: keeps what is first for both its discs, strikes its rivals from `live`, and says how
-    // many it has kept.
+    // One round: keeps the candidates that are first for both discs, strikes their
+    // rivals from `live`, and returns how many it has kept.
     std::size_t round_alone(const Population&, std::vector<Candidate>& live, Verdicts&);
     std::size_t round_together(const Population&, std::vector<Candidate>& live, Verdicts&);
     void join_lists(std::vector<Candidate>& live, Verdicts&);
@@ -48,7 +48,7 @@ private:
         first_; ///< by disc: the number of its first live candidate, or a mark
     std::vector<std::vector<Candidate>> kept_by_thread_, live_by_thread_;
     std::vector<std::pair<std::size_t, std::size_t>>
-        places_; ///< where a thread's kept and live ones go
+        places_; ///< where a thread's kept and live candidates go
     std::vector<LocalIndex> touched_;
 };
 

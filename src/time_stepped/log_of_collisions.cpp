@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the time-stepped engine logs of its collisions, where somebody follows them.
+// The time-stepped engine's log of collisions, for runs whose collisions are followed.
 #include <cmath>
 
 #include "time_stepped/time_stepped_engine.hpp"
@@ -12,7 +12,7 @@ void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results)
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
 }
 
-/// Two ranks may know of a collision: the one that owns the first disc logs it.
+/// Two ranks may know of a collision; the one that owns the first disc logs it.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
     const auto k = static_cast<double>(this->micro_steps_);
@@ -36,7 +36,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
     }
 }
 
-// What the engine's own file calls. The class itself is compiled there.
+// The functions that the engine's own file calls. The class itself is compiled there.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc>);             \
     template void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc>, int);

@@ -14,16 +14,16 @@ namespace carrom {
 
 namespace {
 
-/// Discs looked at later whose flights are asked for now.
+/// The flights around a disc are prefetched so many discs before it is searched.
 constexpr std::size_t around_ahead = 4;
 /// Discs whose partners are listed before any of them is judged.
 constexpr std::size_t hits_per_batch = 128;
 /// Pairs judged later whose states are asked for now: they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
-/// Pairs judged before a request to stop is looked for again.
+/// A request to stop is checked for after so many pairs.
 constexpr std::size_t pairs_per_look = 65536;
 
-/// What was predicted for the micro-steps from `from` on.
+/// Adds what was predicted for the micro-steps from `from` on.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
     lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].add(
         candidate, window.state_after(from - 1));
@@ -31,8 +31,8 @@ void add(SearchLists& lists, const Window& window, int from, int m, const Candid
 
 void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
 
-/// Calls ask(pair) some time before judge(pair), for the first n pairs. Leaves some out if a
-/// request to stop is overdue.
+/// Calls ask(pair) some time before judge(pair), for the first n pairs. Omits the rest
+/// if a request to stop is overdue.
 template <class Ask, class Judge>
 void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
                     const Judge& judge) {
@@ -73,8 +73,8 @@ std::vector<Candidate> SearchLists::take(std::size_t bucket, std::span<const Win
     return std::exchange(list.candidates, {});
 }
 
-/// What rejects in single precision: pairs by distance, walls by the position at the window's end,
-/// in cells along the grid's axis (x) and across it.
+/// The bounds of the rejection in single precision: of pairs by distance, and of walls by
+/// the position at the window's end, in cells along the grid's axis (x) and across it.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
     float touching_squared;
     float x_low, x_high, y_low, y_high;
@@ -132,7 +132,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
                                       const Window& window, const Bounds& bounds, int column,
                                       SearchLists& lists) const {
-    if (is_stop_overdue()) return; // then the engine gives up the step
+    if (is_stop_overdue()) return; // the engine gives up the step then
     lists.n_pairs = dynamics_.has_pairs()
                         ? filter_column(grid, column, bounds.touching_squared, lists.pairs)
                         : 0;
@@ -152,14 +152,14 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
     }
 }
 
-/// How far from a disc's path the cell of one that it touches can be. They are a diameter apart
-/// then, and the other one is half a reach less a radius from its cell.
+/// How far from a disc's path the cell of a disc that it touches can be. The two are a diameter
+/// apart then, and the other disc is at most half a reach less a radius from its cell.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach) const {
     return grid.cells_of(reach / 2 + dynamics_.radius() + dynamics_.slack());
 }
 
-/// Disc k of those set apart, with all others that come after it.
+/// Predicts disc k of those set apart with all others of them that come after it.
 template <class Dynamics>
 void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid,
                                      const Window& window, const Bounds& bounds, double reach,
@@ -198,7 +198,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
                 lists.pairs, lists.n_pairs,
                 [&](const DiscPair& pair) { prefetch(population.discs, pair.second); },
                 [&](const DiscPair& pair) {
-                    // A pair of hit discs is predicted once.
+                    // A pair of hit discs is predicted only once.
                     if (states[pair.second] != now || pair.first < pair.second)
                         predict_pair(population, window, from, pair.first, pair.second, lists);
                 });
@@ -211,15 +211,15 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
     }
 }
 
-/// Fills `lists.pairs` with the discs of `hit` and those that they might touch.
+/// Fills `lists.pairs` with the pairs of each disc of `hit` and the discs that it might touch.
 template <class Dynamics>
 void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, float from,
                                    float half_reach, std::span<const LocalIndex> hit,
                                    SearchLists& lists) const {
     lists.n_pairs = 0;
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
-        // What a disc needs lies in a dozen cache lines: ask for the cells first, then for
-        // the flights in them.
+        // A disc needs a dozen cache lines: prefetch the cells first, then the flights
+        // in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
         if (hit[k] != wall)

@@ -21,21 +21,21 @@
 
 namespace carrom {
 
-/// Candidates of one micro-step in the order in which they were predicted. When that was says which
-/// states they were predicted from: of the window's states so far none was later.
+/// The candidates of one micro-step, in sections by the time of prediction. A
+/// section's `seen` is the last of the window's states that existed then.
 struct MicroStepList {
     struct Section {
-        WindowState seen = 0; ///< the last state that any disc had then
+        WindowState seen = 0; ///< the last state of any disc at that time
         std::size_t begin = 0;
     };
     std::vector<Candidate> candidates;
     std::vector<Section> sections;
 
     void add(const Candidate& candidate, WindowState seen);
-    /// Takes out those of which a disc has been hit since; `states` by disc. What is left is no
-    /// longer in sections.
+    /// Removes candidates of which a disc has been hit since the prediction; `states`
+    /// is indexed by disc. The rest is not in sections any more.
     void drop_stale(std::span<const WindowState> states);
-    /// Makes the list empty, with room for so many.
+    /// Empties the list, and reserves room for `n_expected` candidates.
     void begin(std::size_t n_expected) {
         candidates.clear();
         candidates.reserve(n_expected);
@@ -46,11 +46,11 @@ struct MicroStepList {
 /// One thread's lists and scratch space.
 struct SearchLists {
     std::vector<MicroStepList> by_micro; ///< from the window's first micro-step on
-    std::size_t most_candidates = 0;     ///< that any of them has had
-    std::vector<DiscPair> pairs;         ///< the first n_pairs
+    std::size_t most_candidates = 0;     ///< the most that any of the lists has had
+    std::vector<DiscPair> pairs;         ///< only the first n_pairs count
     std::size_t n_pairs = 0;
 
-    /// Those of the list that are still current, which it loses.
+    /// Moves the candidates that are still current out of the list.
     std::vector<Candidate> take(std::size_t bucket, std::span<const WindowState> states);
 };
 
@@ -60,19 +60,19 @@ public:
     /// Another one of the same kind from now on: boxes that move are elsewhere after a sync.
     void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
-    /// Predicts everything in `window`. The grid must have been built for it; `reach` is that of
-    /// discs that it has not set apart.
+    /// Predicts all contacts in `window`. The grid must have been built for it.
+    /// `reach` is that of discs that the grid has not set apart.
     void predict_all(const Population& population, const CellGrid& grid, const Window& window,
                      double reach);
 
-    /// Predicts the discs `hit` (own or halo; `wall` stands for none) by micro-step `from` - 1, for
-    /// the window's micro-steps from `from` on. The grid and `states`, by disc, must know of it;
-    /// `reach` is the window's.
+    /// Predicts the contacts of the discs `hit` by micro-step `from` - 1 (own or halo;
+    /// `wall` stands for none) for the window's micro-steps from `from` on. The grid
+    /// and `states`, by disc, must be up to date. `reach` is the window's.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window,
                        int from, double reach, std::span<const LocalIndex> hit,
                        std::span<const WindowState> states);
 
-    /// Hands out the candidates of micro-step m that are still current; `states` by disc.
+    /// Returns the candidates of micro-step m that are still current; `states` is indexed by disc.
     std::vector<Candidate> collect(const Window& window, int m,
                                    std::span<const WindowState> states);
 

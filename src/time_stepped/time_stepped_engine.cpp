@@ -14,11 +14,11 @@ namespace carrom {
 
 namespace {
 
-/// Room for discs that a window's collisions make faster, before it has to be cut short: in
-/// equilibrium, and after one that was.
+/// By how much discs may become faster in a window before it is cut short: in
+/// equilibrium, and after a window that was cut.
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
-/// Threads with little to do cost more than they bring.
+/// Reduces the number of threads, because threads with little to do cost more than they save.
 Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator& communicator) {
     const auto per_thread = std::max<std::uint64_t>(1, tuning.discs_per_thread),
                n_ranks = static_cast<std::uint64_t>(communicator.size());
@@ -44,8 +44,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_to(std::int6
     while (n_micro_done_ < target) run_window(static_cast<int>(target - n_micro_done_));
 }
 
-/// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too
-/// fast for it.
+/// Runs one window of at most `n_left` micro-steps, to its end or to where discs
+/// become too fast for it.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_left) {
     const Window window = redistribute(n_left);
     {
@@ -70,8 +70,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_lef
     time_ = m;
 }
 
-/// Brings every disc to its strip, the halo to every strip and all into cells, for the window that
-/// it chooses.
+/// Chooses a window. Brings every disc to its strip, the halo to every strip, and all
+/// discs into cells for it.
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n_left) {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
     if (part_ == 0) {
@@ -101,8 +101,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
     Base::add_to(totals);
 }
 
-/// Halo discs will come from within `reach`. Cells are made for `usual_reach`; discs that are too
-/// fast for it will be set apart.
+/// Sets the reach of halo discs to `reach`, and makes cells for `usual_reach`. Discs
+/// that are too fast for these cells will be set apart.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
@@ -155,8 +155,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
     largest_speed_ = refreshed_speed_ > 0 ? std::exchange(refreshed_speed_, 0) : travel_speed_;
 }
 
-/// Where images move, a disc that comes to another row of boxes has another speed there without a
-/// collision. It may do so before the window's anchor.
+/// If images move, a disc that comes to another row of boxes has another speed there
+/// without a collision. It may come there before the window's anchor.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_images() {
     if constexpr (Dynamics::has_moving_images) {
         double fastest = 0;
@@ -173,7 +173,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate() {
     migrate_at(time_);
 }
 
-/// Discs went to their cells by their old flights. They are where the new ones take them, which
+/// Discs went to their cells by their old flights. They are where the new flights take them. These
 /// began when states changed, not before `unchanged_until_`. Between parts no state changes.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double time) {
     const double from = part_ > 0 ? redistributed_time_ : unchanged_until_;
@@ -185,13 +185,13 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double ti
     if (part_ == 0) unchanged_until_ = time_;
 }
 
-/// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the
-/// window allows for.
+/// Decides and applies micro-step m. Returns false, with nothing done, if discs have
+/// become faster than the window allows for.
 template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
     std::uint64_t n_candidates = 0;
-    { // the list is given back before others grow
+    { // the list is freed before others grow
         std::vector<Candidate> live = search_.collect(window, m, states_);
         n_candidates = count_ours(live);
         if (in_parts_) strike_taken(live);
@@ -202,8 +202,8 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
         across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided,
                                         verdicts_.kept);
     }
-    // Within a micro-step no disc flies on after its collision, so only later ones have to worry
-    // about its speed.
+    // Within a micro-step no disc flies on after its collision, so its speed matters
+    // only for later micro-steps.
     std::uint64_t updates[] = {verdicts_.undecided.size(),
                                speed_exceeded_ && m > window.first_micro ? 1u : 0u,
                                is_stop_overdue() ? 1u : 0u};
@@ -224,7 +224,7 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     return true;
 }
 
-/// Two ranks may know of a candidate; it is ours if its first disc is.
+/// Two ranks may know of a candidate. It is counted by the owner of its first disc.
 template <class Dynamics>
 std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
     if (discs_.has_no_halo()) return candidates.size();
@@ -232,8 +232,8 @@ std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate>
     return static_cast<std::uint64_t>(std::ranges::count_if(candidates, is_ours));
 }
 
-/// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were
-/// candidates.
+/// Removes the candidates with a disc that an earlier part of this micro-step has
+/// taken. They still count as candidates.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) const {
     const auto is_taken = [&](LocalIndex index) {
@@ -253,7 +253,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
         largest_speed_ = std::max(largest_speed_, fastest);
         speed_exceeded_ = largest_speed_ > window_speed_;
     }
-    if (m + 1 >= window.end_micro()) return; // the window needs these states no more
+    if (m + 1 >= window.end_micro()) return; // the window does not need these states any more
     update_halo(window, m);
     const PhaseClock::Scope scope(phases_, Phase::search);
     const double reach = reach_of(window_needs(), window.duration());
@@ -293,7 +293,7 @@ template <class Dynamics>
     Disc& q = results[c.q];
     const PairStress before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
-    // A spin does not affect the search, so it need not wait for a cut micro-step's end.
+    // A spin does not affect the search, so it need not wait for the end of a cut micro-step.
     if constexpr (Dynamics::has_spin) {
         std::vector<double>& spins = discs_.columns()[SideColumn::spin];
         dynamics_.collide(p, q, m, c.time, spins[c.p], spins[c.q]);
@@ -311,14 +311,14 @@ template <class Dynamics>
                 *this->work_ += work;
             }
     }
-    if constexpr (Dynamics::has_moving_images) // other ranks see to their own discs
+    if constexpr (Dynamics::has_moving_images) // other ranks count their own discs
         return std::max(c.p < discs_.n_own() ? dynamics_.squared_speed(p) : 0,
                         c.q < discs_.n_own() ? dynamics_.squared_speed(q) : 0);
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
 
-/// Carries out what was kept and returns the largest speed after it. Notes the discs for another
-/// search, unless the window ends here.
+/// Carries out the kept candidates and returns the largest speed afterwards. Notes the
+/// discs for another search, unless the window ends here.
 template <class Dynamics>
 double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
                                                 std::vector<Disc>& results) {
@@ -355,8 +355,8 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
     return std::sqrt(fastest);
 }
 
-/// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this
-/// rank has not struck itself.
+/// Exchanges new states with the neighbours. Appends to `hits_` the halo's discs that
+/// this rank has not hit itself.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;

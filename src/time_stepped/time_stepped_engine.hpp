@@ -76,13 +76,13 @@ private:
     bool in_parts_ = false;      ///< whether the present micro-step is cut
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
 
-    double refreshed_speed_ = 0; ///< the largest of all discs at the last sync, then 0 again
+    double refreshed_speed_ = 0; ///< the largest speed at the last sync, then 0 again
     double unchanged_until_ = 0; ///< no state has changed before it since the last migration
 
-    double speed_allowance_ = 1.02;  ///< of the next window, over the largest speed
+    double speed_allowance_ = 1.02;  ///< for the next window, over the largest speed
     double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
-    double window_speed_ = 0;        ///< what the window's reach allows for
-    double usual_speed_ = 0;         ///< what its cells allow for
+    double window_speed_ = 0;        ///< the speed that the window's reach allows for
+    double usual_speed_ = 0;         ///< the speed that its cells allow for
     SpeedSpread spread_;             ///< at the start of the last micro-step that was cut
     bool speed_exceeded_ = false;
 
@@ -91,7 +91,7 @@ private:
     BoundaryResolution across_strips_;
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
-    std::vector<Disc> unhit_; ///< for the log: the first disc of each kept candidate, before it
+    std::vector<Disc> unhit_; ///< for the log: each kept candidate's first disc, before it
     std::vector<WindowState> states_; ///< by disc
 
     // Candidates whose first disc is own.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A slice of time that is searched at once: several whole micro-steps, or a part of one when discs
-// are fast.
+// A slice of time that is searched at once: several whole micro-steps, or a part of
+// one if discs are fast.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Which of its states a disc is in: 0 for the one at the window's start, n + 1 for the one of the
-/// window's micro-step n, counted from 0. One byte a disc to look at instead of a cache line.
+/// The number of a disc's state: 0 at the window's start, n + 1 after the window's micro-step
+/// n, counted from 0. Comparing it reads one byte for each disc instead of a cache line.
 using WindowState = std::uint8_t;
 inline constexpr int longest_window = 254; ///< micro-steps
 
@@ -30,9 +30,9 @@ struct Window {
     WindowState state_after(int m) const { return static_cast<WindowState>(m - first_micro + 1); }
     double begin() const { return first_micro + part_begin; }
     double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
-    /// Strips and cells are those of places at this time. From the middle no disc gets further away
-    /// than half the window takes it. Discs that fly on after a collision could, so a window of
-    /// several micro-steps uses its start.
+    /// Strips and cells are made for places at this time. If it is the middle of the
+    /// window, no disc gets further away than half the window takes it. Discs that fly
+    /// on after a collision could, so a window of several micro-steps uses its start.
     double anchor() const {
         return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2;
     }
