@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t longest_path = 4096;
 constexpr double largest_chunk = 256 << 20;
-constexpr double largest_ratio = 1100; ///< deflate makes 1032 bytes of one at most
+constexpr double largest_ratio = 1100; ///< deflate makes at most 1032 bytes of one
 
 bool is_known_type(hid_t type) {
     const H5T_class_t kind = H5Tget_class(type);
@@ -22,7 +22,7 @@ bool is_known_type(hid_t type) {
            (kind == H5T_STRING && H5Tis_variable_str(type) == 0);
 }
 
-/// A recording's numbers stand in segments beside it, each as large as they need.
+/// The numbers of a recording are in segments beside it, each as large as its rows need.
 void check_segments_of(const Dataset& dataset, hid_t creation, const std::string& name,
                        std::size_t bytes_per_number) {
     std::size_t n_parts = 0;
@@ -49,7 +49,7 @@ void check_segments_of(const Dataset& dataset, hid_t creation, const std::string
         throw FileError(name + " has other parts than this program writes");
 }
 
-/// HDF5 takes memory for a whole chunk, whatever is read of it.
+/// HDF5 allocates a whole chunk, however little of it is read.
 void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_per_number) {
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int rank = checked(H5Pget_chunk(creation, H5S_MAX_RANK, sizes.data()), name);
@@ -92,7 +92,7 @@ Dataset open_checked(hid_t parent, const std::string& name, const std::optional<
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last) {
     const Dataset dataset = open_checked(file, path, Shape{std::nullopt});
     std::uint64_t low = 0, high = n_rows_of(dataset.id());
-    while (low < high) { // by halves: a log of collisions may have billions
+    while (low < high) { // bisection, because a log of collisions may have billions of rows
         const std::uint64_t middle = low + (high - low) / 2;
         std::int64_t number = 0;
         read_rows(dataset.id(), {middle, middle + 1}, H5T_NATIVE_INT64, &number);

@@ -33,7 +33,7 @@
 
 namespace carrom {
 
-/// What a checkpoint says of its run. Texts are the scene's own, to read it again with.
+/// The description of the run in a checkpoint. Texts are the scene's own, to read it again.
 struct CheckpointHeader {
     std::string program_version;
     std::string scene_name, scene_text, scene_overrides; ///< overrides: one `key=value` a line
@@ -41,7 +41,7 @@ struct CheckpointHeader {
     std::int64_t scene_discs_follow = 0;
 
     double box_size = 0, radius = 0; ///< box_size: along x
-    double box_height = 0;           ///< along y; in the file only where it is another one
+    double box_height = 0;           ///< along y; in the file only if it differs from box_size
     std::string method;              ///< "time-stepped" or "event-driven"
     std::int64_t micro_steps = 1, sync_every = 1;
 
@@ -50,36 +50,36 @@ struct CheckpointHeader {
     std::uint64_t wall_collisions = 0,
                   pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
     std::string state_hash;
-    Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
+    Frame frame; ///< the frame of the discs' coordinates; in the file only if it moves
     std::vector<Species>
-        species; ///< where a file of discs had them, for the scene's text has not; else empty
-    SideColumnSet columns; ///< what discs have beside their states; the state hash covers it
-    RecordedSystem shown;  ///< what other programs see. Not read.
+        species; ///< if a file of discs had them, because the scene's text does not; else empty
+    SideColumnSet columns; ///< the numbers beside the states; the state hash covers them
+    RecordedSystem shown;  ///< H5MD metadata for other programs; Carrom does not read it
 
     Box box() const { return {box_size, box_height}; }
     void set_box(const Box& box) { box_size = box.x, box_height = box.y; }
 
-    /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the
-    /// discs' own times belong to.
+    /// Micro-steps since the last sync, or the frame's clock at that time. The discs'
+    /// own times belong to it.
     double clock() const {
         return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every);
     }
 };
 
-/// Says in words how the run `there` differs from the present one; nothing where it does not.
-/// Called on rank 0.
+/// Describes the difference between the run `there` and the present one; empty if
+/// there is none. Called on rank 0.
 using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
-/// How the numbers of discs come to disk.
+/// How the numbers of discs are written to disk.
 struct WriteSettings {
-    int n_threads = 1;          ///< of a rank, that pack; one more writes
+    int n_threads = 1;          ///< threads of a rank that pack; one more writes
     bool is_collective = false; ///< MPI-IO chooses ranks that write for all (aggregators)
 };
 
-/// Writes `discs`, in any distribution, as a whole file or not at all: beside its place first,
-/// brought to disk, then renamed. `columns` run along the discs where the header has
-/// some. The header's counters and its hash are filled in here. If it fails on any rank every rank
-/// throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
+/// Writes `discs`, in any distribution, as a whole file or not at all: under another name
+/// first, brought to disk, then renamed. `columns` run along the discs, if the header has
+/// some. Fills in the header's counters and hash. If it fails on any rank, every rank throws
+/// CollectiveError, code 4, and an older file of that name is unchanged. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
                       const Communicator& communicator, const WriteSettings& settings = {},
                       const StoredSamples& samples = {}, const SideSpans& columns = {});
@@ -91,13 +91,13 @@ struct Checkpoint {
     StoredSamples samples;
 };
 
-/// Reads a checkpoint. If it is damaged in any way, of version 0.1, or none, every rank throws
-/// CollectiveError, code 2, with the reason after the path. **Collective.**
+/// Reads a checkpoint. If it is damaged in any way, of version 0.1, or no checkpoint, every
+/// rank throws CollectiveError, code 2, with the reason after the path. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
-/// The header of a checkpoint whose bytes have their checksums: all are read. Throws like
-/// `read_checkpoint` where it is damaged or cannot be read at all. None of other files of ours,
-/// which are not checked. **Collective.**
+/// Reads all bytes of a checkpoint and checks them by its checksums; returns its
+/// header. Throws like `read_checkpoint` if it is damaged or cannot be read. Returns
+/// nothing for other files of Carrom, which are not checked. **Collective.**
 std::optional<CheckpointHeader> check_damage(const std::string& path,
                                              const Communicator& communicator);
 

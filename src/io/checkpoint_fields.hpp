@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a checkpoint holds beside the columns of discs (disc_columns.hpp), in tables that writer,
-// reader and comparison loop over.
+// The contents of a checkpoint beside the columns of discs (disc_columns.hpp), in
+// tables that writer, reader and comparison loop over.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ namespace carrom {
 
 inline constexpr const char* run_path = "/carrom/run";
 inline constexpr const char* species_path = "/carrom/species";
-/// In /carrom/format. Formats 1 and 2 began with a text instead of HDF5's signature.
+/// The number in /carrom/format. Formats 1 and 2 began with a text before HDF5's signature.
 inline constexpr std::int64_t checkpoint_format = 3;
 inline constexpr const char* format_path = "/carrom/format";
 
-/// Where the columns are.
+/// The path of a column in the file.
 inline std::string path_of(const StateColumn& column) {
     return std::string("/carrom/discs/") + column.name;
 }
@@ -49,12 +49,12 @@ template <class Header, class Visit> void visit_header(Header& header, const Vis
     visit("state_hash", header.state_hash);
 }
 
-/// What measurements and trajectories go on with: one number for each disc.
+/// A number of each disc that measurements or trajectories need to go on.
 struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
-    double most; ///< that measurements can go on with: in sides of the box where `in_sides`
+    double most; ///< the most that measurements can go on with; in sides of the box if `in_sides`
     bool in_sides = false;
 };
 inline constexpr double largest_double = std::numeric_limits<double>::max();
@@ -76,22 +76,22 @@ inline constexpr std::array<SampleColumn, 8> sample_columns = {
 hid_t type_of(const StateColumn& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
-/// From a file. Throws FileError where something is missing or of another kind. Leaves out species.
+/// Reads a header without species. Throws FileError if something is missing or of another kind.
 CheckpointHeader read_header(hid_t file);
-/// Species, a column each for counts, radii and masses; nothing where there are none. Throw
-/// FileError.
+/// Species in one column each for counts, radii and masses; nothing if there are none.
+/// Throw FileError.
 void write_species(hid_t file, const std::string& path, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs);
 
-/// A recording's run, by which no other one goes on with it: its scene's text as checkpoints have
-/// it, and the species of discs that a file had. Writes nothing where `run` has no text. Throws
-/// FileError.
+/// Writes the description of a recording's run, so that no other run goes on with the
+/// recording: the scene's text as in checkpoints, and the species of a file of discs.
+/// Writes nothing if `run` has no text. Throws FileError.
 void write_recorded_run(hid_t file, const CheckpointHeader& run);
-/// Throws FileError where the file names its run and `difference_from` knows a difference.
+/// Throws FileError if the file describes its run and `difference_from` finds a difference.
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from);
 
-/// Rows that are taken apart into columns, or put together from them, at a time: 1 MiB of discs, so
-/// that they stay in the L2 cache.
+/// Rows that are packed or unpacked at a time: 1 MiB of discs, so that they stay in
+/// the L2 cache.
 inline constexpr std::uint64_t rows_per_piece = 1 << 14;
 
 } // namespace carrom

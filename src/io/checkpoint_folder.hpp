@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checkpoints of a run in their folder: how they are named, which is the newest, which ones go.
+// The checkpoints of a run in their folder: names, the newest one, and those to remove.
 //
 // These are calls of one rank, on a folder that all ranks see.
 #pragma once
@@ -20,15 +20,15 @@ struct FoundFile {
     std::int64_t step = 0;
 };
 
-/// Files named like checkpoints, those of the latest step first. A folder that does not exist has
-/// none. Throws FileError if the folder cannot be listed, because then nobody knows what it has.
+/// Files named like checkpoints, the latest step first; none if the folder does not exist.
+/// Throws FileError if the folder cannot be listed, because then its contents are unknown.
 std::vector<FoundFile> find_checkpoints(const std::string& folder);
 
-/// Whether the file's name is one that `checkpoint_path` gives.
+/// Whether `checkpoint_path` could give this name of a file.
 bool is_named_as_checkpoint(const std::string& path);
 
-/// Makes the folder where there is none. Returns what keeps files from being written there, if
-/// anything does.
+/// Makes the folder if there is none. Returns the problem that keeps files from being
+/// written there, if there is one.
 WriteProblem write_problem_of_folder(const std::string& folder);
 
 } // namespace carrom

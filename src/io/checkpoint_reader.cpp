@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 looks at a file's metadata first, in a child process, for HDF5 may crash on forged ones.
-// Then it holds all bytes but the numbers of discs against their checksum, so HDF5 meets on all
-// ranks only what has been looked at. The ranks check and read the numbers by H5Dread through
-// MPI-IO, each its share.
+// Rank 0 first reads a file's metadata in a child process, because HDF5 may crash on
+// forged ones. Then it checks all bytes but the numbers of discs by their checksum, so
+// that HDF5 on all ranks meets only bytes that have been checked. The ranks check and
+// read the numbers by H5Dread through MPI-IO, each its share.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,8 +30,8 @@ constexpr const char* measurements_path = "/carrom/measurements";
 constexpr const char* averages_path = "/carrom/averages";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
-/// What no writer of this program would write; a file with right checksums that has it was made by
-/// something else.
+/// Refuses headers that no writer of this program would write. A file with right
+/// checksums that has one was made by something else.
 void check_header(const CheckpointHeader& header) {
     const Frame& frame = header.frame;
     const std::array finite = {frame.x,
@@ -55,7 +55,7 @@ void check_header(const CheckpointHeader& header) {
     if (!is_sound) throw FileError("its numbers contradict each other");
 }
 
-/// All that is in a file but the numbers of discs.
+/// The contents of a file, without the numbers of discs.
 struct Contents {
     CheckpointHeader header;
     Checksums sums;
@@ -130,7 +130,7 @@ Contents contents_of(const std::string& path) {
     return contents;
 }
 
-/// The same with a word for what HDF5 finds fault with.
+/// Checks and reads the contents; adds a word about what HDF5 finds wrong to its errors.
 Contents looked_through(const std::string& path) {
     try {
         return contents_of(path);
@@ -168,7 +168,7 @@ void broadcast(Contents& contents, const Communicator& communicator) {
 /// A checkpoint whose bytes have their checksums, open on all ranks.
 class WholeFile {
 public:
-    /// Throws CollectiveError on every rank unless all is well. **Collective.**
+    /// Throws CollectiveError on every rank if the file is damaged. **Collective.**
     WholeFile(const std::string& path, const Communicator& communicator)
         : path_(path), communicator_(communicator) {
         on_root(communicator_, path_, ExitCode::bad_input, [&] {
@@ -231,7 +231,7 @@ private:
     std::vector<h5::Dataset> datasets_;
 };
 
-/// Reads some discs at a time, so that they stay in cache. Throws FileError.
+/// Unpacks some discs at a time, so that they stay in cache. Throws FileError.
 std::vector<Disc> read_discs(const WholeFile& file, const Slab& share) {
     std::vector<Disc> discs(share.size());
     std::vector<std::uint64_t> numbers(std::min(rows_per_piece, share.size()));

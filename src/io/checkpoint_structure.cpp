@@ -31,7 +31,7 @@ void write_unit(hid_t parent, const char* name, const std::string& unit) {
     h5md::write_unit(h5::open_checked(parent, name).id(), unit);
 }
 
-/// A group of one frame: its step and time here, its `value` is the caller's.
+/// Makes a group of one frame with its step and time; the caller adds `value`.
 h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& header) {
     h5::Group group = h5::create_group(parent, name);
     h5::write_column(group.id(), "step", std::array{header.step});
@@ -40,7 +40,7 @@ h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& h
     return group;
 }
 
-/// Makes those data sets of discs whose paths begin so.
+/// Makes the data sets of discs whose paths begin with `path`.
 void create_columns(hid_t file, std::string_view path, const std::vector<DiscTarget>& targets,
                     hsize_t n_discs) {
     for (const DiscTarget& target : targets) {

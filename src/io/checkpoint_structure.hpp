@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A checkpoint's HDF5 file with all its structure and none of its numbers.
+// A checkpoint's HDF5 file with its whole structure and without its numbers.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +17,16 @@
 
 namespace carrom {
 
-/// A data set with one row for each disc, and how discs become its bytes.
+/// A data set with one row for each disc, and the function that turns discs into its bytes.
 struct DiscTarget {
     std::string path;
-    hid_t type; ///< of its numbers
+    hid_t type; ///< of the numbers
     std::uint64_t bytes_per_row = 0;
-    std::string unit; ///< for other programs; of what they do not read there is none
+    std::string unit; ///< for other programs; empty for data sets that they do not read
     std::function<void(std::span<const Disc>, std::byte*)> put;
 };
 
-/// Columns beside the states, of this rank's pieces (pieces.hpp), in the order of ids.
+/// Side columns of the discs in this rank's pieces (pieces.hpp), in the order of ids.
 struct SideOfPieces {
     DiscId first = 0;
     SideColumns columns;
@@ -36,24 +36,24 @@ struct SideOfPieces {
     }
 };
 
-/// The data sets of discs that a checkpoint has.
-/// `samples` and `columns` must outlive them.
+/// The data sets of discs that a checkpoint has. `samples` and `columns` must outlive
+/// them.
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SideOfPieces& columns);
 
-/// What is known of a state only once all its discs have been seen: sums of pairs of words, which
-/// threads and ranks may add up in any order. Collisions of discs with walls (`low`) and with discs
-/// (`high`; a pair counts twice), the state's hash, and the targets' checksums.
+/// Sums over a state that are known only after all discs: sums of pairs of words, which threads
+/// and ranks may add up in any order. They are the collisions of discs with walls (`low`) and
+/// with discs (`high`; a pair counts twice), the state's hash, and the targets' checksums.
 using StateSums = std::vector<StateHash>;
 inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 
-/// Makes the file. The header's counters and hash and all checksums stay open. Of one rank; throws
-/// FileError.
+/// Makes the file. The header's counters and hash, and all checksums, are filled in
+/// later. Called on one rank; throws FileError.
 void create_structure(const std::string& path, CheckpointHeader header,
                       const StoredSamples& samples, const std::vector<DiscTarget>& targets);
 
-/// Writes what was left open, the checksum of all other bytes included, and brings it to disk. Of
-/// one rank; throws FileError.
+/// Fills these in, last the checksum of all other bytes, and brings the file to disk.
+/// Called on one rank; throws FileError.
 void complete(const std::string& path, const StateSums& sums);
 
 } // namespace carrom

@@ -61,13 +61,13 @@ private:
     struct sigaction before_{};
 };
 
-/// Packed rows of this rank, one buffer for each target.
+/// This rank's packed rows, one buffer for each target.
 struct Batch {
     std::uint64_t first = 0, n_rows = 0;
     std::vector<std::vector<std::byte>> buffers;
 };
 
-/// The file as this rank writes to it; knows of the first failure and writes nothing after it.
+/// This rank's view of the file. It remembers the first failure and writes nothing after it.
 class RankWriter {
 public:
     /// **Collective.**
@@ -75,7 +75,7 @@ public:
                const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
           writers_(is_collective ? communicator : Communicator::of_this_rank()) {
-        on_all_ranks([&] { bytes_.emplace(path_, O_WRONLY); }); // knows of failures from now on
+        on_all_ranks([&] { bytes_.emplace(path_, O_WRONLY); }); // a failure is known from here on
         on_all_ranks([&] { file_ = h5::SharedFile(path_, h5::Access::write, writers_); });
         on_all_ranks([&] {
             for (const DiscTarget& target : targets_)
@@ -83,7 +83,7 @@ public:
         });
     }
 
-    /// Not collective, but for the thread that may call MPI.
+    /// Not collective, but only the thread that may call MPI calls it.
     void write(const Batch& batch) {
         if (!failure_.empty()) return;
         try {
@@ -95,15 +95,15 @@ public:
         }
     }
 
-    /// All ranks' batches at once. A rank that fails leaves HDF5's collective write before the
-    /// others do; they wait in vain then, and `agree` ends the run. **Collective.**
+    /// Writes all ranks' batches together. A rank that fails leaves HDF5's collective write
+    /// before the others, which then wait in vain; `agree` ends the run. **Collective.**
     void write_together(const Batch& batch) {
         for (std::size_t k = 0; k < targets_.size(); ++k)
             on_all_ranks([&] { write(k, batch, h5::Transfer::collective); });
     }
 
-    /// Brings to disk what this rank has written: on several nodes it is in caches of their own.
-    /// Then closes the file. **Collective.**
+    /// Brings this rank's bytes to disk, because each node has its own cache. Then
+    /// closes the file. **Collective.**
     void finish() {
         on_all_ranks([&] {
             if (!failure_.empty()) throw FileError(failure_);
@@ -131,7 +131,7 @@ private:
     std::string path_;
     const std::vector<DiscTarget>& targets_;
     const Communicator& communicator_;
-    Communicator writers_; ///< who share a handle of the file
+    Communicator writers_; ///< ranks that share a handle of the file
     std::optional<Descriptor> bytes_;
     h5::SharedFile file_;
     std::vector<h5::Dataset> datasets_;
@@ -198,7 +198,7 @@ struct NumberOfDisc {
     double number = 0;
 };
 
-/// Brings each disc's numbers to the rank whose pieces have it. **Collective.**
+/// Sends each disc's numbers to the rank whose pieces have the disc. **Collective.**
 SideOfPieces in_pieces(std::span<const Disc> discs, const SideColumnSet& wanted,
                        const SideSpans& spans, std::uint64_t n_discs,
                        const Communicator& communicator) {
@@ -265,7 +265,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
                               2 * header.shown.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);
-        ::unlink(partial.path().c_str()); // of a run that was killed
+        ::unlink(partial.path().c_str()); // left by a run that was killed
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });

@@ -26,26 +26,26 @@ namespace carrom {
 
 inline constexpr const char* checksums_path = "/carrom/checksums";
 
-/// Rows that are hashed at a time; the last block of a data set may be shorter.
+/// The number of rows that are hashed at a time. The last block of a data set may be shorter.
 inline constexpr std::uint64_t rows_per_block = 1 << 10;
 
-/// What one block adds to its data set's checksum.
+/// The share of one block in its data set's checksum.
 StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block);
 
-/// Adds up each of them over all ranks. **Collective.**
+/// Adds up each sum over all ranks. **Collective.**
 void sum_over(const Communicator& communicator, std::span<StateHash> sums);
 
-/// Bytes [begin, end) of a file.
+/// The bytes [begin, end) of a file.
 struct ByteRange {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// The XXH3-128 of bytes that come one after the other.
+/// Computes the XXH3-128 of bytes in several pieces.
 class Hasher {
 public:
     Hasher();
     void add(std::span<const std::byte> bytes);
-    /// Throws FileError where the file does not have them.
+    /// Throws FileError if the file does not have all bytes of the range.
     void add_bytes_of(const std::string& path, const ByteRange& range);
     StateHash digest() const;
 
@@ -66,25 +66,25 @@ struct DiscData {
 
 struct Checksums {
     std::vector<DiscData> data;
-    StateHash others; ///< of all other bytes
-    ByteRange place;  ///< of the text
+    StateHash others; ///< checksum of all other bytes
+    ByteRange place;  ///< where the text is
 
-    /// As long for any sums.
+    /// The length of the text does not depend on the sums.
     std::string text() const;
-    /// What `others` leaves out.
+    /// The ranges that `others` does not cover.
     std::vector<ByteRange> left_out() const;
 };
 
-/// Reads the text of a file, and where it and its data sets are. Of one rank; throws FileError
-/// where the text is none of ours.
+/// Reads the text of a file, and where it and its data sets are. Called on one rank;
+/// throws FileError if the text is not one of Carrom.
 Checksums read_checksums(hid_t file);
 
-/// Whether the file's bytes hold what only checkpoints have, the text of checksums or a name in
-/// /carrom/run, wherever its structure leads: damage of one link hides all that a checkpoint is
-/// known by. The two lie in different pages. Reads the whole file. Of one rank; throws FileError.
+/// Whether the file's bytes hold the text of checksums or a name in /carrom/run, wherever
+/// its structure leads. Only checkpoints have these, in different pages; damage of one link
+/// can hide both from HDF5. Reads the whole file. Called on one rank; throws FileError.
 bool has_traces_of_checkpoint(const std::string& path);
 
-/// The checksum of a file without these bytes. Of one rank; throws FileError.
+/// The checksum of a file without `left_out`. Called on one rank; throws FileError.
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);
 
 /// This rank's share of a data set's checksum, read through the file's driver. Not collective;

@@ -20,8 +20,8 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-constexpr unsigned patience_seconds = 50;  ///< for what waits without using the processor
-constexpr std::size_t longest_text = 4000; ///< a pipe takes that much at once
+constexpr unsigned patience_seconds = 50;  ///< for a process that waits without using the processor
+constexpr std::size_t longest_text = 4000; ///< a pipe takes this much at once
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     rlimit limit{};
@@ -30,7 +30,7 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// Nothing that is called here may speak for the program: no handlers, no core file.
+/// The child must not act for the program: no signal handlers, no core file.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);
@@ -44,7 +44,7 @@ void take_limits() {
     ::alarm(patience_seconds);
 }
 
-/// What is wrong goes into `answers`.
+/// Writes the problem, if there is one, to `answers`.
 [[noreturn]] void look_and_exit(const std::function<void()>& look, int answers) {
     take_limits();
     try {

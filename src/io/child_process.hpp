@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5 crashes on some forged metadata, and looks for ever on others. So a child process, a fork
-// with limits to its time and memory, reads them first. It calls HDF5's plain driver, neither MPI
-// nor OpenMP, and ends without cleaning up. Price: some milliseconds.
+// HDF5 crashes on some forged metadata, and loops for ever on others. So a child process,
+// a fork with limits to its time and memory, reads them first. It calls HDF5's plain
+// driver, neither MPI nor OpenMP, and ends without cleaning up. Price: some milliseconds.
 #pragma once
 
 #include <functional>
 
 namespace carrom {
 
-/// Calls `look` in a child process, then here. Throws FileError with what it throws, or where it
-/// does not come to an end there within ten seconds of processor time and 4 GiB more memory.
+/// Calls `look` in a child process, and then here. Throws FileError with what it throws,
+/// or if it does not end there within ten seconds of processor time and 4 GiB more memory.
 void look_in_child_first(const std::function<void()>& look);
 
 } // namespace carrom

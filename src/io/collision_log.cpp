@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t rows_at_once = 1 << 18;
 
-/// The words of a LoggedCollision, one after the other.
+/// The columns of a LoggedCollision, in the order of its words.
 constexpr std::array column_names = {"step", "time", "p", "q", "impulse"};
 using Words = std::array<std::uint64_t, column_names.size()>;
-constexpr std::size_t time_column = 1, impulse_column = 4; // of real numbers
+constexpr std::size_t time_column = 1, impulse_column = 4; // the columns of real numbers
 
 constexpr const char* last_step_path = "/carrom/collisions/last_step";
 
@@ -42,7 +42,7 @@ void write_structure(hid_t file, const RecordedSystem& system, const LoggedSteps
     if (!steps.gaps.empty()) h5::write_column(file, h5md::gaps_path, steps.gaps);
 }
 
-/// Logs of version 0.2 do not say up to which step they go: they count as complete.
+/// Logs of version 0.2 do not name their last step; they count as complete.
 LoggedSteps steps_at(hid_t file, std::int64_t step) {
     LoggedSteps steps{step, {}};
     if (h5::has(file, last_step_path)) h5::read_scalar(file, last_step_path, steps.last);
@@ -87,7 +87,7 @@ void CollisionLog::begin() {
 }
 
 bool CollisionLog::go_on(std::int64_t step) {
-    steps_ = {step, {}}; // where there is no file
+    steps_ = {step, {}}; // if there is no file
     if (step > 0) steps_.gaps = {1, step};
     return file_->go_on(std::string(h5md::collisions_path) + column_names[0], step,
                         [&](hid_t file) {

@@ -23,10 +23,10 @@ struct LoggedCollision {
     double impulse = 0;
 };
 
-/// The steps whose collisions a log has: up to `last`, but for its gaps.
+/// The steps whose collisions a log has: all up to `last`, except for the gaps.
 struct LoggedSteps {
     std::int64_t last = 0;
-    std::vector<std::int64_t> gaps; ///< first and last step of each
+    std::vector<std::int64_t> gaps; ///< the first and the last step of each
 };
 
 class SegmentedFile;
@@ -38,8 +38,8 @@ public:
                  const Communicator& communicator);
     ~CollisionLog();
 
-    /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to
-    /// `step` that are not in it become a gap, which the file names. **Collective.**
+    /// See Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up
+    /// to `step` that are not in it become a gap, which the file names. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
     void commit();
@@ -47,8 +47,8 @@ public:
     /// The first and the last step of each gap, on rank 0.
     const std::vector<std::int64_t>& gaps() const { return steps_.gaps; }
 
-    /// Adds the collisions of all ranks up to `step`, those of rank 0 first. Later than all before.
-    /// **Collective.**
+    /// Appends the collisions of all ranks up to `step`, those of rank 0 first. They
+    /// must be later than all before. **Collective.**
     void append(std::span<const LoggedCollision> mine, std::int64_t step);
 
 private:

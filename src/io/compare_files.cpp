@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;
 
-/// Collects differences of numbers; the first one told is the first one found.
+/// Collects differences of numbers; reports the first one that is found.
 class Differences {
 public:
-    /// `where()` is asked for where there is one.
+    /// `where()` is called only for a difference.
     template <class Where>
     void compare(double a, double b, const std::string& what, const Where& where) {
-        // The same number, or both not a number; -0 is 0 as in the state hash.
+        // Equal, or both not a number. Zeros of either sign are equal, as in the state hash.
         if (a == b || (std::isnan(a) && std::isnan(b))) return;
         note(what, where(), fmt::format("{} and {}", a, b), std::fabs(a - b));
     }
@@ -39,7 +39,7 @@ public:
     FileDifference result;
 };
 
-/// `name`: of a row.
+/// `name` returns the name of a row.
 void compare_rows(const FrameFile& a, const FrameFile& b, std::size_t frame,
                   const std::string& name, Differences& differences) {
     const FileSummary &first = a.summary(), &second = b.summary();

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view partial_prefix = ".carrom-", checkpoint_prefix = "checkpoint-";
 
-/// "report.json.1234-0.partial", of reports and tables: the process and a number.
+/// Names like "report.json.1234-0.partial", of reports and tables: the process and a number.
 bool is_text_beside(std::string_view name) {
     if (!name.ends_with(unfinished_suffix)) return false;
     name.remove_suffix(unfinished_suffix.size());
@@ -40,7 +40,7 @@ void fail_with_errno(const std::string& what) {
     throw FileError(what + ": " + std::strerror(errno));
 }
 
-// Without waiting for the other end of a pipe: what is no plain file is refused.
+// Opens without waiting for the other end of a pipe, because only plain files are accepted.
 Descriptor::Descriptor(const std::string& path, int flags)
     : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
     if (number_ < 0) fail_with_errno("cannot be opened");
@@ -89,14 +89,14 @@ void Descriptor::sync() const {
 }
 
 void Descriptor::start_sync() const {
-    ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: failures show in `sync`
+    ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint only; `sync` reports failures
 }
 
 void check_room(const std::string& folder, std::uint64_t bytes) {
     struct statvfs status{};
     if (::statvfs(folder.c_str(), &status) != 0) fail_with_errno("its file system cannot be asked");
     const std::uint64_t room = std::uint64_t{status.f_bavail} * status.f_frsize;
-    // Some file systems do not know and say 0 of 0.
+    // Some file systems do not know it and report 0 of 0.
     if (status.f_blocks > 0 && room < bytes)
         throw FileError(
             fmt::format("No space left on device: {} bytes are needed, {} are free", bytes, room));

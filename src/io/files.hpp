@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file system is asked for beyond writing: room, durability, names. Each throws FileError
-// where it fails.
+// Calls of the file system beyond writing: room, durability, names. Each throws
+// FileError if it fails.
 //
-// These are this rank's own calls; `on_all` and `on_root` turn what they throw into what all ranks
-// know.
+// These calls are this rank's own. `on_all` and `on_root` turn their exceptions into
+// errors on all ranks.
 #pragma once
 
 #include <cstddef>
@@ -20,20 +20,20 @@
 
 namespace carrom {
 
-/// Something went wrong with a file on this rank.
+/// A problem with a file on this rank.
 class FileError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The same with the system's words for `errno`.
+/// Throws FileError with `what` and the system's words for `errno`.
 [[noreturn]] void fail_with_errno(const std::string& what);
 
 /// A file descriptor that closes itself.
 class Descriptor {
 public:
-    /// Throws FileError where it cannot be opened, and for a directory (without O_DIRECTORY), a
-    /// pipe or a device.
+    /// Throws FileError if it cannot be opened, or is a directory (without
+    /// O_DIRECTORY), a pipe or a device.
     Descriptor(const std::string& path, int flags);
     ~Descriptor();
     Descriptor(const Descriptor&) = delete;
@@ -45,28 +45,28 @@ public:
     std::size_t read(std::span<std::byte> bytes, std::uint64_t offset) const;
     void write(std::span<const std::byte> bytes, std::uint64_t offset) const;
     void sync() const;
-    /// Lets the system begin to bring to disk what is written; does not wait.
+    /// Asks the system to begin to bring written bytes to disk; does not wait.
     void start_sync() const;
 
 private:
     int number_;
 };
 
-/// Throws where the file system says that it has less room than that.
+/// Throws if the file system reports less room than this.
 void check_room(const std::string& folder, std::uint64_t bytes);
-/// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to
-/// be had.
+/// Allocates the blocks of a file, so that a full disk shows now. Does nothing if the
+/// file system cannot do this.
 void reserve(const std::string& path);
-/// Throws where a rename to `path` would replace what is neither a plain file nor a link, such as a
-/// device, a pipe or a folder, and where the system would see another name, cut at a NUL.
+/// Throws if a rename to `path` would replace anything but a plain file or a link, such as
+/// a device, a pipe or a folder, or if the system would see another name, cut at a NUL.
 void refuse_special(const std::string& path);
-/// Renames and makes it last: the folder is synced too.
+/// Renames and syncs the folder, so that the new name lasts.
 void rename_durably(const std::string& from, const std::string& to);
-/// What the names of unfinished files end in.
+/// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";
 
-/// A file that is to be renamed. At the end it is removed by whom it belongs to, unless it was:
-/// half a file takes no room on a full disk.
+/// A file that will be renamed. Its owner removes it at the end unless it was, because
+/// half a file is useless and takes room.
 class UnfinishedFile {
 public:
     UnfinishedFile(std::string path, bool is_mine) : path_(std::move(path)), is_mine_(is_mine) {}
@@ -80,12 +80,12 @@ private:
     bool is_mine_;
 };
 
-/// Puts a file in the place of any other, whole or not at all. `write` makes it anew under a name
-/// that nobody can guess and brings it to disk.
+/// Replaces a file by a new one, as a whole or not at all. `write` makes it under a
+/// name that nobody can guess, and brings it to disk.
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write);
 void replace_file(const std::string& path, const std::string& text);
-/// Removes what killed writers have left in a folder. No other may be under way.
+/// Removes files that killed writers have left in a folder. No other writer may be at work.
 void remove_unfinished(const std::string& folder);
 std::string folder_of(const std::string& path);
 
@@ -105,7 +105,7 @@ void on_all(const Communicator& communicator, const std::string& path, ExitCode 
     agree(communicator, failure.empty(), failure, code);
 }
 
-/// The same for what rank 0 does alone. **Collective.**
+/// Runs `act` on rank 0 alone, and fails on all ranks like on_all. **Collective.**
 template <class Act>
 void on_root(const Communicator& communicator, const std::string& path, ExitCode code,
              const Act& act) {

@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// Where a column's numbers are: component `place` of `width` numbers in each row of a data set.
+/// The place of a column's numbers: component `place` of `width` numbers in each row of a data set.
 struct ColumnSource {
     std::string column, dataset;
     hsize_t width = 1, place = 0;
@@ -52,7 +52,7 @@ std::vector<ColumnSource> sources_of_logs() {
     return sources;
 }
 
-/// Rows of a data set, with `width` numbers each, as doubles.
+/// Reads rows of a data set, `width` numbers each, as doubles.
 std::vector<double> read_block(hid_t file, const std::string& path, const h5::RowRange& rows,
                                hsize_t width = 1) {
     const h5::Dataset dataset = h5::open_checked(file, path);
@@ -67,7 +67,7 @@ std::vector<double> read_block(hid_t file, const std::string& path, const h5::Ro
     return numbers;
 }
 
-/// The words of an attribute, each as long as the others, side by side.
+/// The words of an attribute, which are equally long, side by side.
 std::string letters_of(hid_t file, const char* object, const char* name, hssize_t n_words) {
     const h5::Attribute attribute(
         h5::checked(H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), name));
@@ -83,7 +83,7 @@ std::string letters_of(hid_t file, const char* object, const char* name, hssize_
     return letters;
 }
 
-/// What all files say of the discs' system.
+/// Reads what all files have about the discs' system.
 void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
     system.program_version = letters_of(file, "/h5md/creator", "version", 1);
     h5::read_scalar(file, "/parameters/radius", system.radius);
@@ -117,9 +117,9 @@ std::size_t FileSummary::place_of(std::string_view column) const {
 
 struct FrameFile::State {
     h5::File file;
-    CheckpointHeader header;           ///< of a checkpoint
-    std::vector<ColumnSource> sources; ///< of a recording's columns
-    std::vector<FileSegment> segments; ///< of a recording
+    CheckpointHeader header;           ///< for a checkpoint
+    std::vector<ColumnSource> sources; ///< for a recording's columns
+    std::vector<FileSegment> segments; ///< for a recording
 };
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
@@ -200,7 +200,7 @@ void FrameFile::open_trajectory() {
     summary_.box = {edges[0], edges[1]};
 }
 
-/// The first row of each segment, or of a checkpoint.
+/// Reads the first row of each segment, or of a checkpoint.
 void FrameFile::try_all_parts() const {
     Rows rows;
     std::uint64_t first = 0;
@@ -244,7 +244,7 @@ void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_
     }
 }
 
-/// Adding +0 turns -0 into +0: two states of the same hash show the same.
+/// Adding +0 turns -0 into +0, so that two states of the same hash give the same output.
 void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) const {
     const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();

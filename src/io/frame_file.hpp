@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this program's files hold, to be looked at by one rank, block by block: tables of numbers
-// with a row for each disc of a frame, or for each collision. A checkpoint is a file of one frame.
+// The contents of Carrom's files for one rank, block by block: tables of numbers with a row
+// for each disc of a frame, or for each collision. A checkpoint is a file of one frame.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace carrom {
 
 enum class FileKind { checkpoint, trajectory, collisions };
 
-/// Its box is that of the last frame.
+/// The box is that of the last frame.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
-    /// Whether the file carries checksums of all its bytes, as all do that this program writes.
+    /// Whether the file has checksums of all its bytes. All files of this version have.
     bool has_checksums = false;
-    /// The numbers of a row that the file has, in the scene's units. Of discs: x, y, vx, vy,
-    /// pair_collisions, wall_collisions, then the columns beside the states (side_columns.hpp).
+    /// The columns that the file has, in the scene's units. For discs: x, y, vx, vy,
+    /// pair_collisions, wall_collisions, then the side columns (side_columns.hpp).
     std::vector<std::string> columns;
     std::uint64_t n_rows = 0;         ///< discs, or collisions
-    std::size_t bytes_per_number = 8; ///< of a trajectory's positions and velocities
-    std::vector<std::int64_t> steps;  ///< of the frames
-    std::string state_hash;           ///< of a checkpoint
-    std::vector<std::int64_t> gaps;   ///< of a log: first and last step of each stretch it lacks
+    std::size_t bytes_per_number = 8; ///< for a trajectory's positions and velocities
+    std::vector<std::int64_t> steps;  ///< the steps of the frames
+    std::string state_hash;           ///< of a checkpoint only
+    std::vector<std::int64_t> gaps;   ///< for a log: the first and last step of each gap
 
-    /// The place of a column, or that of the end where there is none.
+    /// The place of a column, or of the end if there is no such column.
     std::size_t place_of(std::string_view column) const;
     bool has(std::string_view column) const { return place_of(column) < columns.size(); }
 };
@@ -40,8 +40,8 @@ using Rows = std::vector<std::vector<double>>;
 /// All functions throw InputError naming the file. Not collective.
 class FrameFile {
 public:
-    /// Damage that HDF5 does not see is not seen in checkpoints: `check_damage` comes first. A
-    /// child process has opened the file before and read of all its parts (child_process.hpp).
+    /// Does not find damage of checkpoints that HDF5 does not see; call `check_damage` before. A
+    /// child process has opened the file before and read from all its parts (child_process.hpp).
     explicit FrameFile(const std::string& path);
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;
@@ -51,7 +51,7 @@ public:
     /// Checks every byte of a recording. Opening it checks all but its numbers.
     void check_numbers() const;
 
-    /// Replaces `rows` by [begin, end) of a frame's, or of a log's, whose only frame is 0.
+    /// Replaces `rows` by the rows [begin, end) of a frame. A log has one frame, number 0.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
 private:
@@ -67,11 +67,11 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Where two files of one kind differ first, and by how much at most.
+/// The first difference between two files of one kind, and the largest one.
 struct FileDifference {
     bool is_same = true;
     std::string first;  ///< "step 10, disc 17, vx: 0.25 and 0.5"
-    double largest = 0; ///< of any number
+    double largest = 0; ///< over all numbers
     std::string largest_in;
 };
 

@@ -14,7 +14,7 @@ namespace carrom::h5md {
 
 namespace {
 
-/// /h5md: who wrote the file with what.
+/// Writes /h5md: the author, the program and its version.
 void write_metadata(hid_t file, const RecordedSystem& system) {
     const std::string& program_version = system.program_version;
     const h5::Group h5md = h5::create_group(file, "h5md");
@@ -42,8 +42,8 @@ void create_box(hid_t parent, const RecordedSystem& system) {
                                                  boundary(system.is_periodic_y), "none"});
 }
 
-/// By disc, without step and time (H5MD 1.1, "time-independent data"). Values of one species stand
-/// side by side, so that they are small when deflated.
+/// Writes values by disc, without step and time (H5MD 1.1, "time-independent data").
+/// Equal values of one species follow each other, so they are small when deflated.
 template <class Number>
 void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Number common,
                  const std::vector<Number>& values, const std::string& unit = "") {

@@ -15,10 +15,10 @@ namespace carrom {
 
 void start_io() {
     std::signal(SIGXFSZ, SIG_IGN);
-    // Readers look at recordings that grow, and runs have a lock of their own.
+    // Readers open recordings that grow, and runs have their own lock.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5dont_atexit();
-    H5open();                         // started before MPI it does not hook into MPI's end either
+    H5open();                         // started before MPI, so that it does not hook into MPI's end
     H5Lunregister(H5L_TYPE_EXTERNAL); // no link of a file leads into another one
     H5PLset_loading_state(0);         // no filter of a file loads a library
 }
@@ -38,7 +38,7 @@ namespace {
 constexpr std::size_t longest_text = std::size_t{1} << 28; // scenes end at 2^26
 constexpr unsigned most_links = 64;                        // of a group of ours
 
-/// The innermost entries of the error stack say what the system has said.
+/// The innermost entries of the error stack have the system's words.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
     if (number < 2 && error->desc != nullptr && *error->desc != '\0')
@@ -46,14 +46,14 @@ herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     return 0;
 }
 
-/// HDF5 would print its stack of errors to standard error by itself, on every rank.
+/// Otherwise HDF5 would print its stack of errors to standard error, on every rank.
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-/// When something was made is no part of it: the same contents are the same bytes.
+/// Time stamps are left out, so that equal contents give equal bytes.
 void leave_out_times(const Properties& creation) { set(creation, H5Pset_obj_track_times, false); }
 
-/// Groups whose order is kept are of the newer kind: their metadata have a checksum by HDF5, links
-/// included.
+/// Groups that keep the order of their members are of the newer kind, whose metadata,
+/// links included, have HDF5's own checksums.
 void as_checked_group(const Properties& creation) {
     leave_out_times(creation);
     set(creation, H5Pset_link_creation_order, unsigned{H5P_CRT_ORDER_TRACKED});
@@ -91,7 +91,7 @@ void write_and_close(Dataset dataset, const std::string& name, hid_t type, const
     dataset.close(name);
 }
 
-/// Rows of a data set, and as much memory without gaps.
+/// Rows of a data set, and memory for them without gaps.
 struct Selection {
     Space memory, file;
 };
@@ -181,7 +181,7 @@ File open_file(const std::string& path, Access access) {
 }
 
 SharedFile::SharedFile(const std::string& path, Access access, const Communicator& communicator) {
-    if (native(communicator) == MPI_COMM_NULL) { // a program without MPI
+    if (native(communicator) == MPI_COMM_NULL) { // the program has no MPI
         file_ = open_file(path, access);
         return;
     }
@@ -249,7 +249,7 @@ void write_any_length(hid_t object, const std::string& name, const std::string& 
     write_attribute(object, name, text_type(H5T_VARIABLE).id(), space({}), &letters);
 }
 
-/// Small writes reach the file when the dataset is closed.
+/// Small writes reach the file when the data set is closed.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values) {
     write_and_close(create_dataset(parent, name, type, dimensions, dataset_creation()), name, type,

@@ -23,7 +23,7 @@ namespace carrom::h5 {
 /// Throws FileError with `what` and the cause that HDF5 gives.
 [[noreturn]] void fail(std::string_view what);
 
-/// Hands on what HDF5 has returned, or throws.
+/// Returns what HDF5 has returned, or throws.
 template <class Result> Result checked(Result result, std::string_view what) {
     if (result < 0) fail(what);
     return result;
@@ -45,7 +45,7 @@ public:
 
     hid_t id() const { return id_; }
 
-    /// What has been written must be closed with this: some failures show only here.
+    /// Objects that have been written to are closed by this: some failures show only here.
     void close(std::string_view what) {
         if (id_ >= 0) checked(close_function(std::exchange(id_, -1)), what);
     }
@@ -66,26 +66,26 @@ using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
 Properties properties(hid_t kind);
-/// Calls one of H5Pset_..., which fail for want of memory only.
+/// Calls one of H5Pset_..., which fail only if memory is missing.
 template <class Set, class... Values>
 void set(const Properties& list, const Set& set_values, Values... values) {
     checked(set_values(list.id(), values...), "cannot set a property");
 }
-/// For a new dataset, which is not to say when it was made: the same contents are the same bytes.
+/// For a new data set without a time stamp, so that equal contents give equal bytes.
 Properties dataset_creation();
-/// The same for one that has its place in the file at once, and no numbers yet.
+/// For a data set that gets its place in the file at once, without numbers yet.
 Properties allocated_creation();
-/// Of one number where there are no dimensions.
+/// A data space of these dimensions; one number if there are none.
 Space space(std::span<const hsize_t> dimensions);
-/// Chooses `count` numbers along each axis from `start` on.
+/// Selects `count` numbers along each axis from `start` on.
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
 
-/// A file that ranks have open through MPI-IO, each to read or write rows of its own. Nothing
-/// collective is called on one that has failed: unless it is closed, it stays open until the
-/// program's end.
+/// A file that ranks have open through MPI-IO, each to read or write its own rows.
+/// After a failure nothing collective is called on it, so it then stays open until the
+/// program's end, unless it was closed.
 class SharedFile {
 public:
     SharedFile() = default;
@@ -102,16 +102,16 @@ private:
     File file_;
 };
 
-/// Whether there is something at an absolute path. HDF5 wants every group on the way to be asked
-/// for.
+/// Whether an object exists at an absolute path. HDF5 must be asked for every group on
+/// the way.
 bool has(hid_t file, const std::string& path);
-/// Makes the groups on the way too.
+/// Makes the groups on the way, too.
 Group create_group(hid_t parent, const std::string& name);
 Dataset create_dataset(hid_t parent, const std::string& name, hid_t type,
                        std::span<const hsize_t> dimensions, const Properties& creation);
-/// To be written to; what is to be read may be damaged: see checked_dataset.hpp.
+/// For writing. A data set for reading may be damaged: see checked_dataset.hpp.
 Dataset open_dataset(hid_t parent, const std::string& name);
-/// Of the numbers or the text that a data set holds.
+/// The type of the numbers or the text in a data set.
 Type stored_type(hid_t dataset);
 
 inline hid_t type_of(double) { return H5T_NATIVE_DOUBLE; }
@@ -123,10 +123,10 @@ inline hid_t type_of(std::uint64_t) { return H5T_NATIVE_UINT64; }
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> numbers);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& words);
-/// A text of any length, as h5py writes them: it takes others for bytes.
+/// Writes a string of variable length; h5py reads strings of fixed length as bytes.
 void write_any_length(hid_t object, const std::string& name, const std::string& text);
 
-/// A new data set, written at once by this process; of one value where there are no dimensions.
+/// Creates a data set and writes it at once from this process; one value without dimensions.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values);
 template <class Numbers>
@@ -140,7 +140,7 @@ void write_scalar(hid_t parent, const std::string& name, const Number& number) {
 }
 void write_scalar(hid_t parent, const std::string& name, const std::string& text);
 
-/// Replaces one value; a text by one as long.
+/// Replaces one value; a text by one of the same length.
 void overwrite(hid_t parent, const std::string& name, std::uint64_t number);
 void overwrite(hid_t parent, const std::string& name, const std::string& text);
 
@@ -154,28 +154,28 @@ void read_scalar(hid_t parent, const std::string& name, std::string& text);
 /// The dimensions of a dataset.
 std::vector<hsize_t> dimensions_of(hid_t dataset);
 
-/// Rows run along a data set's only axis, or along the second one, behind that of frames, where it
-/// has several.
+/// A range of rows. They run along a data set's only axis, or along the second one if
+/// the first is that of frames.
 struct RowRange {
     std::uint64_t begin = 0, end = 0, frame = 0;
 };
 
 std::uint64_t n_rows_of(hid_t dataset);
 
-/// Rows, at least one, of a data set. Not collective: a rank's rows are one large piece of the
-/// file, so there is nothing for MPI-IO to gather.
+/// Reads rows, at least one, of a data set. Not collective: a rank's rows are one
+/// large piece of the file, so MPI-IO has nothing to gather.
 void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers);
 
-/// Independent: each rank writes as it comes to it. Collective: all ranks write together, and
-/// MPI-IO may hand the numbers to a few of them that write them in large pieces.
+/// Independent: each rank writes when it comes to it. Collective: all ranks write
+/// together, and MPI-IO may let a few of them write large pieces for all.
 enum class Transfer { independent, collective };
 
-/// This rank's rows of a data set. **Collective** if `transfer` is; a rank may have no rows then.
+/// Writes this rank's rows of a data set, perhaps none. **Collective** if `transfer` is.
 void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 
-/// Makes a new file where there is none, nor a symbolic link, of that name, filled by
-/// `build(file)`. Large data sets begin at pages of 4096 bytes.
+/// Makes a file filled by `build(file)`, unless a file or a symbolic link of that name
+/// exists. Large data sets begin at pages of 4096 bytes.
 void create_file(const std::string& path, const std::function<void(hid_t file)>& build);
 
 } // namespace carrom::h5

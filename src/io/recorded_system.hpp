@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file says to other programs of its discs, once and for all.
+// What a file tells other programs about the discs of all its frames.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ struct RecordedSystem {
     std::string program_version;
     std::uint64_t n_discs = 0;
     Box box;
-    double radius = 0;            ///< the largest one
+    double radius = 0;            ///< of the largest discs
     std::vector<Species> species; ///< empty where all discs have that radius and mass 1
     bool is_periodic_x = false, is_periodic_y = false;
-    std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may lie beyond these
-    std::array<double, 4> amplitudes{};    ///< of walls that oscillate: discs may be so far beyond
-    std::string length_unit, time_unit;    ///< "nm", "ps"; empty where the scene names none
+    std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may be beyond these
+    std::array<double, 4> amplitudes{};    ///< of oscillating walls: discs may be so far beyond
+    std::string length_unit, time_unit;    ///< "nm", "ps"; empty if the scene names none
 };
 
 } // namespace carrom

@@ -31,7 +31,7 @@ Index index_of(const std::string& path, bool are_rows_wanted) {
     return std::move(*index);
 }
 
-/// The first rows of all that have these sizes.
+/// A data space of rows, for data sets of these sizes.
 h5::Space rows_of(const std::vector<hsize_t>& sizes, std::uint64_t first, std::uint64_t n_rows) {
     h5::Space space = h5::space(sizes);
     std::vector<hsize_t> start(sizes.size(), 0), count = sizes;
@@ -108,7 +108,7 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
         throw FileError("has other columns than this run records; see output.trajectory.fields");
 }
 
-/// Leaves out what is beyond. The last segment is written to next.
+/// Drops the rows beyond. The last segment that is left is written to next.
 void SegmentedFile::cut(std::uint64_t n_rows) {
     std::vector<FileSegment>& segments = index_.segments;
     while (!segments.empty() && n_rows_ - segments.back().rows >= n_rows) {
@@ -133,7 +133,7 @@ void SegmentedFile::make_segment() {
     const std::string path = segment_path(path_, segment.name);
     std::error_code error;
     std::filesystem::create_directories(folder_of(path), error);
-    ::unlink(path.c_str()); // of a run that was killed
+    ::unlink(path.c_str()); // left by a run that was killed
     h5::create_file(path, [&](hid_t file) {
         for (const RecordedColumn& column : columns_) {
             const h5::Dataset dataset = h5::create_dataset(file, column.path, column.type,
@@ -196,7 +196,7 @@ void SegmentedFile::write_virtual(hid_t file, const RecordedColumn& column) cons
                     "cannot join segments");
         first += segment.rows;
     }
-    // Where a segment is missing, readers shall not see zeros.
+    // Readers must not see zeros if a segment is missing.
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     const std::int64_t none = -1;
     if (H5Tget_class(column.type) == H5T_FLOAT)
@@ -212,7 +212,7 @@ void SegmentedFile::commit() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] { commit_here(); });
 }
 
-/// The last one, and its name in the folder; those before it are on disk.
+/// Syncs the last segment and its name in the folder; earlier ones are on disk.
 void SegmentedFile::sync_segment() const {
     if (segments().empty()) return;
     const std::string path = segment_path(path_, segments().back().name);
@@ -230,7 +230,7 @@ void SegmentedFile::commit_here() {
         });
         seal_index(beside);
     });
-    // Segments that the small file does not name are nobody's.
+    // Segments that the small file does not name belong to no recording.
     for (std::size_t k = segments().size() + 1;; ++k)
         if (::unlink(segment_path(path_, segment_name(path_, k)).c_str()) != 0) return;
 }

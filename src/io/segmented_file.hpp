@@ -6,10 +6,10 @@
 // made. Later only numbers are written there: HDF5 itself would rewrite the superblock, which a
 // kill could damage.
 //
-// A commit brings the numbers to disk and replaces the small file by rename. The small file says
-// how many rows count and has checksums of all bytes; its own stands behind its last byte, where
-// HDF5 does not look. Readers need no lock. Segments double in size. Room that is not yet used
-// takes no space on disk. Rank 0 has the file; all ranks know how it goes.
+// A commit brings the numbers to disk and replaces the small file by rename. The small file
+// holds the number of rows that count and checksums of all bytes; its own checksum follows its
+// last byte, where HDF5 does not read. Readers need no lock. Segments double in size; room
+// that is not used takes no space on disk. Rank 0 has the file, and all ranks know its state.
 #pragma once
 
 #include <cstddef>
@@ -28,38 +28,38 @@ namespace carrom {
 
 /// A row has `row` numbers along each axis; one number where there is no axis.
 struct RecordedColumn {
-    std::string path;         ///< of the dataset in the file that readers open
-    hid_t type;               ///< of numbers of 4 or 8 bytes, little-endian, also in memory
+    std::string path;         ///< of the data set in the file that readers open
+    hid_t type;               ///< 4 or 8 bytes, little-endian, also in memory
     std::vector<hsize_t> row; ///< {} or {discs} or {discs, components}
-    std::string unit = {};    ///< of its numbers, where it is known (h5md.hpp)
+    std::string unit = {};    ///< of the numbers, if it is known (h5md.hpp)
 };
 
 class SegmentedFile {
 public:
-    /// Makes all of the small file that is no column, and their groups.
+    /// Makes the parts of the small file that are no columns, with their groups.
     using Build = std::function<void(hid_t file)>;
 
     /// `communicator` must outlive this.
     SegmentedFile(const std::string& path, std::vector<RecordedColumn> columns, Build build,
                   const Communicator& communicator);
 
-    /// A new one, without rows, in the place of any other. If this or any other call fails, every
-    /// rank throws CollectiveError, code 4, and the file is as it was at the last commit.
-    /// **Collective.**
+    /// Makes a new file without rows, which replaces any other. If this or any other
+    /// call fails, every rank throws CollectiveError, code 4, and the file is as it
+    /// was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with what is there, after `check` has looked at it: cut back to the rows whose
-    /// number in the column `step` is up to `last`. Begins a new one where there is none, and
-    /// returns false then. Throws code 2 where columns differ or a byte is damaged: all are read.
-    /// **Collective.**
+    /// Goes on with an existing file after `check` has accepted it, cut back to the
+    /// rows whose number in the column `step` is at most `last`. If there is none,
+    /// begins a new one and returns false. Reads all bytes, and throws code 2 if
+    /// columns differ or a byte is damaged. **Collective.**
     bool go_on(const std::string& step, std::int64_t last,
                const std::function<void(hid_t file)>& check);
 
-    /// Rows so far are to stay, and readers see them. **Collective.**
+    /// Makes the rows so far permanent and visible to readers. **Collective.**
     void commit();
 
-    /// The rest of an addition is rank 0's alone, in an `attempt`. What goes wrong there is thrown
-    /// by `finish_addition`: rank 0 goes on receiving what others send till then.
+    /// The rest of an addition is done by rank 0 alone, in an `attempt`. `finish_addition`
+    /// throws its errors, because rank 0 must go on receiving what others send until then.
     template <class Act> void attempt(const Act& act) {
         if (!communicator_.is_root() || !failure_.empty()) return;
         try {
@@ -71,9 +71,9 @@ public:
     /// **Collective.**
     void finish_addition();
 
-    /// How many rows can be written before the next `add`, at least 1. Makes a segment if need be.
+    /// How many rows can be written before the next `add`, at least 1. May make a segment.
     std::uint64_t room();
-    /// Numbers of the next rows of a column. They count once `add` has said so, for all columns
+    /// Writes numbers of a column's next rows. They count after `add`, for all columns
     /// together.
     void write(std::size_t column, std::span<const std::byte> numbers);
     void add(std::uint64_t n_rows);
@@ -97,8 +97,8 @@ private:
     const Communicator& communicator_;
     Index index_;
     std::uint64_t n_rows_ = 0;
-    ColumnHashers hashers_;              ///< of the last segment
-    std::vector<std::uint64_t> written_; ///< bytes of each column since the last `add`
+    ColumnHashers hashers_;              ///< for the last segment
+    std::vector<std::uint64_t> written_; ///< by column: bytes since the last `add`
     std::unique_ptr<Descriptor> open_;   ///< the last segment, during an addition
     std::string failure_;
 };

@@ -16,12 +16,12 @@ namespace carrom {
 
 namespace {
 
-constexpr std::string_view mark = "carrom, checked:"; // then 16 bytes of a checksum: the file's end
+constexpr std::string_view mark = "carrom, checked:"; // then a checksum of 16 bytes: the file's end
 constexpr std::size_t end_size = mark.size() + sizeof(StateHash);
 constexpr const char *columns_path = "/carrom/recording/columns",
                      *segments_path = "/carrom/recording/segments";
 constexpr std::uint64_t largest_column = std::uint64_t{1} << 60;
-constexpr std::size_t n_fixed = 6; ///< numbers of a segment before the places of its columns
+constexpr std::size_t n_fixed = 6; ///< of a segment, before the places of its columns
 
 StateHash hash_of(std::span<const std::byte> bytes) {
     Hasher hasher;
@@ -35,7 +35,7 @@ std::vector<std::byte> read_end(const Descriptor& file, std::uint64_t begin) {
     return bytes;
 }
 
-/// The file's bytes, if they end as those of an index do.
+/// Returns the file's bytes if they end as an index does.
 std::vector<std::byte> bytes_of_index(const std::string& path) {
     const Descriptor file(path, O_RDONLY);
     if (file.size() < end_size) return {};
@@ -75,7 +75,7 @@ std::string segment_path(const std::string& joining, const std::string& name) {
     return (std::filesystem::path(folder_of(joining)) / name).string();
 }
 
-/// Columns differ in what comes first.
+/// The first bytes to hash differ from column to column.
 ColumnHashers hashers_of_columns(std::size_t n_columns) {
     ColumnHashers hashers(n_columns);
     for (std::size_t k = 0; k < n_columns; ++k) hashers[k].add(std::as_bytes(std::span(&k, 1)));

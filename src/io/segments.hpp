@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The segments of a recording, the list of them in the file that joins them, and the checksums.
 //
-// All of a segment is checked without HDF5, which may not survive what is damaged. The joining file
-// ends with a mark and the XXH3-128 of all bytes before.
+// Segments are checked without HDF5, which might not survive a damaged one. The
+// joining file ends with a mark and the XXH3-128 of all bytes before.
 #pragma once
 
 #include <cstddef>
@@ -21,27 +21,27 @@ struct FileSegment {
     std::string name; ///< relative to the folder of the file that joins them
     std::uint64_t rows = 0, room = 0;
     StateHash numbers;                 ///< checksum of the rows that count
-    StateHash structure;               ///< checksum of all bytes that are no numbers
-    std::vector<std::uint64_t> places; ///< of the columns' first bytes
+    StateHash structure;               ///< checksum of all bytes that are not numbers
+    std::vector<std::uint64_t> places; ///< where the columns begin
 };
 
-/// What the small file says of its segments.
+/// The list of segments in the small file.
 struct Index {
-    std::vector<std::uint64_t> row_bytes; ///< of each column
+    std::vector<std::uint64_t> row_bytes; ///< bytes of a row, by column
     std::vector<FileSegment> segments;
 };
 
 /// "trajectory/0001.h5" for "run/trajectory.h5" and 1.
 std::string segment_name(const std::string& path, std::size_t number);
-/// Where a segment is; `joining` is the path of the file that joins.
+/// The path of a segment; `joining` is the path of the joining file.
 std::string segment_path(const std::string& joining, const std::string& name);
 
-/// What has hashed each column of a segment so far; their digests add up to the segment's.
+/// The hash so far of each column of a segment; their digests add up to the segment's.
 using ColumnHashers = std::vector<Hasher>;
 ColumnHashers hashers_of_columns(std::size_t n_columns);
 StateHash sum_of(const ColumnHashers& hashers);
 
-/// Of a segment's rows. Throws FileError.
+/// Hashes a segment's rows. Throws FileError.
 ColumnHashers hash_rows(const std::string& path, const FileSegment& segment,
                         const std::vector<std::uint64_t>& row_bytes);
 StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
@@ -52,9 +52,9 @@ void write_index(hid_t file, const Index& index);
 /// Appends the mark and the checksum to a file that joins segments, and brings it to disk.
 void seal_index(const std::string& path);
 
-/// The index of a file that joins segments, none if by its last bytes it is no such file. Checks
-/// the file's own bytes and the structure of its segments, and all their rows where
-/// `are_rows_wanted`. Throws FileError, naming the segment.
+/// The index of a file that joins segments; none if its last bytes show that it is no
+/// such file. Checks the file's own bytes and the structure of its segments, and all
+/// their rows if `are_rows_wanted`. Throws FileError, naming the segment.
 std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted);
 
 } // namespace carrom

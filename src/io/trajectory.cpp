@@ -22,11 +22,11 @@ namespace {
 
 constexpr std::uint64_t discs_at_a_time = std::uint64_t{1} << 16;
 
-/// Where a disc's numbers stand among its words. A vector's third component is 0.
+/// Where a disc's numbers are among its words. A vector's third component is 0.
 enum Place : std::size_t {
     position = 0,
     velocity = 3,
-    collisions = 6, ///< with walls, with discs
+    collisions = 6, ///< with walls, then with discs
     psi6 = 8,
     neighbours = 10,
     image = 11,
@@ -34,8 +34,8 @@ enum Place : std::size_t {
     n_words = side_columns + n_side_columns
 };
 
-/// A disc as it travels to rank 0: what it shows at the time of the frame, in words; real numbers
-/// by their bits.
+/// A disc in a message to rank 0: its numbers at the time of the frame, in words. Real
+/// numbers are sent by their bits.
 struct ShownDisc {
     DiscId id = 0;
     std::array<std::uint64_t, n_words> words{};
@@ -45,12 +45,12 @@ struct ShownDisc {
     }
 };
 
-/// What a frame has of each disc: `width` of its words from `place` on.
+/// A field of a frame: `width` words of each disc from `place` on.
 struct Field {
     std::string name;
     std::size_t place;
     hsize_t width;
-    hid_t type; ///< in the file; of whole numbers it has the lowest bytes
+    hid_t type; ///< in the file; whole numbers keep their lowest bytes
     std::string unit;
 };
 
@@ -75,7 +75,7 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     return fields;
 }
 
-/// One for each field, then step, time and box.
+/// One column for each field, then step, time and box.
 std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
     std::vector<RecordedColumn> columns;
     for (const Field& field : fields_of(layout)) {
@@ -89,7 +89,7 @@ std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
     return columns;
 }
 
-/// Steps and times stand once; every element links to them, as H5MD allows.
+/// Steps and times are stored once; every element links to them, as H5MD allows.
 void write_structure(hid_t file, const TrajectoryLayout& layout) {
     h5md::write_system(file, layout.system);
     h5md::write_bodies(file, layout.system);
@@ -103,7 +103,7 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     }
 }
 
-/// The discs of all ranks on rank 0, slab after slab of ids.
+/// Collects the discs of all ranks on rank 0, slab after slab of ids.
 class SlabStream {
 public:
     SlabStream(std::span<const Disc> discs, const SideSpans& columns,
@@ -116,8 +116,8 @@ public:
                   [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     }
 
-    /// Ids [begin, end), which follow those of the last call; nothing on other ranks.
-    /// **Collective.**
+    /// Returns the ids [begin, end), which follow those of the last call; nothing on
+    /// other ranks. **Collective.**
     std::span<const ShownDisc> next(std::uint64_t begin, std::uint64_t end) {
         std::vector<ShownDisc> mine;
         for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_)
@@ -172,7 +172,7 @@ private:
     std::span<const Disc> discs_;
     SideSpans columns_;
     std::span<const BondOrder> orders_;
-    std::span<const DiscImage> images_; ///< of ids that are still to come
+    std::span<const DiscImage> images_; ///< of the ids to come
     double clock_;
     const TrajectoryLayout& layout_;
     const Communicator& communicator_;
@@ -181,7 +181,7 @@ private:
     std::vector<ShownDisc> slab_;
 };
 
-/// A field of some discs as the file has it.
+/// A field of some discs in the file's types.
 std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> slab) {
     const bool is_single = H5Tequal(field.type, H5T_IEEE_F32LE) > 0;
     const std::size_t size = H5Tget_size(field.type);
@@ -260,7 +260,7 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
 
 void Trajectory::commit() {
     file_->commit();
-    // Its length is that of all frames: often enough, and never for long.
+    // All frames are described each time, so this must be often enough but not take long.
     if (communicator_.any(communicator_.is_root() &&
                           steps_.size() >= n_described_ + n_described_ / 4 + 1))
         describe();

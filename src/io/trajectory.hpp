@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every so-many-th step of a run as H5MD, discs in the order of their ids.
+// Frames of a run at regular steps as H5MD, discs in the order of their ids.
 //
 // Frames stream through rank 0 in slabs of ids. So they are safe from kills and readable while the
 // run goes on (SegmentedFile), at the price of one rank's speed to the disk. Beside the file lies
@@ -24,12 +24,12 @@ namespace carrom {
 
 struct TrajectoryLayout {
     RecordedSystem system;
-    double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
+    double velocity_unit = 1; ///< turns stored velocities into velocities per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_psi6 = false, has_neighbours = false, has_image = false;
-    SideColumnSet columns; ///< that frames have
+    SideColumnSet columns; ///< side columns in frames
     bool is_single = true; ///< float32, else float64
-    CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
+    CheckpointHeader run;  ///< its scene and species; without a text the file does not name its run
 };
 
 class SegmentedFile;
@@ -41,27 +41,27 @@ public:
                const Communicator& communicator);
     ~Trajectory();
 
-    /// A new file in the place of any other. If this or any other call fails every rank throws
+    /// Replaces any other file by a new one. If this or any other call fails every rank throws
     /// CollectiveError, code 4, and the file is as it was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with the file, cut back to frames up to `step`. Begins a new one where there is
-    /// none. Throws code 2 where the file has another layout or is damaged: all of it is read.
+    /// Goes on with the file, cut back to frames up to `step`. Begins a new one if there
+    /// is none. Reads all of it, and throws code 2 if its layout differs or it is damaged.
     /// Returns, on rank 0, the step of the last frame that is left, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
-    /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, and the layout's
-    /// columns along them; orders likewise, where it has psi6 or neighbours. `images`, where it has
-    /// them: of a run of ids, the next rank's following. **Collective.**
+    /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, with the
+    /// layout's columns along them, and orders, if it has psi6 or neighbours. `images`,
+    /// if it has them, are those of a run of ids; the next rank's follow. **Collective.**
     void append(std::int64_t step, std::span<const Disc> discs, double clock,
                 const SideSpans& columns = {}, std::span<const BondOrder> orders = {},
                 std::span<const DiscImage> images = {});
 
-    /// What has been added so far is to stay, and readers see it. Renews the description when it
-    /// has grown old. **Collective.**
+    /// Makes all frames so far permanent and visible to readers. Renews the
+    /// description if it is old. **Collective.**
     void commit();
 
-    /// Describes all frames there are, in XDMF, for tools on VTK. **Collective.**
+    /// Describes all frames in XDMF, for tools based on VTK. **Collective.**
     void describe();
 
 private:
@@ -69,8 +69,8 @@ private:
     TrajectoryLayout layout_;
     const Communicator& communicator_;
     std::unique_ptr<SegmentedFile> file_;
-    std::vector<std::int64_t> steps_; ///< of the frames there are, on rank 0
-    std::size_t n_described_ = 0;     ///< of them in the XDMF file
+    std::vector<std::int64_t> steps_; ///< of all frames, on rank 0
+    std::size_t n_described_ = 0;     ///< number of frames in the XDMF file
 };
 
 } // namespace carrom

@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// A run that was just killed may still be ending.
+/// A run that was just killed may not have ended yet.
 constexpr std::chrono::milliseconds patience(2000), pause(50);
 
 std::string this_process() {
@@ -35,7 +35,7 @@ std::string first_bytes(int file) {
                  : "a process that has not yet said which";
 }
 
-/// Whether the name still leads to the open file: a holder that ends removes it.
+/// Whether the name still leads to the open file, because a holder that ends removes it.
 bool is_still_there(int file, const std::string& path) {
     struct stat open{}, named{};
     return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
@@ -52,7 +52,7 @@ WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
 
 WriteLock::~WriteLock() {
     if (file_ < 0) return;
-    ::unlink(path_.c_str()); // before another can have it
+    ::unlink(path_.c_str()); // before another run can have it
     ::close(file_);
 }
 
@@ -60,7 +60,7 @@ WriteLock::WriteLock(WriteLock&& other) noexcept
     : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
       problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)) {}
 
-/// True where there is nothing to wait for.
+/// Returns true if there is nothing to wait for.
 bool WriteLock::try_once() {
     holder_.clear();
     const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// One frame: a row of a segment.
+/// A frame: one row of a segment.
 struct Row {
     const FileSegment& segment;
     std::uint64_t number;
@@ -36,7 +36,7 @@ std::string attribute(const char* name, const char* kind, const std::string& ite
                        name, kind, item);
 }
 
-/// The same for all frames: radius or species.
+/// Numbers that all frames share: radius or species.
 std::string fixed(const std::string& file, const TrajectoryLayout& layout, const char* name,
                   const char* type) {
     return attribute(name, "Scalar",
@@ -49,7 +49,7 @@ std::string fixed(const std::string& file, const TrajectoryLayout& layout, const
 
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
                 std::span<const FileSegment> segments, std::span<const std::int64_t> steps) {
-    if (!layout.has_position) return; // nothing to be seen
+    if (!layout.has_position) return; // without positions there is nothing to see
     const std::string file = std::filesystem::path(path).filename().string();
     std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain><Grid "
                        "Name=\"discs\" GridType=\"Collection\" "

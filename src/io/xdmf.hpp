@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A description of a trajectory in XDMF 2, by which VTK (ParaView, VisIt) opens its segments
-// without a copy. It names segments, so that a VTK with an HDF5 without virtual datasets will do.
+// A description of a trajectory in XDMF 2, with which VTK (ParaView, VisIt) opens its segments
+// without a copy. It names segments, because some VTKs have an HDF5 without virtual datasets.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace carrom {
 
-/// Writes trajectory.xdmf beside trajectory.h5, whole or not at all. Some 1 KB a frame. Throws
-/// FileError.
+/// Writes trajectory.xdmf beside trajectory.h5, as a whole or not at all. It has some
+/// 1 KB for each frame. Throws FileError.
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
                 std::span<const FileSegment> segments, std::span<const std::int64_t> steps);
 

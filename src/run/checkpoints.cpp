@@ -23,10 +23,10 @@ namespace {
 constexpr double seconds_between_agreements = 0.5;
 /// A rank with more discs keeps no copy of them.
 constexpr double most_copied = 1e6;
-/// Between copies: each takes some 20 ns a disc, and what measurements keep as much again.
+/// Times between copies: each takes some 20 ns a disc, and the measurements' data as much again.
 constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
-/// After a request to stop. A step without a copy of its beginning gets the time that it seems to
-/// need, up to what batch systems allow.
+/// Times that a step gets after a request to stop. A step without a copy of its
+/// beginning gets the time that it seems to need, up to what batch systems allow.
 constexpr double patience = 1, most_patience = 20;
 constexpr double longest_stretch = 1e15; // steps
 
@@ -39,7 +39,7 @@ Checkpoints::Checkpoints(Run& run, std::optional<CheckpointOutput> wanted)
     kept_ = earlier_checkpoints(wanted_->folder, run.scene(), run.step(), ranks_);
     kept_.push_back(checkpoint_path(wanted_->folder, run.step()));
     if (!ranks_.is_root()) return;
-    remove_unfinished(wanted_->folder); // by the run that was killed
+    remove_unfinished(wanted_->folder); // left by a run that was killed
 }
 
 std::int64_t Checkpoints::next_due(std::int64_t step) const {
@@ -61,7 +61,7 @@ bool Checkpoints::act() {
     return goes_on;
 }
 
-/// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
+/// Facts on which all ranks agree: whether any has a signal, and rank 0's clock. **Collective.**
 Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
     std::array<std::uint64_t, 5> sums = {is_stop_requested() ? 1u : 0u, 0, 0, 0, 0};
     const double discs_per_rank = static_cast<double>(run_.scene().n_discs) / ranks_.size();
@@ -129,12 +129,12 @@ void Checkpoints::note_written(const std::string& path, std::int64_t step) {
     std::erase(kept_, path);
     kept_.push_back(path);
     remove_oldest();
-    stretch_watch_.lap(); // writing is no part of a stretch
+    stretch_watch_.lap(); // writing does not count for a stretch
     seconds_since_written_ = 0;
 }
 
-/// Giving back the blocks of a large file takes a fifth of the time of writing it: beside the
-/// steps.
+/// Freeing the blocks of a large file takes a fifth of the time of writing it, so this
+/// is done beside the steps.
 void Checkpoints::remove_oldest() {
     const auto n_removed = std::max<std::ptrdiff_t>(
         0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(wanted_->keep));

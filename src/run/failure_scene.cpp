@@ -15,12 +15,12 @@ namespace carrom {
 
 namespace {
 
-/// How much larger radii were than at first when the failed step began.
+/// The factor by which radii had grown when the failed step began.
 double growth_before(const Scene& scene, const CheckFailure& failure) {
     return scene.effects.growth_at(static_cast<double>(failure.step - 1));
 }
 
-/// The scene of one step that begins with the discs around, which lie in `discs_file`.
+/// Text of a scene of one step that begins with the discs around, listed in `discs_file`.
 std::string text_around(const Scene& scene, const CheckFailure& failure,
                         const std::string& discs_file) {
     std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:",

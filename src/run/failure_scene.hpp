@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a self-check has failed: the few discs around, as a scene that can be run again.
+// Writes the few discs around a failed self-check as a scene that can be run again.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace carrom {
 
-/// Writes check_step_S_disc_D.toml and .discs to `folder` ("" for where the program runs): one
-/// step, from the failed step's begin. Returns a sentence that says what was written, or why
-/// nothing was. One rank calls this.
+/// Writes check_step_S_disc_D.toml and .discs to `folder` ("" for the working folder):
+/// one step, from the begin of the failed step. Returns a sentence on what was
+/// written, or why nothing was. Called on one rank.
 std::string write_failure_scene(const std::string& folder, const Scene& scene,
                                 const CheckFailure& failure);
 
-/// Lets rank 0 write the neighbourhood to where the program runs; what to throw on every rank:
-/// code 70. **Collective.**
+/// Lets rank 0 write the discs around the failure to the working folder. Returns the
+/// error to throw on every rank, code 70. **Collective.**
 CollectiveError reported(const CheckFailure& failure, const Scene& scene,
                          const Communicator& ranks);
 

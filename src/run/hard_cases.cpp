@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// Of any disc on any rank, per micro-step. **Collective.**
+/// The largest speed of all discs on all ranks, per micro-step. **Collective.**
 double largest_speed(const Simulation& simulation, const Communicator& ranks) {
     double square = 0;
     for (const Disc& disc : simulation.discs())
@@ -20,8 +20,8 @@ double largest_speed(const Simulation& simulation, const Communicator& ranks) {
     return std::sqrt(ranks.max(square));
 }
 
-/// Images of discs are counted in 15 bits (core/image.hpp); collisions may make the fastest disc
-/// twice as fast.
+/// Images of discs are counted in 15 bits (core/image.hpp), and collisions may make
+/// the fastest disc twice as fast.
 constexpr double most_crossings = 8000;
 
 void refuse_long_flights(const Scene& scene, double speed) {
@@ -39,12 +39,12 @@ void refuse_long_flights(const Scene& scene, double speed) {
                                    std::ceil(crossings / most_crossings))}});
 }
 
-/// In the rounding of a time, which counts from the last sync.
+/// How far a disc flies in the rounding of a time, which counts from the last sync.
 double blurred_flight(const Scene& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
-/// Beyond a radius no contact differs from any other place.
+/// If discs are blurred by a radius, contacts cannot be told from other places.
 void refuse_blurred_places(const Scene& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;
@@ -64,7 +64,7 @@ void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const C
     refuse_blurred_places(scene, speed);
     refuse_long_flights(scene, speed);
     const double blur = blurred_flight(scene, speed);
-    // As far as the band before walls is wide: from there on bounces and overlaps show it.
+    // The width of the band before walls: from there on bounces and overlaps show the blur.
     if (blur <= 1e-8 * scene.radius) return;
     messages.warn(
         "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "

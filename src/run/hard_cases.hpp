@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings for scenes that are legal but lose digits, and the end of those that would lose discs
-// (docs/understanding/hard-cases.md).
+// Warnings for scenes that are legal but lose digits, and errors for those that would
+// lose discs (docs/understanding/hard-cases.md).
 #pragma once
 
 #include "parallel/communicator.hpp"
@@ -10,14 +10,14 @@
 
 namespace carrom {
 
-/// Warns if discs go noticeably far in the rounding of a time. Throws InputError on every
-/// rank if they go through a box with periodic sides more often than can be counted.
+/// Warns if discs go noticeably far in the rounding of a time. Throws InputError on
+/// every rank if they cross a box with periodic sides more often than can be counted.
 /// **Collective.**
 void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks,
                        const Messages& messages);
 
-/// The same for what rounding or the order of ids decides as the scene starts: discs that overlap
-/// (in the time-stepped method), that touch several others, that slide along each other.
+/// Warns of discs at the scene's start whose fate rounding or the order of ids decides: they
+/// overlap (in the time-stepped method), touch several others, or slide along each other.
 void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages);
 
 } // namespace carrom

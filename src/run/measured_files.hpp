@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured tables as files of CSV: remarks behind `#`, a line of names, then numbers that read back
-// as the same bits.
+// Measured tables as CSV files: remarks behind `#`, a line of names, then numbers that
+// read back with the same bits.
 #pragma once
 
 #include <string>
@@ -14,19 +14,19 @@ namespace carrom {
 
 std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 
-/// Writes each table that does not grow as a whole file in the scene's folder for measurements, by
-/// rank 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
+/// Writes each table that does not grow as a whole file in the scene's folder for measurements,
+/// on rank 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
 void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 
-/// The files of tables that grow by a line at each sample; the line is in the file by the end of
-/// that step. They end with whole lines, unless the machine goes down.
+/// The files of tables that grow by a line at each sample. A line is in the file by
+/// the end of its step. Files end with whole lines, unless the machine goes down.
 class GrowingFiles {
 public:
     GrowingFiles(const Scene& scene, const Communicator& ranks) : scene_(scene), ranks_(ranks) {}
 
-    /// Writes the rows that are not there yet, by rank 0; the first time, a whole new file. Throws
-    /// as `write_tables` does. **Collective.**
+    /// Rank 0 writes the rows that the files lack; the first time it makes new files.
+    /// Throws like `write_tables`. **Collective.**
     void add_rows_of(const Sampler& sampler);
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the messages of a run go. The program prints them to standard error; a program that uses
-// the library may take them; without a taker they are dropped.
+// The way of a run's messages. The program prints them to standard error. A program
+// that uses the library may take them; otherwise they are dropped.
 #pragma once
 
 #include <functional>
@@ -17,18 +17,18 @@ public:
 
     /// Drops all messages.
     Messages() = default;
-    /// Hands each message, which ends in a line break, to `take`. One rank has a taker, the others
-    /// have none, so that callers need not ask which rank they are on.
+    /// Passes each message, which ends in a line break, to `take`. One rank has a
+    /// taker and the others have none, so callers need not ask for their rank.
     explicit Messages(Take take, bool is_quiet = false)
         : take_(std::move(take)), is_quiet_(is_quiet) {}
 
-    /// Something that the user should know, also of a quiet run.
+    /// A message that the user should know of, also in a quiet run.
     template <class... Values>
     void warn(fmt::format_string<Values...> format, Values&&... values) const {
         if (take_) take_(fmt::vformat(format, fmt::make_format_args(values...)));
     }
 
-    /// What the run does; a quiet run leaves it out.
+    /// A message about progress, which a quiet run omits.
     template <class... Values>
     void note(fmt::format_string<Values...> format, Values&&... values) const {
         if (!is_quiet_) warn(format, std::forward<Values>(values)...);

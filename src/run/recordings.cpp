@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_commits = 5; ///< so that readers see a run that goes on
+constexpr double seconds_between_commits = 5; ///< so that readers see a run while it goes on
 constexpr double largest_share = 0.02;        ///< of the time, for commits
 
 /// The total order; q + 1 puts the wall, the largest number there is, before every disc.
@@ -29,7 +29,7 @@ bool comes_before(const Collision& a, const Collision& b) {
 } // namespace
 
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
-    // A collision at the end of a step belongs to it; one at the very start of the run to step 1.
+    // A collision at the end of a step belongs to that step, at the start of the run to step 1.
     const auto n_micro = std::max<std::int64_t>(
         1, static_cast<std::int64_t>(std::ceil(collision.time)));
     LoggedCollision entry;
@@ -78,7 +78,7 @@ void Recordings::open_log() {
     run_.simulation().log_to(&collisions_);
 }
 
-/// What the restart of a run finds of its trajectory.
+/// Reports frames that the restart of a run lacks in its trajectory.
 void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
     const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
     if (last >= last_due) return;
@@ -98,9 +98,9 @@ bool Recordings::act() {
     if (log_) record_collisions(step);
     add_rows();
     ImageCounts* const counts = run_.images();
-    if (counts) static_cast<void>(counts->counts()); // so that they need little memory
+    if (counts) static_cast<void>(counts->counts()); // keeps their memory small
     if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
-        std::vector<BondOrder> orders; // first: finding them moves discs in memory
+        std::vector<BondOrder> orders; // first, because finding them moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
             orders = simulation.bond_orders();
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};

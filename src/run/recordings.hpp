@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run records as it goes on, if its scene asks for it: a trajectory, the collisions in their
-// total order, and measurements, whose tables are written with each checkpoint and at the end. The
-// table "thermo" is written as it grows.
+// The recordings of a run, if its scene asks for them: a trajectory, the collisions in
+// their total order, and measurements, whose tables are written with each checkpoint
+// and at the end. The table "thermo" is written as it grows.
 //
 // They are committed before each checkpoint, and every few seconds for readers.
 #pragma once
@@ -22,24 +22,24 @@
 
 namespace carrom {
 
-/// A collision as the log shows it: the step it is made in, and its time since the scene's start,
-/// in steps.
+/// A collision as the log has it: its step, and its time since the scene's start, in
+/// steps.
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
 
 class Recordings : public StepAction {
 public:
-    /// Opens the files; cut back to the present step in a restart, else new ones with the present
-    /// step as a first frame. From then on the simulation logs its collisions here. All must
-    /// outlive this, and this the run's stepping. **Collective.**
+    /// Opens the files: cut back to the present step in a restart, else new ones with the
+    /// present step as a first frame. From then on the simulation logs its collisions
+    /// here. All arguments must outlive this, and this the run's stepping. **Collective.**
     Recordings(Run& run, const Messages& messages);
 
     std::int64_t next_due(std::int64_t step) const override;
     /// Records the present step. If recording fails every rank throws. **Collective.**
     bool act() override;
-    /// What is recorded so far is to stay. **Collective.**
+    /// Makes the recordings so far permanent. **Collective.**
     void commit() override;
 
-    /// The same, at the end of the run. **Collective.**
+    /// Commits at the end of the run. **Collective.**
     void finish();
 
 private:
@@ -59,7 +59,7 @@ private:
     GrowingFiles growing_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
-    std::vector<Collision> collisions_; ///< of this rank since they were last recorded
+    std::vector<Collision> collisions_; ///< of this rank since it last recorded some
 };
 
 } // namespace carrom

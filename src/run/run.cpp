@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// The scene with a method and micro-steps. **Collective.**
+/// Returns the scene with a method and micro-steps. **Collective.**
 Scene decided(Scene scene, const RunStart& start, const Communicator& ranks, const Tuning& tuning,
               const Messages& messages) {
     if (scene.accuracy) choose_setting(scene, start.discs, messages, ranks, tuning);

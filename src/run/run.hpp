@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of a scene: its simulation, what is measured as it goes on, and what is done between steps.
+// A run of a scene: its simulation, its measurements, and the actions between steps.
 //
-// The program and the library make a run alike and step it alike. They differ in the actions that
-// they add: the program adds lines of text, recordings and checkpoints; the library adds
-// checkpoints where it is asked for some.
+// The program and the library make and step runs alike. They differ in the actions
+// that they add: the program adds lines of text, recordings and checkpoints; the
+// library adds checkpoints if it is asked for some.
 #pragma once
 
 #include <cstdint>
@@ -25,17 +25,17 @@ namespace carrom {
 
 class Run {
 public:
-    /// Begins at step 0, or goes on from a stored state. Lets a pilot choose method and micro-steps
-    /// where the scene has `time.accuracy`. Throws InputError on every rank for a scene whose
-    /// numbers cannot be resolved. Takes the first sample if it is due. **Collective.**
+    /// Begins at step 0, or goes on from a stored state. Lets a pilot choose method and
+    /// micro-steps if the scene has `time.accuracy`. Throws InputError on every rank for a scene
+    /// whose numbers cannot be resolved. Takes the first sample if it is due. **Collective.**
     Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
         const Messages& messages = {});
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    const Scene& scene() const { return scene_; } ///< with the setting that the pilot has chosen
+    const Scene& scene() const { return scene_; } ///< with the pilot's choice
     const Communicator& ranks() const { return ranks_; }
-    int n_threads() const { return n_threads_; } ///< of this rank
+    int n_threads() const { return n_threads_; } ///< on this rank
     bool is_restart() const { return is_restart_; }
     Simulation& simulation() { return simulation_; }
     const Simulation& simulation() const { return simulation_; }
@@ -43,25 +43,25 @@ public:
 
     /// The measurements that the scene asks for; null if it asks for none.
     const Sampler* sampler() const { return sampler_ ? &*sampler_ : nullptr; }
-    /// Of a trajectory that shows images; null if there is none. Counts go on from a checkpoint
-    /// that has some.
+    /// Counts for a trajectory that shows images; null if there is none. They go on
+    /// from a checkpoint that has some.
     ImageCounts* images() { return images_ ? &*images_ : nullptr; }
     bool has_earlier_images() const { return has_earlier_images_; }
 
-    /// From now on `action` is called between steps, after those added before. It must outlive
-    /// stepping.
+    /// From now on calls `action` between steps, after those added before. It must
+    /// outlive stepping.
     void add(StepAction& action) { actions_.push_back(&action); }
     /// Steps to the end of `last_step`. Returns false if an action ended the run before. A failed
     /// check of `check_every_step` leaves a scene of the discs around it. **Collective.**
     bool advance_to(std::int64_t last_step);
     const StretchSeconds& seconds() const { return seconds_; }
 
-    /// Makes permanent what the actions have done so far. **Collective.**
+    /// Makes permanent what all actions have written so far. **Collective.**
     void commit();
-    /// What a checkpoint keeps beside the state. **Collective.**
+    /// The data of a checkpoint beside the state. **Collective.**
     StoredSamples stored_samples();
-    /// Writes the present state as a whole file or not at all; every rank throws if it fails, and
-    /// an older file of that name is then as it was. **Collective.**
+    /// Writes the present state as a whole file or not at all. If it fails every rank
+    /// throws, and an older file of that name is unchanged. **Collective.**
     void write_checkpoint(const std::string& path, Transfers transfers = Transfers::independent);
 
 private:

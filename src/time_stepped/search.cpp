@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t around_ahead = 4;
 /// Discs whose partners are listed before any of them is judged.
 constexpr std::size_t hits_per_batch = 128;
-/// Pairs judged later whose states are asked for now: they are far apart in memory.
+/// States of pairs are prefetched so many pairs ahead, because they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
 /// A request to stop is checked for after so many pairs.
 constexpr std::size_t pairs_per_look = 65536;
@@ -65,7 +65,7 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
     sections.clear();
 }
 
-/// Gives the list's memory away: it is not needed until the next window, and later lists grow.
+/// Gives the list's memory away: the next window needs it again, and later lists grow before.
 std::vector<Candidate> SearchLists::take(std::size_t bucket, std::span<const WindowState> states) {
     MicroStepList& list = by_micro[bucket];
     most_candidates = std::max(most_candidates, list.candidates.size());

@@ -57,7 +57,7 @@ struct SearchLists {
 template <class Dynamics> class Search {
 public:
     Search(const Dynamics& dynamics, int n_threads);
-    /// Another one of the same kind from now on: boxes that move are elsewhere after a sync.
+    /// Replaces the dynamics after a sync, because images that move are elsewhere then.
     void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
     /// Predicts all contacts in `window`. The grid must have been built for it.

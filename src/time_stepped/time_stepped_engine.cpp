@@ -270,8 +270,8 @@ template <class Dynamics>
     }
 }
 
-/// Returns the square of the largest speed after it. Walls at rest that only mirror do not matter.
-/// Two ranks may carry out a collision: the one that owns the first disc adds it to the sums.
+/// Returns the square of the largest speed afterwards; mirror walls do not change it. If
+/// two ranks carry out the collision, the owner of the first disc adds it to the sums.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
     const Candidate& c, int m, std::vector<Disc>& results, StressTerms& terms, StressSums& stress) {

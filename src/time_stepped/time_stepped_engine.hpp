@@ -91,7 +91,7 @@ private:
     BoundaryResolution across_strips_;
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
-    std::vector<Disc> unhit_; ///< for the log: each kept candidate's first disc, before it
+    std::vector<Disc> unhit_; ///< for the log: the first disc of each kept candidate, before it
     std::vector<WindowState> states_; ///< by disc
 
     // Candidates whose first disc is own.

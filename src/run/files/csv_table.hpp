@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A new table of CSV that grows line by line, each on disk as soon as it is known. Tables of
-// several processes are put together by concatenation.
+// A new CSV table that grows line by line, each on disk as soon as it is known. Tables
+// of several processes can be concatenated.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace carrom {
 
 class CsvTable {
 public:
-    /// Throws InputError where there is a file already, or can be none. Nothing is written before
+    /// Throws InputError if the file exists or cannot be made. Writes nothing before
     /// the first line.
     CsvTable(std::string path, std::string header);
 
-    /// Throws CollectiveError (code 4) where that fails; the table then ends with the line before.
+    /// Throws CollectiveError (code 4) if this fails; the table then ends with the line before.
     void append(const std::string& line);
 
 private:
@@ -21,7 +21,7 @@ private:
     bool has_begun_ = false;
 };
 
-/// A text that needs no quotes in CSV.
+/// The text with all characters replaced that would need quotes in CSV.
 std::string plain_field(std::string text);
 
 } // namespace carrom

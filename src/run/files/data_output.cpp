@@ -39,7 +39,7 @@ void DataOutput::flush() {
             next += written;
             left -= static_cast<std::size_t>(written);
         } else if (errno ==
-                   EAGAIN) { // someone made the pipe non-blocking: wait until there is room
+                   EAGAIN) { // another process made the pipe non-blocking: wait until there is room
             pollfd room{file_, POLLOUT, 0};
             ::poll(&room, 1, -1);
         } else if (errno != EINTR) {
@@ -58,7 +58,7 @@ WriteProblem write_problem_of_stream(const std::string& path) {
     int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     const bool is_new = file < 0 && errno == ENOENT;
     if (is_new) file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && errno == ENXIO) return {}; // a named pipe that nobody reads yet
+    if (file < 0 && errno == ENXIO) return {}; // a named pipe without a reader yet
     if (file < 0) return write_problem("cannot be written", errno);
     ::close(file);
     if (is_new) ::unlink(path.c_str());

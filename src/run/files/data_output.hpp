@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the data of a run goes, standard output or a file: large writes, and a failure that is
-// remembered instead of ending the process.
+// Output of a run's data to standard output or a file. Writes are large, and a failure
+// is remembered instead of ending the process.
 //
-// Works on a file descriptor: a closed pipe or a full disk is then an errno at a known place. The
-// caller reports a failure to the other ranks.
+// It uses a file descriptor, so a closed pipe or a full disk is an errno at a known
+// place. The caller reports a failure to the other ranks.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace carrom {
 
 class DataOutput {
 public:
-    /// Opens the file, emptying it; standard output where `path` is empty. From here on a closed
-    /// pipe is an error of `flush`, not the end of the process.
+    /// Opens the file and empties it; standard output if `path` is empty. From here on
+    /// a closed pipe is an error of `flush`, and does not end the process.
     explicit DataOutput(const std::string& path);
     ~DataOutput();
     DataOutput(const DataOutput&) = delete;
@@ -34,7 +34,7 @@ public:
     /// after this.
     void close();
 
-    /// What went wrong first, empty while all is well. After a failure nothing more is written.
+    /// The first failure, or empty. After a failure nothing more is written.
     const std::string& failure() const { return failure_; }
 
 private:
@@ -49,8 +49,8 @@ private:
     std::string failure_;
 };
 
-/// What would keep a DataOutput from opening `path`, if anything is known to. Leaves the file as it
-/// is.
+/// The problem that would keep a DataOutput from opening `path`, as far as it can be
+/// known. Leaves the file as it is.
 WriteProblem write_problem_of_stream(const std::string& path);
 
 } // namespace carrom

@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-/// Also where one or both are not there yet, and through links and other spellings.
+/// Also if files do not exist yet, and through links and other spellings.
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error)) return true;

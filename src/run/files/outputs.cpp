@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* folder_key = "output.folder";
 
-/// What would keep a folder from being made, without making it.
+/// The problem that would keep a folder from being made; does not make it.
 WriteProblem write_problem_of_new_folder(const std::string& folder) {
     std::error_code ignored;
     std::filesystem::path place = std::filesystem::absolute(folder, ignored);
@@ -33,7 +33,7 @@ WriteProblem write_problem_of_new_folder(const std::string& folder) {
     return write_problem("cannot be made in " + place.string(), errno);
 }
 
-/// What in the folder keeps the run from writing there.
+/// The problem in the folder that keeps the run from writing there.
 std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
     const std::string& folder = scene.folder;
     std::error_code ignored;
@@ -72,8 +72,8 @@ WriteLock locked(const std::string& folder, PlaceProblems& found) {
     return lock;
 }
 
-/// Makes nothing and locks nothing unless there are `locks` to add to, and then only if all is
-/// right.
+/// Makes and locks nothing without `locks`. With `locks` it adds to them, and only if
+/// there are no problems.
 void check_places(PlaceProblems& found, const RunOptions& options, const Scene& scene,
                   const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations,
                   std::vector<WriteLock>* locks) {

@@ -26,19 +26,19 @@ int write_all(int file, const std::string& text) {
     return 0;
 }
 
-/// Without it a crash may take the new name back. Returns 0 or an errno.
+/// Without this a crash may take the new name back. Returns 0 or an errno.
 int sync_folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const int file = ::open(folder.empty() ? "." : folder.c_str(),
                             O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return errno == EACCES ? 0 : errno; // to write there needs no right to read
+    if (file < 0) return errno == EACCES ? 0 : errno; // writing there needs no right to read
     const int error = ::fsync(file) != 0 && errno != EINVAL ? errno : 0;
     ::close(file);
     return error;
 }
 
-/// A new file beside the place of another one, removed unless it is renamed. Its name is no other
-/// file's, and no link is followed: `errno` says what is wrong where `number` is negative.
+/// A new file beside another one, removed unless it is renamed. Its name is unused,
+/// and no link is followed. If `number` is negative, `errno` has the reason.
 class FileBeside {
 public:
     explicit FileBeside(const std::string& path) {
@@ -103,7 +103,7 @@ int append_whole(const std::string& path, const std::string& text, bool is_new) 
     if (file < 0) return errno;
     const off_t size = ::lseek(file, 0, SEEK_END);
     int error = write_all(file, text);
-    if (error != 0) static_cast<void>(::ftruncate(file, size)); // no half line
+    if (error != 0) static_cast<void>(::ftruncate(file, size)); // leaves no half line
     if (::close(file) != 0 && error == 0) error = errno;
     return error;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small file that is either written whole or not at all: beside its place first, then renamed.
+// A small file that is written as a whole or not at all: under another name, then renamed.
 //
-// Whether it can be written is found out before the run, not after a week.
+// Whether it can be written is checked before the run, not after a week.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace carrom {
 
-/// What would keep `write_whole_file` from writing to `path`, if anything is known to. Leaves
-/// nothing behind.
+/// The problem that would keep `write_whole_file` from writing to `path`, as far as it
+/// can be known. Leaves nothing behind.
 WriteProblem write_problem_of_file(const std::string& path);
 
-/// Replaces `path` by a file with this text. Returns what went wrong, empty if nothing did.
+/// Replaces `path` by a file with this text. Returns the problem, or empty.
 std::string write_whole_file(const std::string& path, const std::string& text);
 
-/// Adds text at the end of a file, all of it or nothing; where it `is_new` there must be no file
-/// yet. Returns 0 or an errno.
+/// Appends text to a file, all of it or nothing. If it `is_new` the file must not
+/// exist yet. Returns 0 or an errno.
 int append_whole(const std::string& path, const std::string& text, bool is_new = false);
 
 } // namespace carrom

@@ -36,8 +36,8 @@ bool is_there(const std::string& path) {
     return fs::symlink_status(path, error).type() != fs::file_type::not_found;
 }
 
-/// Whether a recording holds nothing after step 0, which the next run records again. One that
-/// cannot be read may hold anything.
+/// Whether a recording has nothing after step 0, which the next run records again. A
+/// recording that cannot be read may have anything.
 bool is_of_start(const std::string& path) {
     try {
         const FileSummary summary = FrameFile(path).summary();
@@ -49,7 +49,7 @@ bool is_of_start(const std::string& path) {
     }
 }
 
-/// The same of a table: one line of names and at most one row, of the first sample.
+/// Whether a table has one line of names and at most one row, that of the first sample.
 bool has_rows_of_start(const fs::path& path) {
     std::ifstream file(path);
     std::size_t n_lines = 0;
@@ -57,8 +57,8 @@ bool has_rows_of_start(const fs::path& path) {
     return file.eof() && path.stem() == "thermo" && n_lines <= 2;
 }
 
-/// Whether a run may have written a file, by its name and, of a table, by its first line, which
-/// names it.
+/// Whether a run may have written a file, by its name and, for a table, by its first
+/// line, which names the table.
 bool is_written_by_run(std::string_view folder, const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
@@ -74,7 +74,7 @@ bool is_written_by_run(std::string_view folder, const fs::path& path) {
            stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// TOML that has been changed by `--set` says so in its first lines.
+/// TOML that has been changed by `--set` lists the changes in its first lines.
 std::string text_of_copy(const Scene& scene) {
     std::string text;
     std::vector<std::string> overrides = scene.overrides;
@@ -149,11 +149,11 @@ std::string difference_from_run(const std::string& folder, const Scene& scene) {
         std::string skipped;
         for (std::size_t k = 0; k < overrides.size(); ++k) std::getline(file, skipped);
         SceneText text = read_scene_text(file, path);
-        text.discs_follow = scene.discs_follow; // they are not in the copy
+        text.discs_follow = scene.discs_follow; // the copy does not have the discs
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
         Scene there = read_scene(text, overrides), here = scene;
-        there.discs_file = here.discs_file; // seen from another folder
+        there.discs_file = here.discs_file; // relative to another folder
         for (Scene* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
         const std::vector<std::string> differences = physical_differences(there, here);

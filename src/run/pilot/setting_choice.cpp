@@ -14,25 +14,25 @@ namespace carrom {
 
 namespace {
 
-constexpr double approach = 10;         ///< collisions of a disc before anything is measured
+constexpr double approach = 10;         ///< collisions of a disc before a trial measures
 constexpr double certainty = 2;         ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< of pairs, per trial
 constexpr double least_accuracy = 4 * certainty /
-                                  2000; ///< what so many can show, four times: 2000^2 = 4e6
-constexpr double per_disc = 100; ///< collisions of a disc per trial, at least: dense gases take as
-                                 ///< long to show their errors
-constexpr double fewest_collisions = 2e4; ///< of pairs: less is too short to be timed ...
+                                  2000;   ///< four times the error that 4e6 collisions resolve
+constexpr double per_disc = 100;          ///< collisions of a disc per trial at least, because
+                                          ///< errors in dense gases show late
+constexpr double fewest_collisions = 2e4; ///< of pairs: fewer are too short to be timed ...
 constexpr double long_enough =
-    2e4; ///< ... but so many steps, or of discs so many, are not, however few discs meet
+    2e4; ///< ... unless it has this many disc-steps, or this many steps, however few discs meet
 constexpr double long_enough_steps = 1e3;
 constexpr double long_look =
-    0.02; ///< seconds after which a setting may be dropped before its trial's end ...
+    0.02; ///< seconds after which a setting may be dropped before its trial ends ...
 constexpr double timed_enough =
-    0.2; ///< ... and after which it may be called expensive: starting takes its time
+    0.2; ///< ... and after which it may be called slow, because starts take time, too
 constexpr double steady =
-    1.2; ///< overlaps that grow by more from a stretch to the next have not come to an end
+    1.2; ///< overlaps have not settled if they grow by more than this between stretches
 constexpr std::array<int, 5> stretches = {1, 1, 2, 4,
-                                          8}; ///< that a trial is cut into, in sixteenths
+                                          8}; ///< the stretches of a trial, in sixteenths
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
 struct Choice {
@@ -40,7 +40,7 @@ struct Choice {
     std::string reason;
 };
 
-/// Pairs that have to collide for errors of `accuracy` to stand out from the noise of two trials.
+/// The number of pair collisions for which an error of `accuracy` exceeds the noise of two trials.
 double collisions_needed(double accuracy) {
     return std::min(most_collisions, std::pow(4 * certainty / accuracy, 2));
 }
@@ -50,8 +50,8 @@ std::string shares_text(const TrialError& error) {
                        100 * error.frequency, 100 * error.pressure, 100 * error.error);
 }
 
-/// Of a sixteenth of a trial: its last half is to be enough to see an error of `accuracy`, and the
-/// whole to be timed.
+/// The steps of a sixteenth of a trial. Its last half must be long enough to show an
+/// error of `accuracy`, and the whole long enough to be timed.
 std::int64_t sixteenth_of_trial(double n_discs, double pairs_per_step, double accuracy) {
     const double to_be_timed = std::min(fewest_collisions / pairs_per_step,
                                         std::max(long_enough / n_discs, long_enough_steps));
@@ -60,7 +60,7 @@ std::int64_t sixteenth_of_trial(double n_discs, double pairs_per_step, double ac
     return static_cast<std::int64_t>(std::ceil(std::max(to_be_timed, to_be_seen) / 16));
 }
 
-/// What all trials have in common.
+/// The settings that all trials share.
 struct Pilot {
     const Scene& scene;
     const TrialStart& start;
@@ -69,7 +69,7 @@ struct Pilot {
     const Tuning& tuning;
 };
 
-/// A trial's next stretch, from `at`, which goes on to its end.
+/// Runs a trial's next stretch from the state `at`, which advances to the stretch's end.
 Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t stretch,
                   TrialStart& at) {
     TrialLength length;
@@ -88,15 +88,15 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
     return trials;
 }
 
-/// What is known of a setting.
+/// The results of a setting so far.
 struct Experience {
     TrialError error;                          ///< in its last stretch
-    double seconds = 0, reference_seconds = 0; ///< until then, and those of the event-driven method
-    bool is_whole = false;                     ///< else the error was too large before the end
+    double seconds = 0, reference_seconds = 0; ///< so far; the latter by the event-driven method
+    bool is_whole = false;                     ///< false if the error was too large before the end
     bool grows = false; ///< overlaps become more and more, and errors with them
 };
 
-/// Whether overlaps become more by more than chance would have it.
+/// Whether overlaps increase by more than chance explains.
 bool are_growing(const Trial& before, const Trial& after) {
     const auto n_pairs = [](const Trial& trial) {
         return trial.overlapping_pairs_per_disc * static_cast<double>(trial.totals.n_discs) / 2;
@@ -111,7 +111,7 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting,
     Trial before;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const Trial trial = run_stretch(pilot, setting, k, at);
-        found.seconds += trial.wall_seconds; // all ranks know the same
+        found.seconds += trial.wall_seconds; // all ranks have the same times
         found.reference_seconds += exact[k].wall_seconds;
         found.error = error_of(trial, exact[k]);
         found.grows = k > 0 && are_growing(before, trial);
@@ -130,7 +130,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     const std::vector<Trial> exact = run_event_driven(pilot);
     double steps = 0;
     for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
-    bool was_slower = false; // a number of micro-steps may be slower than twice as many are
+    bool was_slower = false; // a number of micro-steps may be slower than twice as many
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{Method::time_stepped, k};
         const Experience found = try_setting(pilot, setting, exact, accuracy);
@@ -155,7 +155,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     return {all, "method = \"event-driven\": no number of micro-steps is good enough"};
 }
 
-/// Throws InputError, with a way out.
+/// Throws InputError with a way out.
 TrialStart start_of_pilot(const Scene& scene, const std::vector<InputDisc>& discs,
                           const Communicator& communicator, const Tuning& tuning) {
     try {
@@ -173,8 +173,8 @@ TrialStart start_of_pilot(const Scene& scene, const std::vector<InputDisc>& disc
 
 double TrialError::largest() const { return std::max(std::fabs(frequency), std::fabs(pressure)); }
 
-/// Pressures differ as the virial's second part does, at most; a count of n has an error of no more
-/// than sqrt(n): collisions of hard discs are more regular than chance.
+/// Pressures differ at most like the second part of the virial. A count of n has an error
+/// of at most sqrt(n), because collisions of hard discs are more regular than chance.
 TrialError error_of(const Trial& trial, const Trial& exact) {
     const auto pairs = [](const Trial& t) {
         return static_cast<double>(std::max<std::uint64_t>(1, t.totals.pair_collisions));

@@ -14,9 +14,9 @@ namespace carrom {
 namespace {
 
 constexpr std::int64_t unlimited_steps = std::int64_t{1} << 40;
-constexpr std::int64_t longest_approach = 1 << 20; ///< steps that discs are given to meet
+constexpr std::int64_t longest_approach = 1 << 20; ///< the most steps that discs get to meet
 
-/// Of all threads of this process: what other programs on the machine take is not in it.
+/// CPU time of all threads of this process, so other programs on the machine do not count.
 double process_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Short runs of a scene under other settings, from one and the same start: what the accuracy study
-// and the choice of a setting by `time.accuracy` measure errors and costs with.
+// Short runs of a scene under other settings, from the same start. The accuracy study
+// and the choice of a setting by `time.accuracy` measure errors and costs with them.
 #pragma once
 
 #include <cstdint>
@@ -28,29 +28,29 @@ struct RunSetting {
 /// The scene with that setting.
 Scene with_setting(Scene scene, const RunSetting& setting);
 
-/// Discs that have been brought to equilibrium by the event-driven method, where a trial starts.
+/// Discs in equilibrium by the event-driven method, from which trials start.
 struct TrialStart {
     std::vector<InputDisc> discs; ///< this rank's
     StateHash hash;
     double frequency = 0; ///< collisions with other discs per disc and step
 };
 
-/// Runs `discs` under the event-driven method until a disc has had `collisions_per_disc` with
-/// others, on average. Throws InputError where discs overlap, or where they hardly meet.
-/// **Collective.**
+/// Runs `discs` under the event-driven method until a disc has had
+/// `collisions_per_disc` with others, on average. Throws InputError if discs overlap
+/// or hardly meet. **Collective.**
 TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs,
                                 double collisions_per_disc, const Communicator& communicator,
                                 const Tuning& tuning);
 
-/// What a trial has measured. Energies, lengths and times in the scene's units.
+/// The results of a trial. Energies, lengths and times are in the scene's units.
 struct Trial {
     std::int64_t steps = 0;
     Averages averages;
     Totals totals;                         ///< at its end
-    double overlapping_pairs_per_disc = 0; ///< that a disc takes part in; mean over the looks
-    double deepest_overlap = 0;            ///< of all looks, in diameters
-    double core_seconds = 0;               ///< of stepping, over all ranks and threads
-    double wall_seconds = 0;               ///< of stepping, on the slowest rank
+    double overlapping_pairs_per_disc = 0; ///< pairs that a disc takes part in; mean of samples
+    double deepest_overlap = 0;            ///< over all samples, in diameters
+    double core_seconds = 0;               ///< time of stepping, over all ranks and threads
+    double wall_seconds = 0;               ///< time of stepping, on the slowest rank
     std::vector<InputDisc> early; ///< this rank's discs at `early_step`, by id; empty if it is 0
 };
 
@@ -59,8 +59,8 @@ std::vector<InputDisc> discs_now(const Simulation& simulation);
 
 struct TrialLength {
     std::int64_t steps = 1;
-    std::int64_t early_step = 0; ///< where places are kept, 0 for nowhere
-    int n_looks = 16;            ///< at overlaps
+    std::int64_t early_step = 0; ///< the step at which places are kept, or 0
+    int n_looks = 16;            ///< samples of overlaps
 };
 
 /// **Collective.**

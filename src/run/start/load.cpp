@@ -31,9 +31,9 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One
-/// rank may find problems that the others do not know of yet, so they must not fly as an exception
-/// before all ranks have agreed.
+/// Runs `read` and adds the problems of an InputError to `problems`; true if there was
+/// none. A rank may find problems that the others do not know of yet, so the exception
+/// must not leave before all ranks have agreed.
 template <class Read> bool collect(Problems& problems, const Read& read) {
     try {
         read();
@@ -49,8 +49,8 @@ std::unique_ptr<std::istream> open(const std::string& input) {
     return std::make_unique<std::ifstream>(open_input(input));
 }
 
-/// What the options alone name: a run must not end in a file that cannot be written, nor empty its
-/// own input.
+/// Files that the options name. They are checked because a run must not end in a file
+/// that cannot be written, nor empty its own input.
 std::vector<NamedFile> named_by(const RunOptions& options) {
     std::vector<NamedFile> destinations;
     if (!options.output.empty()) destinations.push_back({"--output", options.output, true});
@@ -66,7 +66,7 @@ std::vector<NamedFile> read_by(const RunOptions& options) {
     return sources;
 }
 
-/// What the places have that the options name.
+/// Adds the problems of the places that the options name.
 void check_destinations(const RunOptions& options, PlaceProblems& found) {
     const Problems shared = problems_with(named_by(options), read_by(options));
     if (!options.output.empty())
@@ -76,7 +76,7 @@ void check_destinations(const RunOptions& options, PlaceProblems& found) {
     append(found.problems, shared);
 }
 
-/// The files that are read: what is written must be others.
+/// The files that are read; outputs must be others.
 std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     std::vector<NamedFile> sources = read_by(options);
     if (!scene.discs_file.empty() || !scene.discs_from.empty())
@@ -84,7 +84,7 @@ std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     return sources;
 }
 
-/// A run writes into one folder; a wrong one has a problem already.
+/// A run writes into one folder. A wrong name of it is a problem already.
 void check_folder(const Scene& scene, Problems& problems) {
     const bool is_needed = scene.checkpoint || scene.trajectory || scene.collisions ||
                            scene.measurements;
@@ -99,10 +99,10 @@ void check_folder(const Scene& scene, Problems& problems) {
                             "-o FOLDER sets it too"});
 }
 
-/// The scene and what it is read from. **Collective.**
+/// Loads the scene and opens its input. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
                  const Communicator& ranks, SceneSource& source) {
-    PlaceProblems found; // of all ranks together: each one is listed by one rank
+    PlaceProblems found; // of all ranks together: one rank lists each
     Problems& problems = found.problems;
     bool is_readable = true;
     if (ranks.is_root()) {
@@ -133,7 +133,7 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
     return scene;
 }
 
-/// A restart without a scene has fewer things to go wrong. **Collective.**
+/// Checks a restart without a scene, in which fewer things can go wrong. **Collective.**
 void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
                          const Communicator& ranks) {
     PlaceProblems found;
@@ -144,7 +144,7 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
     found.agree(ranks);
 }
 
-/// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
+/// A wrong number of discs would otherwise end the run later without a reason. **Collective.**
 void check_memory(const Scene& scene, const Communicator& ranks) {
     constexpr double bytes_per_disc_time_stepped = 90,
                      bytes_per_disc_event_driven = 104; // at least (docs/log/performance.md)
@@ -161,15 +161,15 @@ void check_memory(const Scene& scene, const Communicator& ranks) {
                                    scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
-/// A run that was killed before its first checkpoint goes on with the copy of its scene.
-/// **Collective.**
+/// Lets a run that was killed before its first checkpoint begin with the copy of its
+/// scene. **Collective.**
 RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
     if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
     std::string copy, overrides;
     on_root(ranks, options.folder, ExitCode::bad_input, [&] {
         if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
             copy = scene_copy_of(options.folder);
-        if (!copy.ends_with(".toml")) copy.clear(); // the lines of discs are not in it
+        if (!copy.ends_with(".toml")) copy.clear(); // the copy does not have the lines of discs
         for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
     });
     ranks.broadcast(copy);
@@ -203,7 +203,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     if (goes_on(options)) {
         found = restart_candidates(options, loaded.scene, ranks);
         load_restart(options, loaded, ranks);
-        Problems missing; // from a checkpoint of the library, whose scenes need no folder
+        Problems missing; // if the library wrote the checkpoint: its scenes need no folder
         check_folder(loaded.scene, missing);
         if (!missing.empty()) throw InputError(missing);
     }
@@ -219,7 +219,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
             load_restart(options, loaded, ranks);
         }
         if (goes_on(options) && !loaded.start.stored) begin_anew(options, scene, ranks);
-    } catch (const InputError& error) { // on every rank
+    } catch (const InputError& error) { // thrown on every rank
         Problems all;
         if (ranks.is_root()) all = error.problems();
         if (ranks.is_root() && !loaded.start.stored)

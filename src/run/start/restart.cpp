@@ -31,7 +31,7 @@ std::string place_of(const RunOptions& options) {
 /// Whether the newest checkpoint of the run's own folder is wanted.
 bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
 
-/// The folder to look in; empty where a file was named. **Collective.**
+/// The folder to search; empty if a file was named. **Collective.**
 std::string folder_to_search(const RunOptions& options, const Scene& scene,
                              const Communicator& ranks) {
     if (is_own(options)) {
@@ -51,8 +51,8 @@ std::string folder_to_search(const RunOptions& options, const Scene& scene,
     return folder;
 }
 
-/// Checkpoints of a folder, newest first, the same on every rank; by their names of steps before
-/// `end`. **Collective.**
+/// Checkpoints of a folder whose names have steps before `end`, newest first, the same
+/// on every rank. **Collective.**
 std::vector<std::string> candidates_in(
     const std::string& folder, const Communicator& ranks,
     std::int64_t end = std::numeric_limits<std::int64_t>::max()) {
@@ -68,8 +68,8 @@ std::vector<std::string> candidates_in(
     return paths;
 }
 
-/// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that
-/// scene's run.
+/// Reads the checkpoint, and fills in the scene if there is none yet. Throws if the
+/// checkpoint is not of that scene's run.
 Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene,
                          const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
@@ -89,7 +89,7 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     return checkpoint;
 }
 
-/// Its problems on one line, without the places: there is one.
+/// The problems on one line, without their places, because there is only one place.
 std::string reasons(const InputError& error) {
     std::string text;
     for (const Problem& problem : error.problems())
@@ -97,7 +97,7 @@ std::string reasons(const InputError& error) {
     return text;
 }
 
-/// The newest of the candidates that is whole and of this run. **Collective.**
+/// The newest of the candidates that is undamaged and of this run. **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
                                       const RunOptions& options, Scene& scene,
                                       const Communicator& ranks) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run is asked for beside its scene: where it starts, where it writes, and on how many
-// threads.
+// The options of a run beside its scene: where it starts, where it writes, and how
+// many threads it has.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ struct RunOptions {
     int digits = round_trip_digits;
     std::string output; ///< a file for the lines of text; empty for standard output
     std::string report; ///< empty for none
-    std::string folder; ///< as the command line names it; also among the overrides
+    std::string folder; ///< of the command line; also among the overrides
     bool quiet = false;
     bool check = false; ///< hold every step to its invariants
 
     std::optional<int> threads;
     std::optional<std::int64_t> steps; ///< also among the overrides
     std::optional<double> accuracy;    ///< also among the overrides
-    Tuning tuning;                     ///< but for `threads`, which needs to know the machine
+    Tuning tuning;                     ///< without `threads`, which depends on the machine
     Messages messages;
 };
 

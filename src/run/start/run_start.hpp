@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a run starts: with the discs of its scene, or with what a checkpoint has kept.
+// The start of a run: the discs of its scene, or the contents of a checkpoint.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace carrom {
 
 /// Discs are in any distribution over the ranks.
 struct RunStart {
-    std::vector<InputDisc> discs{};      ///< of a run from step 0
+    std::vector<InputDisc> discs{};      ///< for a run from step 0
     std::optional<StoredState> stored{}; ///< the state that a restart goes on from
     StoredSamples samples{};             ///< the measurements that it goes on with
 };

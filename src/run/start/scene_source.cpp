@@ -19,8 +19,8 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-/// The problems of the InputError that `read` throws, if it does. Rank 0 may find problems that the
-/// others do not know of yet, so they must not fly as an exception before all ranks have agreed.
+/// Returns the problems of the InputError that `read` throws, if it does. Rank 0 may find problems
+/// that others do not know of yet, so the exception must not leave before all ranks have agreed.
 template <class Read> Problems problems_of(const Read& read) {
     try {
         read();
@@ -30,8 +30,8 @@ template <class Read> Problems problems_of(const Read& read) {
     return {};
 }
 
-/// The discs of `discs.from` become the lines that follow the scene's text. Returns the settings
-/// that say so, the same on every rank. **Collective.**
+/// Replaces the lines after the scene's text by the discs of `discs.from`. Returns the
+/// settings that say so, the same on every rank. **Collective.**
 std::vector<std::string> follow_with_discs_from(const Scene& scene,
                                                 std::unique_ptr<std::istream>& stream,
                                                 Problems& of_root, const Communicator& ranks) {
