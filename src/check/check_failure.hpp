@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run's self-check throws (Simulation::check_every_step): which invariant is broken, where,
-// and the discs around.
+// The error of a run's self-check (Simulation::check_every_step): which invariant is
+// broken, where, and the discs around.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@
 
 namespace carrom {
 
-/// In the order in which they are looked for. The first one found is reported.
+/// In the order of the checks. The first broken one is reported.
 enum class Invariant : int {
     finite,     ///< every number of every state is finite
-    owned_once, ///< each of the discs 0 .. N-1 is some rank's own, and of one rank only
+    owned_once, ///< each of the discs 0 .. N-1 is owned by exactly one rank
     in_box,     ///< its centre is a radius from every wall, to within rounding
     in_strip,   ///< its owner's strip holds it
     in_cell,    ///< and the cell that it is filed under
     clear,      ///< it is in no obstacle
-    counters, ///< its counters have grown by the collisions that were carried out with it, for both
-              ///< discs of a pair
-    motion,   ///< its velocity and its spin have changed by collisions only
-    overlap,  ///< no pair overlaps, unless the time-stepped method explains it
-    energy, ///< discs that have collided have the energy together that they had before; so have all
+    counters,   ///< its counters have grown by the collisions that were carried out with
+                ///< it, for both discs of a pair
+    motion,     ///< its velocity and its spin have changed by collisions only
+    overlap,    ///< no pair overlaps, except as the time-stepped method allows
+    energy, ///< discs that have collided have the same energy together as before; so have all discs
 };
 
-/// Thrown on every rank with the same contents; exit code 70. `discs_around`: the reported discs,
-/// those that they collided with and the nearest, as they were when the failed step began, in the
-/// order of their ids. It is empty where the reported disc does not exist. Rough discs' spins, per
-/// step, run along them.
+/// Thrown on every rank with the same contents; exit code 70. `discs_around`: the
+/// reported discs, those that they collided with and the nearest, as they were when
+/// the failed step began, in the order of their ids. It is empty if the reported disc
+/// does not exist. Spins of rough discs, per step, run along them.
 class CheckFailure : public CollectiveError {
 public:
     CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,
@@ -40,9 +40,9 @@ public:
           spins(std::move(their_spins)) {}
 
     Invariant invariant;
-    std::int64_t step; ///< at whose end it was found
+    std::int64_t step; ///< that ended with the broken invariant
     DiscId disc;
-    int rank; ///< that owns the disc, or did
+    int rank; ///< the disc's owner, or its last one
     std::vector<InputDisc> discs_around;
     std::vector<double> spins;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An invariant that a disc breaks, as the ranks compare it and as it is printed.
+// A broken invariant of a disc, as ranks compare it and as it is printed.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Finding {
     double value = 0, bound = 0;
 };
 
-/// `obstacles` may be null where the scene has none.
+/// `obstacles` may be null if the scene has none.
 std::string text_of(const Finding& finding, const Scene& scene, const Obstacles* obstacles,
                     std::int64_t step);
 

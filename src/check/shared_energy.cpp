@@ -76,7 +76,7 @@ std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> di
         const auto before = static_cast<double>(sums[i].before);
         if (change <= bound * before + sums[i].allowance + std::numeric_limits<double>::min())
             continue;
-        const double share = change / before; // infinite where there was none
+        const double share = change / before; // infinite if there was no energy
         if (!worst || share / bound > worst->share / worst->bound)
             worst = EnergyChange{sorted[i].disc, share, bound};
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy is handed on by collisions only: discs that are linked by a step's collisions keep what
-// they have together, but for what an effect takes or gives.
+// Only collisions transfer energy, so discs that are linked by a step's collisions
+// keep their energy together, except for what effects take or give.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,13 @@
 
 namespace carrom {
 
-/// A disc's squared speed before and after a step, or twice its energy; `allowance` is what effects
-/// may have added of that.
+/// A disc's squared speed before and after a step, or twice its energy. `allowance` is
+/// the part of it that effects may have added.
 struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    double n_reflections =
-        0; ///< from obstacles at any angle, which round as collisions of pairs do
+    double n_reflections = 0; ///< from obstacles at any angle, which round like collisions of pairs
 };
 
 /// A cluster of discs whose energy has changed: its lowest disc, the share by which it changed, and
@@ -28,9 +27,9 @@ struct EnergyChange {
     double share = 0, bound = 0;
 };
 
-/// The worst of the clusters that `pairs` make of `discs`. There is none if each kept its energy to
-/// within the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs`
-/// that are not among `discs` are left out. `may_fall`: collisions may take any energy.
+/// The worst of the clusters that `pairs` make of `discs`; none if each kept its energy to within
+/// the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs` that
+/// are not among `discs` do not count. With `may_fall` collisions may take any energy.
 std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
                                                 std::span<const std::pair<DiscId, DiscId>> pairs,
                                                 bool may_fall = false);

@@ -24,8 +24,8 @@ struct Part {
     DiscId disc = 0;
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
-    double impulse = 0; ///< of a wall
-    double work = 0;    ///< of surfaces that grow
+    double impulse = 0; ///< of a collision with a wall
+    double work = 0;    ///< of growing surfaces
 };
 
 bool is_finite(const Disc& disc) {
@@ -33,7 +33,7 @@ bool is_finite(const Disc& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-/// The bits as they are stored where the box's coordinates are the discs' own.
+/// Returns the stored bits if the box's coordinates are those of the discs.
 Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_steps_since_sync) {
     if (!frame.is_moving) return disc;
     Disc seen = frame.in_box(disc, time);
@@ -100,7 +100,7 @@ void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log l
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     note_speeds();
-    if (were_rewritten()) { // from then on they flew straight
+    if (were_rewritten()) { // they have flown straight since the sync
         const std::int64_t sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
         for (Known& known : known_) known.free_from = std::max(known.free_from, sync);
     }
@@ -144,14 +144,14 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
                        std::move(spins));
 }
 
-/// At the last look; moving walls are where they began.
+/// The walls at the last check. Moving walls are where they began.
 Extent StateCheck::walls_before() const {
     Effects effects = effects_;
     for (Boundary& side : effects.boundaries) side.speed = 0;
     return extent_at(effects, scene_.box, static_cast<double>(micro_steps_before_));
 }
 
-/// The discs of this rank's slab at the last look.
+/// The discs of this rank's slab at the last check.
 std::vector<SceneDisc> StateCheck::discs_before() const {
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
@@ -182,8 +182,8 @@ Finding StateCheck::first_not_finite(std::span<const Disc> own,
     return {};
 }
 
-/// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or
-/// places, own the disc.
+/// Sends every disc to the rank that keeps its record. The `value` of a finding is the
+/// number of ranks, or places, that own the disc.
 Finding StateCheck::take_records(std::span<const Disc> own, std::span<const double> spins,
                                  const Frame& frame, double time) {
     std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
@@ -281,8 +281,8 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
     return first.value_or(Finding{});
 }
 
-/// Under both rules: what would run into an obstacle within a micro-step stops there. `partner`
-/// says which one it is.
+/// In both methods a disc that would run into an obstacle within a micro-step stops
+/// there. `partner` is the obstacle.
 Finding StateCheck::first_in_obstacle(const LocalView& now) const {
     if (!obstacles_) return {};
     const double bound = 2 * tolerance_ + blur(64);
@@ -306,7 +306,7 @@ Finding StateCheck::first_wrong_count() const {
                                                then.disc.pair_collisions),
                    had_walls = static_cast<double>(now.walls),
                    had_pairs = static_cast<double>(now.pairs);
-        // `partner` says which of the two counters it is.
+        // `partner` tells which of the two counters differs
         if (walls != had_walls)
             return {Invariant::counters, now.owner, first_id_ + i, walls, had_walls, 0};
         if (pairs != had_pairs)
@@ -315,7 +315,7 @@ Finding StateCheck::first_wrong_count() const {
     return {};
 }
 
-/// The lowest pair's finding stays.
+/// Keeps the finding of the lowest pair.
 void StateCheck::keep_lowest(Finding& first, const Suspect& s) {
     if (first.is_found == 0 || std::pair(s.p.id, s.q.id) < std::pair(first.disc, first.partner))
         first = {Invariant::overlap, s.owner, s.p.id, s.depth, s.bound, s.q.id};
@@ -328,7 +328,7 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     std::vector<Suspect> suspects;
     visit_near_pairs(*now.grid, [&](LocalIndex a, LocalIndex b) {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
-        if (a >= now.population.n_own) return; // the rank of the lower id judges the pair
+        if (a >= now.population.n_own) return; // the owner of the lower id judges the pair
         Disc p = now.population.discs[a], q = now.population.discs[b];
         for (Disc* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
         const Shift shift = now.periods.between(p, q, now.time);
@@ -342,8 +342,8 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// The ranks that keep the records of both discs are asked, one after the other, when the disc last
-/// had a collision.
+/// Asks the ranks that keep the records of both discs, one after the other, when the
+/// disc last had a collision.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
@@ -364,7 +364,7 @@ Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
                      dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
         const double gap = std::hypot(dx, dy) - diameter_of(s.p, s.q);
         if (gap <= blur(8 * (1 + n_syncs_since(s.free_from))))
-            continue; // they were not apart yet, or their contact falls on that time
+            continue; // they were not apart yet, or their contact is at that time
         keep_lowest(first, s);
     }
     return first;

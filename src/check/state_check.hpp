@@ -2,21 +2,21 @@
 // Holds a run to its invariants, step by step (CheckFailure lists them;
 // docs/understanding/hard-cases.md has the bounds).
 //
-// It keeps a record of each disc as it was at the last look, by id, so that a disc is compared with
-// itself whichever rank owns it. The log shows which discs have collided.
+// It keeps a record of each disc at the last check, by id, so that a disc is compared
+// with itself whichever rank owns it. The log shows which discs have collided.
 //
 // In the time-stepped method discs may pass through each other. An overlap is explained if the pair
 // was closer than a diameter before both were free to collide: when the last micro-step ended in
 // which one of them had a collision, or when the check began. From then on they flew straight. Had
 // they been apart, nothing could have taken their contact from them.
 //
-// Effects are allowed for. Discs are looked at as the box sees them. They fall and slow down as
-// they should, may overlap where they do not meet, and lose energy in collisions that take some.
-// Growing discs push each other: the impulse times the speed at which surfaces grow is the work.
-// The check does not know beforehand what thermal and moving walls give, so it does not hold the
-// energy of discs there that have met a wall. Oscillating walls give or take at most the impulse
-// times their largest speed. Energies include masses and spins. Price: 128 bytes a
-// disc, every disc and collision sent once a step, collisions to rank 0.
+// Effects are allowed for. Discs are compared as the box sees them. They fall and slow down
+// as they should, may overlap if they do not collide at all, and lose energy in collisions
+// that take some. Growing discs push each other: the work is the impulse times the speed at
+// which surfaces grow. How much energy thermal and moving walls give is not known beforehand,
+// so the energy of discs that have met such a wall is not checked. Oscillating walls give or
+// take at most the impulse times their largest speed. Energies include masses and spins.
+// Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +40,8 @@ namespace carrom {
 
 class StateCheck {
 public:
-    /// Takes over what is there now as right. `scene` must outlive it; its arithmetic is the
-    /// default's. **Collective.** `spins`, per micro-step, run along the discs, of rough ones.
+    /// Takes the present state as right. `scene` must outlive this and have the default
+    /// arithmetic. `spins` of rough discs run along the discs, per micro-step. **Collective.**
     StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
                const Communicator& communicator, const Frame& frame = {}, double time = 0,
                std::span<const double> spins = {}, double energy_given = 0);
@@ -59,10 +59,10 @@ private:
         Disc disc;
         double spin = 0;
         std::int64_t free_from =
-            0; ///< the end of the last micro-step in which it had a collision, or the check's begin
+            0; ///< the end of the last micro-step with a collision, or the check's begin
         std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
-        double wall_impulse = 0;            ///< in these, all of them added up
-        double work = 0; ///< that growing surfaces have done in them, per micro-step
+        double wall_impulse = 0;            ///< sum over these collisions
+        double work = 0; ///< that growing surfaces did in these collisions, per micro-step
         int owner = -1;
     };
     struct Suspect {
@@ -73,8 +73,8 @@ private:
     };
     using Log = std::span<const Collision>;
 
-    /// The first finding of all ranks becomes a failure; nothing happens where there is none.
-    /// **Collective.**
+    /// Turns the first finding of all ranks into a failure. Does nothing if there is
+    /// none. **Collective.**
     void fail_if_found(const Finding& mine, Log log);
     std::vector<SceneDisc> discs_before() const;
 
@@ -107,7 +107,7 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// What is left of a velocity after the last look's stretch of time, and how long that was.
+    /// The factor of velocities since the last check, and how long ago that was.
     double slowing() const;
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
@@ -118,7 +118,7 @@ private:
     bool may_have_met_seam(std::size_t i) const;
 
     int slab_of_disc(DiscId id) const;
-    /// How far rounding moves a disc: so many ulp(L), and what it flies while times are rounded.
+    /// How far rounding moves a disc: so many ulp(L), and its flight in the rounding of times.
     double blur(double n_ulps) const;
 
     const Scene& scene_;
@@ -126,20 +126,20 @@ private:
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;
     double total_mass_ = 0, smallest_mass_ = 1;
-    double wall_speed_ = 0, wall_pull_ = 0; ///< of oscillating walls: the largest, and by which
-                                            ///< acceleration one presses a disc
+    double wall_speed_ = 0, wall_pull_ = 0; ///< of oscillating walls: the largest speed, and the
+                                            ///< largest acceleration with which one presses a disc
     double work_of_images_ = 0;             ///< on this rank, since the last look
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last look
     bool may_lose_energy_ = false, walls_give_energy_ = false;
-    bool acts_at_syncs_ = false;                        ///< an effect does: see CheckAllowance
+    bool acts_at_syncs_ = false;                        ///< an effect does so: see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;
     std::uint64_t first_id_ = 0;
     std::vector<Known> known_, before_; ///< of this rank's slab of ids: now, and at the last look
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0;                   ///< plain discs cannot become faster, for want of energy
-    std::uint64_t n_pair_collisions_ = 0; ///< logged on any rank since the check began
+           energy_ = 0;                   ///< plain discs cannot become faster than with all of it
+    std::uint64_t n_pair_collisions_ = 0; ///< on all ranks since the check began
 };
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a check knows of motion and energy: of a disc between its collisions, of discs that a step's
-// collisions link, and of all.
+// Checks of motion and energy: of a disc between its collisions, of discs that a
+// step's collisions link, and of all discs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,15 +17,15 @@ namespace carrom {
 
 namespace {
 
-/// Of speeds, by falling and by slowing down, from sync to sync.
+/// Relative bounds on speeds that falling and slowing down change from sync to sync.
 constexpr double motion_bound = 1e-13;
 constexpr double energy_bound = 1e-12;
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 } // namespace
 
-/// What collisions of discs take, spins included: surfaces that stick and neither lose nor forget
-/// anything, or do not rub at all, take nothing.
+/// Whether collisions of discs take energy, spins included. Surfaces that stick and
+/// neither lose nor forget anything, or do not rub at all, take nothing.
 bool StateCheck::may_lose_in_contacts() const {
     const ContactEffect& contact = effects_.contact;
     if (contact.kind == ContactKind::restitution) return true;
@@ -37,7 +37,7 @@ bool StateCheck::may_lose_in_contacts() const {
 Finding StateCheck::first_other_motion() const {
     if (were_rewritten()) return {};
     const bool is_free = !effects_.gravity.is_any() &&
-                         effects_.drag == 0; // velocities are rewritten by nothing then
+                         effects_.drag == 0; // nothing rewrites velocities then
     const double left = slowing(),
                  time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
     const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) *
@@ -45,7 +45,7 @@ Finding StateCheck::first_other_motion() const {
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
         const Disc &disc = now.disc, &then = before_[i].disc;
-        if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` says that it is the spin
+        if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` shows that it is the spin
             return {Invariant::motion,
                     now.owner,
                     first_id_ + i,
@@ -97,12 +97,12 @@ Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    if (finding.is_found == 1) finding.rank = -1; // known to the rank that keeps the record
+    if (finding.is_found == 1) finding.rank = -1; // the rank that keeps the record found it
     return finding;
 }
 
-/// Of all discs together, since the check began; since the last look where effects take or give
-/// energy. **Collective.**
+/// Checks all discs together since the check began; since the last check if effects
+/// take or give energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const Disc> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || effects_.growth != 0) return {};
@@ -112,7 +112,7 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
     const double energy = energy_of(own);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
-        double gain = 0; // of few discs, if any: rounding does not matter
+        double gain = 0; // of few discs, if any, so rounding does not matter
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
@@ -133,18 +133,18 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
     }
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty()) return {};
-    // Nobody in particular: the lowest disc that collided.
+    // No disc in particular is at fault: report the lowest one that collided.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }
 
-/// A disc's energy before and after, with what effects explain taken out.
+/// A disc's energy before and after, without what effects explain.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
                            twice_energy(known)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
-    if (effects_.growth != 0) { // surfaces are where they should be but for rounding
+    if (effects_.growth != 0) { // surfaces are where they should be, to within rounding
         energy.before += 2 * known.work;
         energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
     }
@@ -188,15 +188,15 @@ void StateCheck::note_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
-/// Under gravity with that of height, counted from far enough below that roundings of places are
-/// small against it.
+/// With potential energy under gravity, counted from far enough below that the
+/// rounding of places is small against it.
 double StateCheck::twice_energy(const Known& known) const {
     const Disc& seen = known.disc;
     const SizeAndMass& body = species_.of(seen.id);
     const double turning = body.radius * known.spin,
                  square = squared_speed_of(seen) + effects_.contact.inertia * turning * turning;
     if (!effects_.gravity.is_any()) return body.mass * square;
-    const double clock = seen.tau; // as it was seen
+    const double clock = seen.tau; // as it was checked
     const auto height = [this](double place, double pull) {
         return (pull < 0 ? place : -place) + 2 * scene_.box.longest();
     };
@@ -206,23 +206,23 @@ double StateCheck::twice_energy(const Known& known) const {
                  std::fabs(effects_.gravity.y) * height(seen.y_at(clock), effects_.gravity.y)));
 }
 
-/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity
-/// gives in a contact time, at least.
+/// Allows for the guard of discs at rest: a disc that is pulled to a wall leaves it
+/// with at least half the speed that gravity gives in a contact time.
 double StateCheck::resting_gain(const Known& known) const {
     const double pull = std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y));
     const double leaving = 0.5 * (pull + wall_pull_) * effects_.contact.contact_time;
     return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// What oscillating walls have given at most, or taken. A disc that comes with v and leaves with v'
-/// gets m (v' - v) (v' + v) / 2. Seen from the wall it leaves no faster than it came, so that is
-/// the impulse times the wall's speed, less what the restitution takes. Of the rest's guard see
-/// resting_gain.
+/// The most that oscillating walls have given, or taken. A disc that comes with v and
+/// leaves with v' gets m (v' - v) (v' + v) / 2. Seen from the wall it leaves no faster
+/// than it came, so this is the impulse times the wall's speed, less what the
+/// restitution takes. The guard of discs at rest is in resting_gain.
 double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * wall_speed_ * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
-/// On all discs. **Collective.**
+/// Summed over all discs. **Collective.**
 double StateCheck::work_of_walls() const {
     if (wall_speed_ == 0) return 0;
     double work = 0;
@@ -236,13 +236,13 @@ double StateCheck::slowing() const {
     return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch());
 }
 
-/// Of the energy, but for what collisions take; under gravity drag takes an amount that depends on
-/// the flight, and this is at most what is left.
+/// The share of energy that drag leaves. Under gravity the loss depends on the flight,
+/// and this is the most that is left.
 double StateCheck::energy_left() const {
     return effects_.gravity.is_any() ? 1 : slowing() * slowing();
 }
 
-/// In the scene's units; with effects as the box sees the discs, height included.
+/// In the scene's units. With effects the discs are as the box sees them, with potential energy.
 double StateCheck::energy_of(std::span<const Disc> own) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
@@ -253,7 +253,7 @@ double StateCheck::energy_of(std::span<const Disc> own) const {
             seen.push_back(known.disc);
             spins.push_back(known.spin);
         }
-        // Between sheared sides a sync changes what is stored, and the engine knows by how much.
+        // Between sheared sides a sync changes stored states, and the engine knows the difference.
         if (!effects_.are_sheared()) own = seen;
     }
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;

@@ -12,18 +12,18 @@ namespace carrom {
 namespace {
 
 constexpr std::size_t most_around = 12;
-constexpr std::size_t most_struck = 6; ///< partners in collisions that a rank names
+constexpr std::size_t most_struck = 6; ///< partners in collisions that a rank reports
 constexpr DiscId nobody = ~DiscId{0};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Neighbour {
     SceneDisc of;
-    double order = infinity; ///< squared distance; negative for discs that must be there
+    double order = infinity; ///< squared distance; negative for discs that must be included
 };
 using Neighbours = std::array<Neighbour, most_around>;
 using Struck = std::array<DiscId, most_struck>;
 
-/// Discs that have collided with one of the two, as far as this rank's log knows.
+/// The discs that have collided with one of the two, by this rank's log.
 Struck struck_by(DiscId disc, DiscId partner, std::span<const Collision> log) {
     Struck struck;
     struck.fill(nobody);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which discs stand around one that breaks an invariant: enough for a scene that repeats it.
+// Finds the discs around one that breaks an invariant, enough for a scene that repeats it.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@
 
 namespace carrom {
 
-/// As scenes give discs: per step, in the box.
+/// In the units of scenes: per step, in the box.
 struct SceneDisc {
     InputDisc disc;
     double spin = 0;
 };
 
-/// The finding's discs, those that they collided with in `log`, and the nearest, in the order of
-/// ids: a dozen. `discs` are this rank's share; those of rank `keeper` have the finding's disc. The
-/// same on all ranks. **Collective.**
+/// The finding's discs, those that they collided with in `log`, and the nearest, a
+/// dozen in the order of ids. `discs` are this rank's share; those of rank `keeper`
+/// include the finding's disc. The same on all ranks. **Collective.**
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,
                                     int keeper, std::span<const Collision> log,
                                     const Periods& periods, const Communicator& communicator);

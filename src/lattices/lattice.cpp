@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Widths in spacings: the sites of a lattice span `x_spans` times dx and `y_spans` times dy.
+/// Widths in spacings: a lattice's sites span `x_spans` times dx and `y_spans` times dy.
 struct Shape {
     Lattice lattice;
     double x_spans = 0, y_spans = 0;
@@ -33,7 +33,7 @@ Shape shape_of(std::uint64_t n_discs, std::uint64_t rows, bool is_staggered,
     return shape;
 }
 
-/// Distance of nearest sites, as a share of the width of the lattice.
+/// The distance of nearest sites, as a share of the lattice's width.
 double nearest_share(const Shape& shape) {
     const double infinity = std::numeric_limits<double>::infinity();
     const double dx = shape.x_spans > 0 ? 1 / shape.x_spans : infinity;
@@ -47,17 +47,17 @@ double nearest_share(const Shape& shape) {
     return std::min({in_row, next_row, second_row});
 }
 
-/// Half the gap to the next disc, in a square. With w = L - 2r - 2s the width of the lattice and
-/// q w the nearest distance, the free radius s solves q w - 2r = 2s.
+/// Half the gap to the next disc in a square. With w = L - 2r - 2s the width of the
+/// lattice and q w the nearest distance, the free radius s solves q w - 2r = 2s.
 double free_radius_in_square(const Shape& shape, double side, double radius) {
     const double q = nearest_share(shape);
     const double span = side - 2 * radius;
     return std::isfinite(q) ? (q * span - 2 * radius) / (2 * (1 + q)) : span / 2;
 }
 
-/// The same in a rectangle of those edges along and across rows. Neighbours at the distance
-/// d = 2r + 2s span edges less d, so each kind of neighbour gives an equation for d; the least d
-/// counts. That of staggered rows is A d^2 - 2 B d + C = 0.
+/// Half the gap in a rectangle with edges `length` along and `height` across rows.
+/// Neighbours at the distance d = 2r + 2s span edges less d, so each kind of neighbour gives
+/// an equation for d, and the least d counts. Staggered rows give A d^2 - 2 B d + C = 0.
 double free_radius_in(const Shape& shape, double length, double height, double radius) {
     if (length == height) return free_radius_in_square(shape, length, radius);
     double nearest = std::numeric_limits<double>::infinity();
@@ -72,7 +72,7 @@ double free_radius_in(const Shape& shape, double length, double height, double r
         nearest = std::min(nearest, rest / (half + root));
         if (shape.lattice.rows > 2) nearest = std::min(nearest, 2 * height / (2 + shape.y_spans));
     }
-    return std::min({nearest, length, height}) / 2 - radius; // in a tube walls are nearer
+    return std::min({nearest, length, height}) / 2 - radius; // in a tube the walls are nearer
 }
 
 /// Spreads the sites over the box.
@@ -87,7 +87,7 @@ void place(Shape& shape, const Box& box, double radius) {
     lattice.y0 = shape.y_spans > 0 ? low : height / 2;
 }
 
-/// Looks for a wider one whose rows lie along that axis.
+/// Searches for a wider lattice whose rows lie along that axis.
 void look_along(Axis axis, std::uint64_t n_discs, const Box& box, double radius,
                 std::optional<Lattice>& widest) {
     const auto [length, height] = turned(axis, box.x, box.y);
@@ -112,8 +112,8 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, dou
     std::optional<Lattice> widest;
     look_along(longer_axis(box), n_discs, box, radius, widest);
     if (!box.is_square()) look_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
-    // Touching neighbours are fine, and a rounding error of L deeper than touching is within the
-    // method's tolerance.
+    // Neighbours may touch. A rounding error of L that makes them overlap is within
+    // the method's tolerance.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;
     widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box.longest(),
                                    0.0); // rounding must not close a gap

@@ -2,11 +2,11 @@
 // A lattice of N discs between the walls with the widest gaps, and a random shake that closes none
 // of them.
 //
-// Tried are a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
-// stretched to fill the box. Every number of rows is tried, along the longer side and then along
-// the other one. The lattice whose discs may move farthest wins.
-// Sites keep the same distance s to the walls as half of what they keep from each other, so each
-// disc may be moved by up to s in any direction: no overlap, none outside. Sites in excess of N
+// It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1
+// sites), stretched to fill the box, with every number of rows along the longer side
+// and then along the other one. The lattice whose discs may move farthest wins. Its
+// sites keep a distance s to the walls, half of that to each other, so each disc may
+// be moved by up to s in any direction: no overlap, none outside. Sites in excess of N
 // stay empty, spread evenly. Finding it costs O(sqrt N) in a square, a site O(1).
 #pragma once
 
@@ -20,10 +20,10 @@ namespace carrom {
 
 struct Lattice {
     std::uint64_t n_discs = 0;
-    std::uint64_t rows = 0, columns = 0; ///< columns: sites of an even row
+    std::uint64_t rows = 0, columns = 0; ///< columns: the sites of an even row
     bool is_staggered = false;           ///< odd rows are shifted by half a spacing
     bool odd_rows_are_shorter = false;   ///< by one site
-    Axis axis = Axis::x;                 ///< that rows lie along, and x below means
+    Axis axis = Axis::x;                 ///< rows lie along it; x below means this axis
     double x0 = 0, y0 = 0;               ///< the first site
     double dx = 0, dy = 0;               ///< spacings along and between rows
     double free_radius = 0;              ///< s: how far each disc may move
@@ -31,7 +31,7 @@ struct Lattice {
     std::uint64_t n_sites() const { return rows * columns - (odd_rows_are_shorter ? rows / 2 : 0); }
 };
 
-/// Nothing where even the widest lattice has overlaps. Needs n_discs > 0, edges >= 2 radius > 0.
+/// Nothing if even the widest lattice has overlaps. Needs n_discs > 0, edges >= 2 radius > 0.
 std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, double radius);
 
 struct Point {

@@ -12,10 +12,10 @@ namespace carrom {
 
 namespace {
 
-/// From row to row, in spacings.
+/// The distance between rows, in spacings.
 constexpr double row_height = std::numbers::sqrt3 / 2;
 
-/// Rows to a column, if neither had to be a whole number.
+/// The ratio of rows to columns, if neither had to be a whole number.
 double shape_of(const Box& box, Axis axis) {
     return along(other_axis(axis), box) / along(axis, box) / row_height;
 }

@@ -17,23 +17,23 @@ namespace carrom {
 
 struct TriangularLattice {
     std::uint64_t columns = 0, rows = 0;
-    Axis axis = Axis::x;            ///< that rows lie along
-    double spacing = 0, height = 0; ///< along rows, and from row to row
+    Axis axis = Axis::x;            ///< rows lie along it
+    double spacing = 0, height = 0; ///< in a row, and between rows
 
-    /// Of nearest sites.
+    /// The distance of nearest sites.
     double nearest() const;
     Point site(DiscId id) const;
 };
 
-/// Edges of a scene have some digits: their ratio may be off by this much, and the lattice is
-/// stretched to fill the box.
+/// The edges of a scene have some digits only, so their ratio may be off by this much.
+/// The lattice is stretched to fill the box.
 inline constexpr double largest_stretch = 1e-4;
 
-/// That of so many discs, rows along either axis; nothing where none fits.
+/// The lattice for n_discs discs, with rows along x or y; nothing if none fits.
 std::optional<TriangularLattice> triangular_lattice(std::uint64_t n_discs, const Box& box);
 
-/// The keys of one that fits, of about as many discs in a box of about the same shape:
-/// "discs.count = 120, box.size = [10, 10.392305] (10 x 12)".
+/// The keys of a lattice that fits, with about as many discs in a box of about the
+/// same shape: "discs.count = 120, box.size = [10, 10.392305] (10 x 12)".
 std::string nearest_triangular(std::uint64_t n_discs, const Box& box);
 
 } // namespace carrom

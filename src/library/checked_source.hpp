@@ -14,8 +14,8 @@
 
 namespace carrom::api {
 
-/// Runs `read` and names keys in the problems of its InputError as the program has set them, not as
-/// options of the command line.
+/// Runs `read`. In the problems of its InputError keys are named as the program has
+/// set them, not as options of the command line.
 template <class Read> auto with_named_keys(const Read& read) {
     try {
         return read();

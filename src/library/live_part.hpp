@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind a public object, unless it was moved from.
+// The inside of a public object, unless it was moved from.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace carrom::api {
 
-/// Throws InputError where nothing is behind the object of that class.
+/// Throws InputError if the object of that class has no inside.
 template <class State>
 State& live_part(const std::unique_ptr<State>& state, const std::string& name) {
     if (!state)

@@ -111,7 +111,7 @@ SceneFacts facts_of(const carrom::Scene& scene) {
 
 namespace {
 
-/// Scenes of ranks that differ would leave some of them waiting. **Collective.**
+/// Throws if ranks have different scenes, which would leave some ranks waiting. **Collective.**
 void check_same_on_all(const Scene::Source& source, const Communicator& ranks) {
     std::string all = source.name + '\0' + source.text;
     for (const std::string& setting : source.settings) all += '\0' + setting;

@@ -40,7 +40,7 @@ Session::Session(int fortran_communicator) {
 }
 
 Session::~Session() {
-    if (!has_mpi_ended()) Departure(state_->ranks).leave(); // the program may have ended it
+    if (!has_mpi_ended()) Departure(state_->ranks).leave(); // the program may have ended MPI
 }
 
 int Session::rank() const { return state_->ranks.rank(); }

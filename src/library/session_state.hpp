@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind a Session.
+// The inside of a Session.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 namespace carrom::api {
 
 struct Session::State {
-    std::unique_ptr<Mpi> mpi; ///< where the session has started it; ends last
+    std::unique_ptr<Mpi> mpi; ///< if the session has started MPI; ends last
     Communicator ranks;
     Communicator ends = duplicate_of(ranks); ///< where ranks agree on the end of Session::run
 };

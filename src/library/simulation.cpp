@@ -25,7 +25,7 @@ namespace {
 
 /// **Collective.**
 Tuning tuning_of(const Options& options, const Communicator& ranks) {
-    std::vector<Problem> problems; // of one rank alone, perhaps
+    std::vector<Problem> problems; // perhaps on one rank only
     if (options.threads < 0)
         problems.push_back({"Options", 0, fmt::format("{} threads", options.threads)});
     agree_on_problems(ranks, problems);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind a public Simulation.
+// The inside of a public Simulation.
 #pragma once
 
 #include <optional>

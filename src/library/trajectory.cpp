@@ -33,7 +33,7 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
     return wanted;
 }
 
-/// What is behind the simulation, once all ranks have come to that call. **Collective.**
+/// Returns the simulation's run after all ranks have come to this call. **Collective.**
 const Run& met(const Simulation& simulation, const char* call, const std::string& path) {
     const Run& run = simulation.state().run;
     meet(run.ranks(), call, hash_of_argument(path));
@@ -51,7 +51,7 @@ struct TrajectoryWriter::State {
     const Run& run;
     std::string file;
     carrom::Trajectory trajectory;
-    std::int64_t last_step = -1; ///< that has a frame; the same on all ranks
+    std::int64_t last_step = -1; ///< the last frame's; the same on all ranks
 };
 
 TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::string& path,

@@ -29,14 +29,14 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-/// A batch script may set it from a variable that is not there; that is as good as unset.
+/// A batch script may set it from a variable that does not exist; then it counts as unset.
 std::string thread_variable() {
     const char* text = std::getenv("OMP_NUM_THREADS");
     return text == nullptr ? "" : text;
 }
 
-/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost. 0 where
-/// it is none.
+/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the
+/// outermost one. Returns 0 if that is no number.
 int threads_from_environment() {
     const std::string text = thread_variable();
     int threads = 0;
@@ -52,7 +52,7 @@ std::string host_name() {
     return name;
 }
 
-/// How many ranks have this rank's key. **Collective.**
+/// The number of ranks with this rank's key. **Collective.**
 int sharers_of(std::uint64_t key, const Communicator& ranks) {
     std::vector<std::uint64_t> keys(static_cast<std::size_t>(ranks.size()), 0);
     keys[static_cast<std::size_t>(ranks.rank())] = key;
@@ -62,7 +62,7 @@ int sharers_of(std::uint64_t key, const Communicator& ranks) {
 
 constexpr std::uint64_t without_limit = std::numeric_limits<std::uint64_t>::max();
 
-/// What the node has, swap included.
+/// The memory of the node, swap included.
 std::uint64_t memory_of_node() {
     std::ifstream facts("/proc/meminfo");
     std::uint64_t sum = 0;
@@ -72,8 +72,8 @@ std::uint64_t memory_of_node() {
     return sum > 0 ? sum : without_limit;
 }
 
-/// The least limit of this process's control group (version 2, or `memory` of version 1) and those
-/// around it.
+/// The least limit of this process's control group (version 2, or `memory` of version
+/// 1) and of the groups that contain it.
 std::uint64_t memory_of_control_group() {
     std::uint64_t least = without_limit;
     const auto look = [&least](const std::filesystem::path& path) {
@@ -98,8 +98,7 @@ std::uint64_t memory_of_control_group() {
 
 struct AllowedCores {
     int count = 1;
-    std::uint64_t key =
-        0; ///< equal on two ranks that may use the very same cores of the very same node
+    std::uint64_t key = 0; ///< equal on two ranks that may use the very same cores of the same node
 };
 
 AllowedCores allowed_cores() {

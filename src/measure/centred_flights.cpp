@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-/// Over all flights of all ranks; no term is larger than `largest`.
+/// Sums `term` over all flights of all ranks; no term is larger than `largest`.
 template <class Term>
 double sum_over(std::span<const Flight> flights, double n, double largest,
                 const Communicator& ranks, const Term& term) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far discs have come, and what is left of their velocities, as seen from the centre of mass.
+// Displacements of discs, and their velocities then and now, relative to the centre of mass.
 //
 // Along a periodic axis nothing stops the discs' common motion, so it would add V^2 t^2 to mean
 // square displacements and V^2 to mean products of velocities, for ever. It is no diffusion, and
-// depends on who watches. So it is subtracted from each disc there. A disc that is alone keeps it,
+// depends on the frame, so it is subtracted from each disc there. A disc that is alone keeps it,
 // because it would be at rest, and so do discs among obstacles, which take the momentum.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// Of one disc: its displacement, its velocities at the beginning and now, and its mass.
+/// One disc's displacement, its velocities at the beginning and now, and its mass.
 struct Flight {
     std::array<double, 2> way{}, first_velocity{}, velocity{};
     double mass = 1;

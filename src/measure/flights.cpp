@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Where discs fly on through periodic sides, syncs bring them back. That is part of their
-/// displacement.
+/// Syncs bring discs back that fly on through periodic sides. These lengths are part
+/// of their displacement.
 void Flights::follow() {
     if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.simulation, run_.ranks);
 }
@@ -23,7 +23,7 @@ std::span<const Disc> Flights::flown(std::span<const Disc> shown) {
     return flown_;
 }
 
-/// From now on flights are those from here.
+/// Flights begin here.
 void Flights::begin(std::span<const Disc> discs) {
     const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
     std::vector<FirstPlace> places;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far discs have come since a first sample, on through periodic sides, and how much of their
-// velocities is left. First places are kept by id, on any rank (pieces.hpp). Price: 16 bytes a
+// How far discs have come since a first sample, on through periodic sides, and what is left of
+// their velocities. First places are kept by id, on any rank (pieces.hpp). Price: 16 bytes a
 // disc, 32 with velocities, and in periodic boxes 16 more; at a sample each disc is sent once.
 #pragma once
 
@@ -19,14 +19,14 @@ public:
     Flights(MeasuredRun& run, bool have_velocities)
         : run_(run), have_velocities_(have_velocities) {}
 
-    /// Before the first step that is followed, or at a restart. **Collective.**
+    /// To be called before the first step, or at a restart. **Collective.**
     void follow();
-    /// Discs where they would be had no periodic side brought them back since the last sync.
+    /// The discs where they would be if no periodic side had brought them back since the last sync.
     std::span<const Disc> flown(std::span<const Disc> shown);
-    /// From now on flights are those from here. **Collective.**
+    /// Begins all flights here. **Collective.**
     void begin(std::span<const Disc> flown);
-    /// Mean squares of displacements along x and y since then, and the mean product of velocities.
-    /// **Collective.**
+    /// Mean squares of displacements along x and y since the beginning, and the mean
+    /// product of velocities. **Collective.**
     std::array<double, 3> means(std::span<const Disc> flown, std::uint64_t n_discs);
 
     void store(StoredSamples& stored);         ///< **Collective.**
@@ -40,9 +40,9 @@ private:
     MeasuredRun& run_;
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
-    std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids
+    std::vector<std::array<double, 2>> first_places_; ///< for this rank's run of ids
     std::vector<std::array<double, 2>> first_velocities_;
-    std::optional<ImageCounts> lengths_; ///< since then, of a periodic box
+    std::optional<ImageCounts> lengths_; ///< since the beginning, in a periodic box
     std::vector<Disc> flown_;
 };
 

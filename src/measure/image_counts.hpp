@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many box lengths each disc has flown on beyond a periodic box: for displacements, and for
-// H5MD's `image`. A sync brings a disc back by whole lengths, and the engine notes that. Counts are
-// kept by runs of ids (pieces.hpp). Price: 16 bytes a disc, and each disc that has been brought
-// back is sent once whenever counts are asked for.
+// Counts the box lengths that each disc has flown on beyond a periodic box, for
+// displacements and for H5MD's `image`. A sync brings a disc back by whole lengths, and
+// the engine notes that. Counts are kept by runs of ids (pieces.hpp). Price: 16 bytes a
+// disc, and each disc that has been brought back is sent once whenever counts are read.
 #pragma once
 
 #include <span>
@@ -17,29 +17,29 @@
 
 namespace carrom {
 
-/// The own discs where they would be had nothing brought them back since the last sync.
+/// The own discs where they would be if no sync had brought them back since the last one.
 std::vector<Disc> flown_on(const Simulation& simulation);
 
 class ImageCounts {
 public:
-    /// From 0 at the present step on. Both must outlive this.
+    /// Counts from 0 at the present step on. Both arguments must outlive this.
     ImageCounts(const Box& box, Simulation& simulation, const Communicator& ranks);
     ~ImageCounts() { simulation_.forget_crossings_in(crossings_); }
     ImageCounts(const ImageCounts&) = delete;
     ImageCounts& operator=(const ImageCounts&) = delete;
 
-    /// Goes on with what members of stored places say. **Collective.**
+    /// Goes on from members of stored places. **Collective.**
     void go_on(std::span<const FirstPlace> stored, double FirstPlace::* x, double FirstPlace::* y);
 
-    /// From 0 at the last sync on.
+    /// Counts from 0 at the last sync on.
     void begin_anew();
 
-    /// As of the last sync, of this rank's run of ids. To be called often: what has been noted
-    /// since the last call takes memory. **Collective.**
+    /// The counts of this rank's run of ids at the last sync. To be called often,
+    /// because crossings since the last call take memory. **Collective.**
     std::span<const DiscImage> counts();
-    /// Puts them into members of places, which are of the same ids or none. **Collective.**
+    /// Writes the counts to members of places, which have the same ids or are none. **Collective.**
     void store(std::vector<FirstPlace>& places, double FirstPlace::* x, double FirstPlace::* y);
-    /// The same as of the present step. **Collective.**
+    /// The counts of this rank's run of ids at the present step. **Collective.**
     std::vector<DiscImage> now();
 
 private:
@@ -50,7 +50,7 @@ private:
     const Communicator& ranks_;
     Pieces pieces_;
     std::vector<DiscImage> counts_;
-    std::vector<Crossing> crossings_; ///< of own discs, not yet in `counts_`
+    std::vector<Crossing> crossings_; ///< by own discs, not yet in `counts_`
 };
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a measurement keeps in a checkpoint: words of 64 bits in one order. One function of the
-// measurement names its numbers, for storing as for restoring, so that both orders are the same.
+// The data of a measurement in a checkpoint: words of 64 bits. One function of the measurement
+// names its numbers, for storing and for restoring, so that both have the same order.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ namespace carrom {
 
 class KeptNumbers {
 public:
-    /// To store.
+    /// For storing.
     KeptNumbers() = default;
-    /// To restore. The words must outlive this.
+    /// For restoring. The words must outlive this.
     explicit KeptNumbers(std::span<const std::int64_t> words)
         : is_restored_(true), stored_(words) {}
 
     bool is_restored() const { return is_restored_; }
 
-    /// Stores a number, a vector or an array of them, or a text; or takes it from what is stored.
+    /// Stores a number, a vector or an array of them, or a text; or restores it.
     template <class T> void operator()(T& value) {
         if constexpr (requires { value.resize(1); }) {
             std::int64_t size = static_cast<std::int64_t>(value.size());
@@ -47,14 +47,14 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// A setting: one that is stored otherwise makes the sums useless.
+    /// A setting on which the sums depend. If the stored one differs the sums are useless.
     template <class T> void same(const T& value) {
         T found = value;
         (*this)(found);
         if (found != value) is_other_ = true;
     }
 
-    /// False where stored words are too few or of other settings.
+    /// False if stored words are too few or have other settings.
     bool is_right() const { return !is_other_; }
     bool is_at_end() const { return next_ == stored_.size(); }
     void refuse() { is_other_ = true; }

@@ -2,8 +2,8 @@
 // The interface of a measurement. A quantity is one file in src/measure/quantities: its declaration
 // for scenes and pages (scene/quantity.hpp), and the class that samples it.
 //
-// Everything is a count, or a sum in fixed point (exact_sum.hpp). So the tables have the same bits
-// on every number of ranks and threads, and a restart goes on with them.
+// All data are counts, or sums in fixed point (exact_sum.hpp). So the tables have the
+// same bits on every number of ranks and threads, and after a restart.
 //
 // To add one: copy the file that is most like it, and add its name to the list in
 // src/measure/CMakeLists.txt.
@@ -37,7 +37,7 @@ struct SampleCounts {
     double area = 0;           ///< of the box, over all samples
 };
 
-/// What is measured; outlives the measurements.
+/// The run that is measured; it outlives the measurements.
 struct MeasuredRun {
     const Scene& scene;
     const MeasurementOutput& output;
@@ -45,7 +45,7 @@ struct MeasuredRun {
     const Communicator& ranks;
     SampleCounts counts = {};
 
-    /// Of a sample, counted from 0.
+    /// The step of a sample; samples are counted from 0.
     double step_of(std::size_t sample) const {
         return static_cast<double>(counts.first_step +
                                    static_cast<std::int64_t>(sample) * output.every_steps);
@@ -55,16 +55,16 @@ struct MeasuredRun {
     }
 };
 
-/// The state at a sample. The discs are those of this rank, for `Measurement::sample` alone.
+/// The state at a sample. Discs are those of this rank, and valid in `Measurement::sample` only.
 struct SampledState {
     std::span<const Disc> shown;  ///< as the box sees them
-    std::span<const Disc> inside; ///< those of them that are in the box
+    std::span<const Disc> inside; ///< those of the shown ones that are in the box
     std::uint64_t n_discs = 0;    ///< of `shown`, on all ranks
     Extent box;
     bool is_first = false; ///< there is no interval before it
 };
 
-/// A number at each sample that the table "thermo" shows as its last columns.
+/// A number for each sample that the table "thermo" shows in its last columns.
 struct ThermoColumn {
     std::string name, remark;
     std::function<double(std::size_t)> at_sample;
@@ -78,22 +78,22 @@ public:
     Measurement(const Measurement&) = delete;
     Measurement& operator=(const Measurement&) = delete;
 
-    /// Before the first sample, at its step; not at a restart that goes on with sums.
+    /// Called before the first sample, at its step; not at a restart that goes on with sums.
     virtual void begin() {}
     virtual void sample(const SampledState& state) = 0;
-    /// True where a sample moves discs in memory: it then comes after all others.
+    /// True if a sample moves discs in memory. It is then taken after all others.
     virtual bool moves_discs() const { return false; }
 
     /// Names all numbers that a checkpoint keeps, and takes them at a restart.
     virtual void keep(KeptNumbers& kept) = 0;
-    /// Numbers of each disc; most measurements have none.
+    /// Stores numbers of each disc; most measurements have none.
     virtual void store_discs(StoredSamples& /*stored*/) {}
     virtual void restore_discs(const StoredSamples& /*stored*/) {}
 
-    /// Of what has been sampled, after one sample at least. The same on every rank.
+    /// Tables of the samples so far, at least one. The same on every rank.
     virtual std::vector<MeasuredTable> tables() const = 0;
-    /// A table that grows by a row at each sample, from a row on. Its file grows as the run goes
-    /// on, so its bytes never change.
+    /// A table that grows by a row at each sample, from row `first` on. Its file grows
+    /// as the run goes on, so its bytes never change.
     virtual std::optional<MeasuredTable> rows_from(std::size_t /*first*/) const {
         return std::nullopt;
     }
@@ -105,7 +105,7 @@ protected:
 
 using Measurements = std::vector<std::unique_ptr<Measurement>>;
 
-/// A quantity as src/measure knows it.
+/// The declaration of a quantity and its measurement.
 struct MeasuredQuantity {
     Quantity declared;
     std::unique_ptr<Measurement> (*make)(MeasuredRun&, const Measurements& others);
@@ -122,7 +122,7 @@ const std::vector<MeasuredQuantity>& measured_quantities();
 /// Parts that tables share.
 void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
               std::vector<std::uint64_t>& sums);
-/// Counts a place among bins of width 1; what lies beyond is not counted.
+/// Counts a place in bins of width 1; places beyond the bins are not counted.
 void count(std::vector<std::uint64_t>& counts, double place);
 
 } // namespace carrom

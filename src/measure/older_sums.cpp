@@ -18,11 +18,11 @@ using Words = std::vector<std::int64_t>;
 
 struct Field {
     std::string_view name;
-    std::int64_t only_with = 0; ///< a bit of "quantities"
+    std::int64_t only_with = 0; ///< a bit of "quantities"; the field exists only with it
     bool is_list = true;        ///< its size comes first
 };
 
-/// In the order of the older words, behind the number of their format.
+/// In the order of the older words, after the number of their format.
 constexpr Field older_fields[] = {{"quantities", 0, false},
                                   {"every_steps", 0, false},
                                   {"from_step", 0, false},
@@ -63,7 +63,7 @@ constexpr Field older_fields[] = {{"quantities", 0, false},
                                   {"correlation", 512, false},
                                   {"flights", 512}};
 
-/// A quantity, and its fields in the order of Measurement::keep; '#' is the size of a list alone.
+/// A quantity and its fields in the order of Measurement::keep; '#' is the size of a list alone.
 struct OlderQuantity {
     std::string_view name;
     std::int64_t bit;
@@ -87,7 +87,7 @@ const std::vector<OlderQuantity>& older_quantities() {
     return all;
 }
 
-/// Each field with its words, the size of a list among them; nothing where words are missing.
+/// The words of each field, with the size of a list first; nothing if words are missing.
 std::map<std::string_view, Words> older_values(const Words& words) {
     std::map<std::string_view, Words> values;
     std::size_t next = 1;

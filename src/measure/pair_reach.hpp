@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far correlations of pairs reach: the setting that g(r) and g6(r) share, and the bins that
-// most tables share.
+// How far correlations of pairs are measured: the setting that g(r) and g6(r) share,
+// and the bins that most tables share.
 #pragma once
 
 #include "measure/measurement.hpp"
@@ -16,11 +16,11 @@ inline std::size_t n_bins_of(const MeasuredRun& run) {
 }
 
 Key largest_distance_key();
-/// Works out the distance where it is not given: half the room of centres at most, in the smallest
-/// box that there will be.
+/// Sets the distance if the scene does not: at most half the room of centres, in the
+/// smallest box of the run.
 void check_largest_distance(const Check& check);
-/// At a restart walls may come in less far, or further: then a stored distance that was worked out
-/// holds if there is room for it, else this throws InputError.
+/// After a restart walls may move in less or further than before. A stored distance that was
+/// not set by the scene holds if there is room for it; otherwise this throws InputError.
 void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& distance);
 
 } // namespace carrom

@@ -22,8 +22,8 @@ void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
 
 namespace {
 
-/// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
-/// rest.
+/// The root mean square of a component of the discs' velocities, or of the thermal
+/// walls'; 0 if all is at rest.
 double thermal_speed(const Scene& scene, const Totals& totals) {
     double temperature = totals.kinetic_energy / static_cast<double>(totals.n_discs);
     for (const Boundary& side : scene.effects.boundaries)

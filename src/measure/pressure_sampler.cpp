@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t n_words = 2 * 4; ///< of StressSums
+constexpr std::size_t n_words = 2 * 4; ///< words of StressSums
 constexpr std::size_t n_numbers = 13;
 
 std::vector<double> numbers_of(const Look& l) {
@@ -67,14 +67,14 @@ PressureSampler PressureSampler::going_on(Simulation& simulation, const Communic
     return sampler;
 }
 
-/// The last sample is at `now`: what sums have until then does not count. **Collective.**
+/// The last sample is at `now`, and sums before it do not count. **Collective.**
 void PressureSampler::begin_interval(const Look& now) {
     last_sums_ = simulation_->stress_sums();
     last_ = now;
     simulation_->integrate(since_last(), last_);
 }
 
-/// Of this rank.
+/// The sums on this rank since the last sample.
 StressSums PressureSampler::since_last() const {
     StressSums since = simulation_->stress_sums();
     since -= last_sums_;

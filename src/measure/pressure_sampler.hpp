@@ -14,10 +14,10 @@
 
 namespace carrom {
 
-/// What a checkpoint keeps.
+/// The data in a checkpoint.
 struct PressureSums {
     double virial_bound = 0;                   ///< the unit of the virial
-    std::vector<double> pressures;             ///< of each interval: xx, xy, yy, kT and N kT / A
+    std::vector<double> pressures;             ///< by interval: xx, xy, yy, kT and N kT / A
     std::vector<std::uint64_t> pending_virial; ///< since the last sample
     std::vector<double> last_motion;           ///< at the last sample
 };
@@ -26,16 +26,16 @@ class PressureSampler {
 public:
     /// Begins at the present step. **Collective.**
     PressureSampler(Simulation& simulation, const Communicator& ranks, PressureSums& sums);
-    /// Goes on with what `sums` have of a checkpoint, before any step. **Collective.**
+    /// Goes on from the `sums` of a checkpoint, before any step. **Collective.**
     static PressureSampler going_on(Simulation& simulation, const Communicator& ranks,
                                     PressureSums& sums);
 
-    /// Adds an interval, of so many steps, to `sums`. **Collective.**
+    /// Adds an interval of `steps` steps to `sums`. **Collective.**
     void sample(PressureSums& sums, double steps);
-    /// Of the last sample. Speeds and counts are unknown where sampling goes on from a checkpoint.
+    /// The last sample. Its speeds and counts are unknown after a restart.
     const Look& last() const { return last_; }
     double temperature() const; ///< at the last sample
-    /// Fills in what has happened since the last sample. **Collective.**
+    /// Adds the data since the last sample. **Collective.**
     void store(PressureSums& sums) const;
 
 private:
@@ -46,11 +46,11 @@ private:
 
     Simulation* simulation_;
     const Communicator* ranks_;
-    StressSums last_sums_; ///< of this rank, at the last sample
-    Look last_;            ///< then; its integrals are those of flights since the sync before
+    StressSums last_sums_; ///< on this rank, at the last sample
+    Look last_;            ///< its integrals are those of flights since the sync before
 };
 
-/// Stores the sums with what `sampler` knows, or restores both. **Collective.**
+/// Stores the sums with the data of `sampler`, or restores both. **Collective.**
 void keep_pressure(KeptNumbers& kept, PressureSums& sums, std::optional<PressureSampler>& sampler,
                    Simulation& simulation, const Communicator& ranks);
 

@@ -26,7 +26,7 @@ Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator&
     }
 }
 
-/// Sums of other settings are of no use. Each measurement compares its own besides.
+/// Sums with other settings are useless. Each measurement compares its own settings, too.
 void Sampler::keep_settings(KeptNumbers& kept) const {
     kept.same(format);
     kept.same(names_);
@@ -46,7 +46,7 @@ void Sampler::go_on(const StoredSamples& stored) {
     const std::vector<std::int64_t> words = in_present_form(stored.sums, step);
     KeptNumbers kept(words);
     keep_settings(kept);
-    StoredSamples asked; // the flags of what these measurements have of each disc
+    StoredSamples asked; // its flags say which numbers of each disc are kept
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;

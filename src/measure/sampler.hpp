@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `[output.measurements]` asks for, sampled every so many steps. A run that does not ask has
-// none of this: no memory, and no work in any kernel. The quantities are in quantities/, and
-// docs/reference/measurements.md has the price of each.
+// Samples the quantities of `[output.measurements]` at regular steps. A run without
+// them has none of this: no memory, and no work in any kernel. The quantities are in
+// quantities/, and docs/reference/measurements.md has the price of each.
 #pragma once
 
 #include <cstddef>
@@ -20,28 +20,28 @@ namespace carrom {
 
 class Sampler {
 public:
-    /// Samples from the present step on if the scene's `from_step` has come. All must outlive this.
-    /// **Collective.**
+    /// Samples from the present step on if the scene's `from_step` has come. All
+    /// arguments must outlive this. **Collective.**
     Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks);
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
 
-    /// Goes on with what a checkpoint has kept, to be called before anything is sampled. Where
-    /// there is nothing, or where `from_step` is still to come, sampling begins anew; throws
-    /// InputError on every rank where the sums are of other keys. **Collective.**
+    /// Goes on from a checkpoint's data; to be called before anything is sampled.
+    /// Sampling begins anew if there are none, or if `from_step` is still to come.
+    /// Throws InputError on every rank if the sums have other settings. **Collective.**
     void go_on(const StoredSamples& stored);
 
-    /// The next step after `step` at which to sample.
+    /// The first step after `step` at which a sample is due.
     std::int64_t next_due(std::int64_t step) const;
-    /// Samples if the present step is due, once. **Collective.**
+    /// Takes a sample if one is due at the present step and has not been taken. **Collective.**
     void look();
 
     /// **Collective.**
     StoredSamples stored() const;
-    /// Of what has been sampled; none before the first sample. The same on every rank.
+    /// Tables of all samples; none before the first one. The same on every rank.
     std::vector<MeasuredTable> tables() const;
-    /// Tables that grow by a row at each sample, from row number `first` on; none where there are
-    /// no such rows.
+    /// Tables that grow by a row at each sample, from row number `first` on; none if
+    /// there are no such rows.
     std::vector<MeasuredTable> rows_from(std::size_t first) const;
 
 private:
@@ -51,7 +51,7 @@ private:
 
     mutable MeasuredRun run_;
     Measurements measurements_;
-    std::vector<std::string> names_; ///< of the quantities, along them
+    std::vector<std::string> names_; ///< of the quantities, in their order
     bool has_begun_ = false;
 };
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Speeds that bins and units of sums are chosen by when sampling begins.
+// Speeds by which bins and units of sums are chosen when sampling begins.
 #pragma once
 
 #include "measure/measurement.hpp"
 
 namespace carrom {
 
-/// How fast discs may become by falling or by being pushed.
+/// An estimate of speeds that discs get by falling or by being pushed.
 double driven_speed(const Scene& scene);
 
-/// The root mean square of a component; that of driven discs where all are at rest. **Collective.**
+/// The root mean square of a component, or driven_speed if all discs are at rest. **Collective.**
 double usual_speed(const MeasuredRun& run);
 
 } // namespace carrom

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// Looks are at least this many micro-steps apart in long runs.
+/// Samples are at least this many micro-steps apart in long runs.
 constexpr std::int64_t usual_look = 64;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -32,8 +32,8 @@ void BlockAverages::begin(std::int64_t step, const Look& look) {
     first_step_ = block_step_ = look_step_ = step;
     last_ = look;
     present_ = {};
-    // Each look costs some nanoseconds a disc, and another window of the event-driven method where
-    // it is between syncs. A run whose energy changes is worth more of them.
+    // Each sample costs some nanoseconds a disc, and another window of the event-driven
+    // method if it is between syncs. A run whose energy changes needs more of them.
     const auto wanted = static_cast<std::int64_t>(system_.keeps_energy ? fewest_blocks
                                                                        : most_blocks / 2);
     steps_per_look_ = std::clamp<std::int64_t>((system_.last_step - step) / wanted, 1,
@@ -57,11 +57,11 @@ void BlockAverages::add(std::int64_t step, const Look& look) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
-    // A run may be longer than was said.
+    // A run may be longer than was announced.
     if (2 * steps_per_look_ <= most_steps_per_look()) steps_per_look_ *= 2;
 }
 
-/// Looks need not be closer than syncs. They do not depend on them where syncs are frequent.
+/// Samples need not be closer than syncs. If syncs are frequent, samples do not depend on them.
 std::int64_t BlockAverages::most_steps_per_look() const {
     const std::int64_t apart = std::max(system_.sync_every, usual_look);
     return (apart + system_.micro_steps - 1) / system_.micro_steps;
@@ -69,7 +69,7 @@ std::int64_t BlockAverages::most_steps_per_look() const {
 
 namespace {
 
-/// A record of numbers of 8 bytes, one behind the other.
+/// A record of numbers of 8 bytes each, without gaps.
 template <class Record> constexpr std::size_t n_words_of = sizeof(Record) / sizeof(std::int64_t);
 
 template <class Record> void append_words(std::vector<std::int64_t>& words, const Record& record) {
@@ -124,7 +124,7 @@ BlockAverages::Block BlockAverages::block_between(std::int64_t step, const Look&
     block.pairs = static_cast<double>(look.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(now - step);
     block.motion = integrals_between(system_, before, look, steps);
-    for (const Look* one : {&before, &look}) { // what changes evenly
+    for (const Look* one : {&before, &look}) { // these change evenly between two samples
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);
     }
@@ -162,8 +162,8 @@ void BlockAverages::fill_pressures(Averages& result, const Block& whole) const {
     });
 }
 
-/// Equations (13c) and (19a) of Li et al. 2022: beta P per collision and time; R^2 = sum of the
-/// squares of all velocities, kT = R^2 / (2 N).
+/// Equations (13c) and (19a) of Li et al. 2022: beta P from collisions and time; R^2
+/// is the sum of the squares of all velocities, and kT = R^2 / (2 N).
 void BlockAverages::fill_counted_pressures(Averages& result, const Block& whole,
                                            const Look& look) const {
     const double n = system_.n_discs, area = system_.box.area();
@@ -216,8 +216,8 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
     return result;
 }
 
-/// Asymptotic series from 64 on (Tricomi and Erdelyi 1951), below that by Gamma(n + 1) = n
-/// Gamma(n).
+/// Uses an asymptotic series from 64 on (Tricomi and Erdelyi 1951), and Gamma(n + 1) =
+/// n Gamma(n) below.
 double gamma_ratio(double n) {
     double factor = 1;
     for (; n < 64; n += 1) factor *= n / (n + 0.5);

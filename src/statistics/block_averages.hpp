@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The history of a run in blocks of equal length in time, to show how much its averages can be
-// trusted.
+// The history of a run in blocks of equal length in time. It shows how far the run's
+// averages can be trusted.
 //
 // A block is a number of steps. When there are `most_blocks`, each two become one, and blocks are
-// twice as long from then on. At fixed steps, which do not depend on syncs, the discs are looked
-// at. Between two looks the integrals of stress and energy are exact (engine/stress_sums.hpp), and
-// counts of collisions too. Mean speed and kurtosis are taken to change evenly in between. Looks
-// are 64 micro-steps apart in long runs, and closer in runs that are short for an error or whose
-// energy changes. Price of a look: two passes over the discs, some five nanoseconds a disc.
+// twice as long from then on. The discs are sampled at fixed steps, which do not depend on syncs.
+// Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp), and
+// so are counts of collisions; mean speed and kurtosis are taken to change evenly. Samples are 64
+// micro-steps apart in long runs, closer in runs that are short for an error or whose energy
+// changes. Price of a sample: two passes over the discs, some five nanoseconds a disc.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,16 @@ public:
     void begin(std::int64_t step, const Look& look);
     bool has_begun() const { return has_begun_; }
 
-    /// The next step to look at.
+    /// The step of the next sample.
     std::int64_t next_look() const { return look_step_ + steps_per_look_; }
     bool is_due(std::int64_t step) const { return step >= next_look(); }
     void add(std::int64_t step, const Look& look);
 
     const AveragedSystem& system() const { return system_; }
 
-    /// All that it knows, as plain words, for a checkpoint. Good for the same scene alone.
+    /// The whole history as plain words, for a checkpoint. They are good for the same scene only.
     std::vector<std::int64_t> words() const;
-    /// Goes on with such words; false, and nothing has changed, where they are none.
+    /// Goes on from such words. Returns false, with nothing changed, if they are not valid.
     bool set_words(std::span<const std::int64_t> words);
 
     /// Averages up to `step`.
@@ -64,9 +64,9 @@ private:
 
     AveragedSystem system_;
     bool has_begun_ = false;
-    std::int64_t first_step_ = 0, block_step_ = 0, look_step_ = 0; ///< where it began; where the
-                                                                   ///< present block did; the last
-                                                                   ///< look
+    std::int64_t first_step_ = 0, block_step_ = 0, look_step_ = 0; ///< the beginning, the
+                                                                   ///< beginning of the present
+                                                                   ///< block, and the last sample
     Look last_;
     Block present_;
     std::int64_t steps_per_look_ = 1, steps_per_block_ = 1;

@@ -14,19 +14,19 @@ namespace {
 constexpr double rounding_share = 1e-10;
 /// Halves of a run are compared where each has at least this many blocks.
 constexpr std::size_t fewest_blocks_of_half = 8;
-/// Halves of a run at rest are rarely further apart: one run in 2000 for blocks that are
-/// independent.
+/// Halves of a run at rest are rarely further apart: with independent blocks, in one
+/// run of 2000.
 constexpr double most_deviations = 4;
 /// Blocks that follow a trend are equivalent to one or two independent ones.
 constexpr double fewest_independent = 3;
 
-/// Chi squared below which 95 of 100 values lie, for 1, 2, 3 ... degrees of freedom.
+/// 95 of 100 values of chi squared are below these, for 1, 2, 3 ... degrees of freedom.
 constexpr std::array chi_squared = {3.841,  5.991,  7.815,  9.488,  11.070, 12.592, 14.067, 15.507,
                                     16.919, 18.307, 19.675, 21.026, 22.362, 23.685, 24.996, 26.296};
 
-/// Blocks of one length.
+/// Statistics of blocks of one length.
 struct Level {
-    double n = 0, variance = 0, neighbours = 0; ///< the latter: covariance of neighbouring blocks
+    double n = 0, variance = 0, neighbours = 0; ///< neighbours: covariance of neighbouring blocks
 };
 
 double mean_of(std::span<const double> terms) {
@@ -46,7 +46,7 @@ Level level_of(std::span<const double> terms) {
     return level;
 }
 
-/// From the blocks as they are to those of which there are only two or three.
+/// Statistics of blocks of increasing length, until only two or three are left.
 std::vector<Level> levels_of(std::span<const double> terms) {
     std::vector<Level> levels;
     for (std::vector<double> joined(terms.begin(), terms.end()); joined.size() >= 2;) {
@@ -58,8 +58,8 @@ std::vector<Level> levels_of(std::span<const double> terms) {
     return levels;
 }
 
-/// Jonsson's choice: the shortest blocks that, with all longer ones, show no more correlation of
-/// neighbours than chance explains.
+/// Jonsson's choice: the shortest blocks for which they and all longer ones show no
+/// more correlation of neighbours than chance explains.
 const Level& independent_level(std::span<const Level> levels) {
     double sum = 0;
     std::size_t chosen = levels.size() - 1;
@@ -87,7 +87,7 @@ bool differ_by_rounding(std::span<const double> terms) {
     return largest > 0 && most - least <= rounding_share * largest;
 }
 
-/// The distance of the halves' means over its error; 0 where halves are too short to tell.
+/// The difference of the halves' means over its error; 0 if the halves are too short to tell.
 double deviation_of_halves(std::span<const double> terms) {
     const std::size_t half = terms.size() / 2;
     if (half < fewest_blocks_of_half) return 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of averages over time, for samples that remember the ones before them.
+// Errors of averages over time for correlated samples.
 //
-// Samples become blocks of equal length. When there are `most_blocks`, each two become one, so that
-// memory does not grow with time. The error comes from blocks so long that their means are
-// independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)). Jonsson's test (Phys. Rev. E
-// 98, 043304 (2018)) finds that length without a person who looks at a curve. What correlation is
-// left between neighbouring blocks of that length is added.
+// Samples are joined to blocks of equal length. When there are `most_blocks`, each two
+// become one, so that memory does not grow with time. The error comes from blocks so long
+// that their means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)).
+// Jonsson's test (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The
+// correlation that is left between neighbouring blocks of that length is added.
 //
 // In runs of at least 30 correlation times the claimed error is within 10 % of the scatter between
 // runs. It is a fifth too small where there are only eight.
@@ -24,29 +24,29 @@ constexpr std::size_t fewest_blocks = 4;
 /// Blocks are joined in pairs when there are this many.
 constexpr std::size_t most_blocks = 128;
 
-/// What the means of consecutive blocks show about the mean of all of them.
+/// Results for the mean of all blocks, from the means of consecutive blocks.
 struct BlockedMean {
-    double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error, or NaN where
-                                                             ///< blocks are too few
-    /// How many blocks it takes to get one that is independent of those before, at least 1.
+    double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error, or NaN
+                                                             ///< if there are too few blocks
+    /// The number of blocks for one that is independent of those before, at least 1.
     double blocks_per_independent = std::numeric_limits<double>::quiet_NaN();
-    bool is_constant = false; ///< all blocks agree but for rounding: a conserved quantity
+    bool is_constant = false; ///< blocks agree to within rounding: a conserved quantity
     bool is_changing = false; ///< the run's halves differ by more than chance explains, or the
                               ///< blocks follow a trend
 };
 
 /// `terms` are the means of blocks of one length, in the order of time.
 BlockedMean blocked_mean(std::span<const double> terms);
-/// Its error alone.
+/// The error of blocked_mean.
 double standard_error(std::span<const double> terms);
 
 /// A mean over samples with its error.
 struct SampledMean {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
-    double correlation_time = std::numeric_limits<double>::quiet_NaN(); ///< in samples; the
-                                                                        ///< shortest that can be
-                                                                        ///< seen is half a block
+    double correlation_time = std::numeric_limits<double>::quiet_NaN(); ///< in samples; none
+                                                                        ///< shorter than half a
+                                                                        ///< block can be seen
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false, is_changing = false;
 };
@@ -65,13 +65,13 @@ public:
     /// Adds one sample, of `n_values()` numbers. Samples are taken at equal intervals.
     void add(std::span<const double> sample);
 
-    /// One for each value.
+    /// One mean for each value.
     std::vector<SampledMean> means() const;
 
-    /// Everything it knows, for a checkpoint. The numbers do not depend on ranks or threads if the
-    /// samples do not.
+    /// All data, for a checkpoint. The numbers do not depend on ranks or threads if
+    /// the samples do not.
     std::vector<std::int64_t> words() const;
-    /// Goes on with such words; false, and nothing has changed, where they do not fit.
+    /// Goes on from such words. Returns false, with nothing changed, if they do not fit.
     bool set_words(std::span<const std::int64_t> words);
 
 private:
@@ -79,8 +79,8 @@ private:
 
     std::size_t n_values_ = 0;
     std::int64_t samples_per_block_ = 1, n_present_ = 0;
-    std::vector<double> blocks_;  ///< sums over whole blocks, one block after the other
-    std::vector<double> present_; ///< sums over the samples of the block that is being filled
+    std::vector<double> blocks_;  ///< sums over whole blocks, block after block
+    std::vector<double> present_; ///< sums over the samples of the unfinished block
 };
 
 } // namespace carrom

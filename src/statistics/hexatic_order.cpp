@@ -14,11 +14,11 @@ namespace carrom {
 
 namespace {
 
-/// Sides shorter than this, over the distance of the two discs, are a corner where more than three
-/// cells meet, as in a square lattice.
+/// A side that is shorter than this, over the distance of its two discs, is a corner
+/// at which more than three cells meet, as in a square lattice.
 constexpr double shortest_side = 1e-9;
 
-/// Another disc as one disc sees it.
+/// Another disc, relative to the disc whose cell is wanted.
 struct Seen {
     double dx = 0, dy = 0, squared = 0;
     DiscId id = 0;
@@ -28,7 +28,7 @@ struct Seen {
     }
 };
 
-/// Finds cells one by one. A thread has one.
+/// Finds cells one by one. Each thread has one finder.
 class CellFinder {
 public:
     CellFinder(const LocalView& local_view, const Extent& box, double reach)
@@ -38,7 +38,7 @@ public:
         if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
     }
 
-    /// Whether the cell is whole: nothing beyond the reach could cut it.
+    /// Returns whether the cell is complete, so that no disc beyond the reach could cut it.
     bool find(LocalIndex index, BondOrder& order) {
         const Disc& disc = view_.population.discs[index];
         const double x = x_in_box(disc), y = y_in_box(disc);
@@ -101,7 +101,7 @@ private:
             const Seen& other = seen_[static_cast<std::size_t>(point)];
             if (squared_length <= shortest_side * shortest_side * other.squared) return;
             const double c = (other.dx * other.dx - other.dy * other.dy) / other.squared,
-                         s = 2 * other.dx * other.dy / other.squared; // of twice the angle
+                         s = 2 * other.dx * other.dy / other.squared; // sine of twice the angle
             order.real += c * (c * c - 3 * s * s);
             order.imaginary += s * (3 * c * c - s * s);
             ++order.n_neighbours;
@@ -113,7 +113,7 @@ private:
     }
 
     const LocalView& view_;
-    Extent box_; ///< without end where it repeats itself
+    Extent box_; ///< infinite along periodic axes
     double reach_;
     std::vector<Seen> seen_;
     VoronoiCell cell_;
@@ -147,7 +147,7 @@ HexaticSums::HexaticSums(std::uint64_t n_discs, std::size_t n_bins)
 
 namespace {
 
-/// Pairs whose first disc is in that column of cells.
+/// Adds the pairs whose first disc is in that column of cells.
 void add_pairs_of(int column, const LocalView& view, std::span<const BondOrder> orders,
                   double bins_per_length, HexaticSums& sums) {
     const double n_bins = static_cast<double>(sums.pairs.size());

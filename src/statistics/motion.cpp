@@ -25,7 +25,7 @@ double speed_unit_of(std::span<const Disc> own, int n_threads, const Communicato
 
 } // namespace
 
-/// No term is above 1: the sum of as many as there are discs stays below 2^63.
+/// No term is above 1, so the sum of one term for each disc stays below 2^63.
 double terms_per_unit_of(std::uint64_t n_discs) {
     const double bits = std::ceil(std::log2(static_cast<double>(n_discs)));
     return std::ldexp(1.0, 62 - static_cast<int>(bits));
@@ -50,7 +50,7 @@ Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, doubl
         const Disc& disc = own[static_cast<std::size_t>(i)];
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
-        const bool has_departed = disc.has_departed(); // and is at rest
+        const bool has_departed = disc.has_departed(); // such a disc is at rest
         departed += has_departed;
         const double vx = disc.vx * per_unit, vy = disc.vy * per_unit;
         const double square = vx * vx + vy * vy;
@@ -94,7 +94,7 @@ Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, doubl
 
 namespace {
 
-/// The sum of m (v + a)_a (v + a)_b, where that of m v_a v_b, momenta and mass are known.
+/// The sum of m (v + a)_a (v + a)_b, given the sum of m v_a v_b, the momenta and the mass.
 Tensor shifted(const Tensor& squares, double px, double py, double mass, double ax, double ay) {
     return {squares.xx + 2 * px * ax + mass * ax * ax,
             squares.xy + px * ay + py * ax + mass * ax * ay,
@@ -110,7 +110,7 @@ void add_integrals(const StressSums& mine, const FlightIntegral& flights, const 
     look.stress = {all.xx.value(), all.xy.value(), all.yy.value()};
     look.energy = all.energy.value();
     if (flights.weight == 0) return; // a sync has just been
-    // The stored velocity is (v - frame's) / slowing.
+    // A stored velocity is (v - frame's) / slowing.
     const double unit = look.speed_unit, slowing = frame.slowing;
     const double ax = flights.shift_x * slowing - frame.vx,
                  ay = flights.shift_y * slowing - frame.vy;
@@ -141,12 +141,12 @@ MotionIntegrals& MotionIntegrals::operator+=(const MotionIntegrals& other) {
 
 namespace {
 
-/// Integral of a_k b_k over `steps` where both change evenly from the first to the second.
+/// The integral of a_k b_k over `steps` if both change evenly from the first to the second value.
 double integral_of_product(const double (&a)[2], const double (&b)[2], double steps) {
     return steps / 6 * (2 * a[0] * b[0] + a[0] * b[1] + a[1] * b[0] + 2 * a[1] * b[1]);
 }
 
-/// Integral of the momentum's square over the mass: what a drift has of the sum of m v v.
+/// The integral of the squared momentum over the mass: the share of a drift in the sum of m v v.
 Tensor drift_between(const AveragedSystem& system, const Look& before, const Look& after,
                      double steps) {
     const auto drift = [&system](bool is_periodic, const Look& look, double momentum) {
@@ -164,8 +164,8 @@ Tensor drift_between(const AveragedSystem& system, const Look& before, const Loo
 
 } // namespace
 
-/// What is not exact: how the kinetic energy is shared between the axes, and a drift that changes
-/// between looks. Both are needed with the weight 1 / N alone, along periodic sides.
+/// Two numbers are not exact: how the kinetic energy is shared between the axes, and a drift
+/// that changes between samples. Both count with the weight 1 / N only, along periodic sides.
 MotionIntegrals integrals_between(const AveragedSystem& system, const Look& before,
                                   const Look& after, double steps) {
     MotionIntegrals result;
@@ -192,12 +192,12 @@ MotionIntegrals integrals_between(const AveragedSystem& system, const Look& befo
                                   after.stress.xy - before.stress.xy,
                                   after.stress.yy - before.stress.yy};
     result.stress += result.kinetic;
-    if (!system.has_flow) result.stress += -1.0 * all; // which the sums have
+    if (!system.has_flow) result.stress += -1.0 * all; // the sums have it already
     return result;
 }
 
 double temperature_at(const AveragedSystem& system, const Look& look) {
-    Look before = look, after = look; // a step further, if nothing changes
+    Look before = look, after = look; // a step further, as if nothing changed
     before.energy = 0;
     after.energy = system.velocity_unit * look.speed_unit * look.speed_unit *
                    (look.motion.xx + look.motion.yy);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all discs do at one time, and the time integrals of stress and kinetic energy between two
-// such times: temperature and pressure follow from them (docs/understanding/pressure.md).
+// Sums over all discs at one time, and the time integrals of stress and kinetic energy between
+// two such times. Temperature and pressure follow from them (docs/understanding/pressure.md).
 //
-// Everything has the same bits for any number of ranks and threads. A look costs two passes over
-// the discs, some five nanoseconds a disc.
+// All have the same bits for any number of ranks and threads. A sample costs two
+// passes over the discs, some five nanoseconds a disc.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace carrom {
 
-/// Of two vectors' products, the same both ways.
+/// A symmetric tensor of products of two vectors.
 struct Tensor {
     double xx = 0, xy = 0, yy = 0;
 
@@ -30,20 +30,20 @@ struct Tensor {
     }
 };
 
-/// What is known of all discs at one time; speeds are of those that have not left the box. They are
-/// in units of `speed_unit`, a power of two, per micro-step.
+/// Sums over all discs at one time; speeds count only discs in the box. Speeds are in
+/// units of `speed_unit`, a power of two, per micro-step.
 struct Look {
     std::uint64_t wall_collisions = 0,
                   pair_collisions = 0; ///< since the scene's start; a pair counts once
     double speed_unit = 1;
     double mean_speed = 0, mean_square = 0, mean_fourth = 0; ///< per disc
     double n_discs = 0;                                      ///< in the box
-    double mass = 0, momentum_x = 0, momentum_y = 0;         ///< of all of them
+    double mass = 0, momentum_x = 0, momentum_y = 0;         ///< over all discs in the box
     Tensor motion;                                           ///< sum of m v v
-    Tensor stress;     ///< time integral of stress times area since the sums began; mass length^2
-                       ///< per micro-step
-    double energy = 0; ///< that of `motion`'s trace alone, in the same unit
-    double area = 0;   ///< of the box
+    Tensor stress;     ///< time integral of stress times area since the sums began;
+                       ///< mass length^2 per micro-step
+    double energy = 0; ///< the integral of `motion`'s trace alone, in the same unit
+    double area = 0;   ///< area of the box
 };
 
 /// All but stress, energy and area. The same bits for every machine shape: each term is rounded to
@@ -51,27 +51,27 @@ struct Look {
 Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, double heaviest,
              std::uint64_t n_discs, int n_threads, const Communicator& communicator);
 
-/// Adds to `look` the integrals up to now: the sums of all ranks, and what flights in `frame` have
-/// gathered since the last sync. **Collective.**
+/// Adds the integrals up to now to `look`: the sums of all ranks, and those over
+/// flights in `frame` since the last sync. **Collective.**
 void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
                    const Communicator& communicator, Look& look);
 
-/// The scene's constants that averages need.
+/// Constants of the scene that averages need.
 struct AveragedSystem {
     Box box;
     double n_discs = 0, radius = 0;
-    double velocity_unit = 1; ///< turns stored velocities into those per step
+    double velocity_unit = 1; ///< turns stored velocities into velocities per step
     std::int64_t micro_steps = 1, sync_every = 1;
-    bool is_plain = true;    ///< elastic discs between elastic walls; else pressures from counts
-                             ///< are NaN
+    bool is_plain = true;    ///< elastic discs between elastic walls; else pressures
+                             ///< from counts are NaN
     bool keeps_discs = true; ///< else collisions per disc are NaN
     bool is_periodic_x = false, is_periodic_y = false; ///< a drift along it is no temperature
-    bool has_flow = false;      ///< the kinetic part is that in a flow, and sampled at looks
-    bool keeps_energy = true;   ///< of motion; else looks are close to each other
-    std::int64_t last_step = 0; ///< that the run is to come to
+    bool has_flow = false;      ///< the kinetic part is relative to a flow, and taken from samples
+    bool keeps_energy = true;   ///< of motion; if false samples are close to each other
+    std::int64_t last_step = 0; ///< the step that the run is to come to
 };
 
-/// Integrals over the steps between two looks.
+/// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
     Tensor kinetic; ///< the sum of m v v, without a drift along periodic sides. Its mean is N kT

@@ -33,10 +33,10 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
 #pragma omp for schedule(dynamic, 1)
         for (int column = 0; column < n_columns; ++column) {
             visit_near_pairs_of(*local_view.grid, column, [&](LocalIndex a, LocalIndex b) {
-                // The lower id comes first: a difference has the same bits on every rank, whose
-                // discs lie in any order.
+                // The lower id comes first, so that the difference has the same bits
+                // on every rank, in whatever order its discs lie.
                 if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
-                if (a >= population.n_own) return; // the rank of the lower id counts the pair
+                if (a >= population.n_own) return; // the owner of the lower id counts the pair
                 const Disc &p = population.discs[a], &q = population.discs[b];
                 const Shift shift = local_view.periods.between(p, q, local_view.time);
                 const double dx = (q.x_at(local_view.time) - p.x_at(local_view.time)) + shift.x,

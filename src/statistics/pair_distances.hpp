@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many pairs of discs are how far apart, each pair counted by one rank.
+// Counts pairs of discs by distance, each pair on one rank.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// Pairs of `n_species` species are of so many kinds: (0, 0), then (0, 1), (1, 1), then (0, 2) and
-/// so on.
+/// The number of kinds of pairs of `n_species` species: (0, 0), then (0, 1), (1, 1),
+/// then (0, 2) and so on.
 constexpr std::size_t n_pair_kinds(std::size_t n_species) {
     return n_species * (n_species + 1) / 2;
 }
@@ -18,20 +18,20 @@ constexpr std::size_t pair_kind(std::size_t a, std::size_t b) {
     return n_pair_kinds(a < b ? b : a) + (a < b ? a : b);
 }
 
-/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`. The discs
-/// are redistributed for partners that far. `species_ends`: the ids before which species end, the
-/// last one all. As many counts follow for each kind of pair. Counts are whole numbers: threads and
-/// ranks may add in any order.
+/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`.
+/// The view must be made for partners that far. `species_ends` are the ids before which
+/// species end, the last one N. Each kind of pair has its own counts, one kind after
+/// the other. Counts are whole numbers, so threads and ranks may add in any order.
 void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<const DiscId> species_ends, int n_threads,
                           std::span<std::uint64_t> counts);
 
-/// The share of pairs of points, anywhere in a box of a by b independently, that are at most
-/// `distance` apart; up to the shorter side. (From the distribution of each component's difference,
-/// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
+/// The share of pairs of independent points in a box of a by b that are at most
+/// `distance` apart; up to the shorter side. (From the distribution of each
+/// component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
-/// The same in a box with periodic sides, of nearest images, up to half a period: with walls along
-/// the side b ...
+/// This share in a box with periodic sides, for nearest images, up to half a period:
+/// with walls along the side b ...
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
 /// ... and without walls.
 double share_of_ideal_pairs_around(double area, double distance);

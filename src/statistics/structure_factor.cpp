@@ -10,10 +10,10 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t discs_at_once = 128; ///< whose phases stay in the cache
+constexpr std::size_t discs_at_once = 128; ///< so that their phases stay in the cache
 using Lane = std::array<double, discs_at_once>;
 
-/// exp(2 pi i n place / length) of some discs, n from 0.
+/// The factors exp(2 pi i n place / length) of some discs, n from 0.
 struct Phases {
     std::vector<Lane> real, imaginary;
 
@@ -35,8 +35,8 @@ struct Mode {
     double real = 0, imaginary = 0;
 };
 
-/// Terms are rounded to one unit by adding a large number and taking it away. Sums of such terms
-/// are exact, in any order.
+/// Terms are rounded to one unit by adding a large number and subtracting it. Sums of
+/// such terms are exact, in any order.
 Mode mode_of(const Phases& x, const Phases& y, const WaveVector& vector, std::size_t n_discs,
              double rounder) {
     const auto n = static_cast<std::size_t>(vector.n),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modes of the density of discs, the sums of exp(i k r), on the vectors of a periodic box:
-// k = 2 pi (n / Lx, m / Ly).
+// The modes of the density of discs: sums of exp(i k r) for the wave vectors of a
+// periodic box, k = 2 pi (n / Lx, m / Ly).
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ struct WaveVector {
 /// The length of k.
 double wavenumber(const WaveVector& vector, double lx, double ly);
 
-/// Those up to a length, of each two opposite ones one: n ascending from 0, then m.
+/// The vectors up to a length, one of each two opposite ones: n ascending from 0, then m.
 std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenumber);
-/// About how many these are.
+/// About how many vectors these are.
 double n_wave_vectors(double lx, double ly, double largest_wavenumber);
 
 /// The modes of a rank's discs, in fixed point.
 struct DensityModes {
-    std::vector<std::uint64_t> real, imaginary; ///< to be added over ranks, wrapping
+    std::vector<std::uint64_t> real, imaginary; ///< to be added over ranks, modulo 2^64
     double per_unit = 1;
 
     double squared_modulus(std::size_t vector) const {
@@ -37,8 +37,8 @@ struct DensityModes {
     }
 };
 
-/// `discs` as the box sees them at `time`; `n_discs` over all ranks. Price: some nanoseconds for
-/// each disc and vector.
+/// `discs` are as the box sees them at `time`; `n_discs` counts all ranks. Price: some
+/// nanoseconds for each disc and vector.
 DensityModes density_modes(std::span<const Disc> discs, double time, std::uint64_t n_discs,
                            double lx, double ly, std::span<const WaveVector> vectors,
                            int n_threads);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Voronoi cell of one point, which is the origin: a polygon that the bisectors to other points
-// cut smaller. Plain arithmetic in a fixed order: the same points in the same order give the same
-// bits.
+// The Voronoi cell of one point, the origin: a polygon that is cut by the bisectors to
+// other points. Plain arithmetic in a fixed order, so the same points in the same
+// order give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ class VoronoiCell {
 public:
     static constexpr int no_point = -1;
 
-    /// A rectangle around the origin, whose sides are no point's.
+    /// Begins with a rectangle around the origin, whose sides belong to no point.
     void begin(double left, double right, double bottom, double top);
-    /// Keeps what is closer to the origin than to the point (dx, dy). `point` is its number.
+    /// Cuts off all places closer to the point (dx, dy) than to the origin; `point` is its number.
     void cut(double dx, double dy, int point);
-    /// Square of the distance to the farthest corner. Points at twice that distance cut nothing.
+    /// The squared distance of the farthest corner. Points at twice that distance cut nothing.
     double squared_radius() const;
 
     /// Calls `visit(point, squared_length)` for each side, in their order around the cell.

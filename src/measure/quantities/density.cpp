@@ -22,7 +22,7 @@ public:
         const double per_x = static_cast<double>(n) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n) / (box.y_high - box.y_low);
         std::vector<std::uint64_t> x(n, 0), y(n, 0);
-        for (const Disc& disc : state.inside) { // the box's own edge belongs to its last bin
+        for (const Disc& disc : state.inside) { // the upper edge of the box belongs to its last bin
             count(x, std::clamp((disc.x_at(time) - box.x_low) * per_x, 0.0, last));
             count(y, std::clamp((disc.y_at(time) - box.y_low) * per_y, 0.0, last));
         }
@@ -40,7 +40,7 @@ public:
     }
 
 private:
-    /// Where walls move, places are shares of the box as it is at each sample.
+    /// If walls move, places are shares of the box at each sample.
     MeasuredTable along(const std::vector<std::uint64_t>& counts, const char* axis,
                         double length) const {
         bool is_moving = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "diffusion": the coefficient of diffusion and the autocorrelation of velocities, from windows of
-// time that follow each other.
+// "diffusion": the coefficient of diffusion and the autocorrelation of velocities,
+// from successive windows of time.
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -21,8 +21,8 @@ std::int64_t window_of(const MeasurementOutput& output) {
     return static_cast<std::int64_t>(correlation_steps.of(output));
 }
 
-/// Without a whole window there is no coefficient of diffusion. A restart may come to its end, so
-/// that this is no error.
+/// Without a complete window there is no coefficient of diffusion. A restart may
+/// complete one, so this is no error.
 void warn_of_short_run(Scene& scene) {
     const MeasurementOutput& output = *scene.measurements;
     const std::int64_t window = window_of(output), steps = scene.steps - output.from_step;
@@ -54,7 +54,7 @@ void check_window(const Check& check) {
                              key, every, 2 * every, window));
 }
 
-/// Windows follow each other; each has its numbers at times 0, every_steps ... correlation_steps.
+/// Successive windows; each has numbers at times 0, every_steps ... correlation_steps.
 class Windows {
 public:
     Windows(const std::vector<double>& numbers, std::size_t n_times, std::int64_t every_steps)
@@ -65,7 +65,7 @@ public:
     double steps(std::size_t time) const {
         return static_cast<double>(static_cast<std::int64_t>(time) * every_steps_);
     }
-    /// A number of each window that has come to that time.
+    /// A number from each window that has come to that time.
     template <class Number> std::vector<double> each(std::size_t time, const Number& number) const {
         std::vector<double> values;
         for (std::size_t k = time; 3 * k < numbers_.size(); k += n_times_)
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    const std::vector<double>& numbers_; ///< three of each time
+    const std::vector<double>& numbers_; ///< three for each time
     std::size_t n_times_;
     std::int64_t every_steps_;
 };
@@ -105,7 +105,7 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// From half of the squares' growth in the second half of each window; along one axis for each.
+/// From half of the squares' growth in the second half of each window; each axis by itself.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",
@@ -173,7 +173,7 @@ public:
 private:
     Flights flights_;
     std::size_t n_times_;
-    std::vector<double> numbers_; ///< of each time in each window: mean squares of displacements
+    std::vector<double> numbers_; ///< for each time in each window: mean squares of displacements
                                   ///< along x, along y, and the mean product of velocities
 };
 

@@ -51,7 +51,7 @@ private:
         return table;
     }
 
-    /// Of the history's columns from `xx` on. The compressibility is that of the mean pressure.
+    /// Means of the history's columns from `xx` on; the compressibility is that of the mean.
     MeasuredTable means_of(const MeasuredTable& history) const {
         MeasuredTable table{
             "pressure",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "psi6": how discs are ordered, from the neighbours that Voronoi cells say.
+// "psi6": the hexatic order of discs, from their Voronoi neighbours.
 #include <cmath>
 #include <numeric>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t per_sample = 7; ///< numbers of `psi6_`
 
-/// Of the history's columns but step and parts.
+/// Means of the history's columns, except step and parts.
 MeasuredTable means_of(const MeasuredTable& history) {
     MeasuredTable table{"psi6",
                         {"means of the history with one standard error (from joined samples; nan "
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    /// |psi6| of all discs together.
+    /// |psi6| for all discs together.
     double psi6_at(std::size_t sample) const {
         const double* const now = psi6_.data() + per_sample * sample;
         return std::sqrt(now[0] * now[0] + now[1] * now[1]) / now[per_sample - 1];
@@ -146,10 +146,10 @@ private:
     }
 
     double largest_distance_;
-    std::vector<double> psi6_; ///< of each sample: sums of real and imaginary part and modulus,
-                               ///< discs of 5, 6, 7 neighbours, discs
-    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< as HexaticSums has them
-    std::vector<double> products_;                           ///< as HexaticSums has them
+    std::vector<double> psi6_; ///< by sample: sums of real and imaginary part and
+                               ///< modulus, discs of 5, 6, 7 neighbours, discs
+    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< see HexaticSums
+    std::vector<double> products_;                           ///< see HexaticSums
 };
 
 } // namespace

@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// The species whose pairs are counted apart: the scene's, or one of all discs where they are alike
-/// or of more than eight species.
+/// The species whose pairs are counted apart: the scene's, or a single one if discs
+/// are alike or of more than eight species.
 std::vector<Species> species_apart(const Scene& scene) {
     constexpr std::size_t most = 8;
     const std::vector<Species>& species = scene.effects.species;
@@ -115,9 +115,9 @@ public:
 
 private:
     double largest_distance_;
-    std::vector<std::uint64_t> pairs_; ///< all bins of the first kind (pair_distances.hpp), then of
-                                       ///< the second ...
-    std::vector<double> ideal_pairs_;  ///< those that discs without size would have
+    std::vector<std::uint64_t> pairs_; ///< by kind (pair_distances.hpp), all bins of
+                                       ///< one kind after the other
+    std::vector<double> ideal_pairs_;  ///< the pairs that discs without size would have
 };
 
 } // namespace

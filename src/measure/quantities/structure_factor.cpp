@@ -14,7 +14,7 @@ namespace {
 
 constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
 
-/// A wave vector at least, and no more than a million: each is looked at with each disc.
+/// At least one wave vector, and at most a million, because each is evaluated for each disc.
 void check_wavenumber(const Check& check) {
     constexpr double most_vectors = 1e6, most_by_default = 1e5;
     Scene& scene = check.scene;
@@ -102,7 +102,7 @@ private:
     }
 
     double largest_;
-    std::vector<double> sums_; ///< of each wave vector, over all samples
+    std::vector<double> sums_; ///< by wave vector, over all samples
 };
 
 } // namespace

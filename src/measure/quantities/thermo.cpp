@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "thermo": the usual quantities over time, a row at each sample. Its file grows as the run goes
-// on.
+// "thermo": the usual quantities over time, a row for each sample. Its file grows as
+// the run goes on.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ public:
 
 private:
     const Measurements& others_;
-    std::vector<double> rows_; ///< of each sample: energy, kT, discs, collisions of pairs
+    std::vector<double> rows_; ///< by sample: energy, kT, discs, collisions of pairs
     PressureSums sums_;
     std::optional<PressureSampler> sampler_;
 };

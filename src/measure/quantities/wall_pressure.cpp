@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "wall_pressure": what discs hand over to each side of the box, collision by collision.
+// "wall_pressure": the momentum that discs give to each side of the box, collision by collision.
 #include <cmath>
 
 #include "engine/wall_impulses.hpp"
@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// The length of a side, at a step; of one between oscillating walls in the mean.
+/// The length of a side at a step. Between oscillating walls it is the mean.
 double length_of(const Scene& scene, std::size_t side, double step) {
     const Extent box = extent_of_lines(scene.effects, scene.box, step);
     return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    /// More than a run comes to, and 2^-63 of a speed is seen.
+    /// More than a run ever sums up, with a resolution of 2^-63 of a speed.
     double bound() const { return speed_scale_ * 0x1p62; }
     void follow() {
         since_last_.emplace(bound());
@@ -91,7 +91,7 @@ private:
             const double to = from + static_cast<double>(run_.output.every_steps);
             std::vector<double> row = {from, to};
             for (std::size_t side = 0; side < 4;
-                 ++side) // walls move evenly: their mean length is that in the middle
+                 ++side) // walls move evenly, so their mean length is that in the middle
                 row.push_back(scene.effects.boundaries[side].is_periodic()
                                   ? std::nan("")
                                   : impulses_[4 * k + side] /
@@ -128,10 +128,10 @@ private:
         return table;
     }
 
-    double speed_scale_ = 0; ///< that the unit of impulses is chosen by
+    double speed_scale_ = 0; ///< sets the unit of impulses
     std::array<std::uint64_t, 4> collisions_{};
-    std::vector<double> impulses_;           ///< of each interval: of the four sides
-    std::optional<WallImpulses> since_last_; ///< of this rank since the last sample
+    std::vector<double> impulses_;           ///< by interval: for the four sides
+    std::optional<WallImpulses> since_last_; ///< on this rank since the last sample
 };
 
 } // namespace
