@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the checks of a scene share: the scene as far as it is known, and a place for problems.
+// Shared by the checks of a scene: the scene as far as it is known, and a list of problems.
 #pragma once
 
 #include <initializer_list>
@@ -24,7 +24,7 @@ struct Check {
     Problems& problems;
     const DiscColumns* columns = nullptr; ///< of the file of discs
 
-    /// A problem where the first of these keys stands that is there, else of the scene as a whole.
+    /// A problem at the first of these keys that the input has, or else of the scene as a whole.
     template <class Keys> void refuse_first(const Keys& keys, std::string text) const {
         Place place{scene.name, 0};
         for (const std::string_view key : keys) {
@@ -37,7 +37,7 @@ struct Check {
     void refuse(std::initializer_list<std::string_view> keys, std::string text) const {
         refuse_first(keys, std::move(text));
     }
-    /// Calls what(row, its number from 1, its place) for the right rows of a list.
+    /// Calls what(row, its number from 1, its place) for the valid rows of a list.
     template <class What> void for_each_row(std::string_view key, const What& what) const {
         const Setting* setting = settings.find(key);
         if (!setting || !std::holds_alternative<Values>(setting->value.data)) return;
@@ -48,7 +48,7 @@ struct Check {
                 what(*numbers, number, Place{setting->place.name, row.line});
         }
     }
-    /// Adds "row 2 of 'key': ..." for each row of which fault(row) is not empty.
+    /// Adds "row 2 of 'key': ..." for each row for which fault(row) is not empty.
     template <class Fault> void refuse_rows(std::string_view key, const Fault& fault) const {
         for_each_row(key, [&](const Numbers& row, std::size_t number, const Place& place) {
             if (const std::string text = fault(row, number - 1); !text.empty())
@@ -61,11 +61,11 @@ inline double steps_between_syncs(const Scene& scene) {
     return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
-/// How many discs, how large, where they begin and how fast. False where box or discs are not
-/// known to be right; then both sizes are 0.
+/// Checks the number, sizes, places and speeds of discs. Returns false if box or discs
+/// are not known to be right; then both sizes are 0.
 bool check_discs(const Check& check);
 
-/// What numbers of steps, rates and times ask of each other.
+/// Checks numbers of steps, rates and times against each other.
 void check_times(const Check& check);
 
 /// A contact time that the scene does not set becomes `longest` steps at most; a longer one is a

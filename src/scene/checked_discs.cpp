@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks of [discs] that look at more than one key.
+// The checks of [discs] that involve more than one key.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// What may have given the radii.
+/// The keys that can define radii.
 constexpr std::array<std::string_view, 5> size_keys = {
     "discs.radius", "discs.packing", "discs.species", "discs.list", "discs.columns"};
 
@@ -55,7 +55,7 @@ void check_species(const Check& check) {
                                                     lists_bodies ? "discs.list" : "discs.columns"));
 }
 
-/// Of columns beside the states.
+/// Checks numbers of columns beside the states.
 void check_numbers(const Check& check) {
     BySideColumn<bool> are_given;
     for (const SideColumn column : all_side_columns)
@@ -79,7 +79,7 @@ void check_numbers(const Check& check) {
     });
 }
 
-/// The count may be given, or follow from a list or from species; all that there are must agree.
+/// The count may be given, or follow from a list or from species. All that are given must agree.
 void fill_count(const Check& check) {
     Scene& scene = check.scene;
     std::uint64_t n_in_species = 0;
@@ -148,7 +148,7 @@ void check_sizes(const Check& check) {
     check_width(check, smallest);
 }
 
-/// Box and radius; true if they are known and the discs may fit.
+/// Fills in box and radius. Returns true if they are known and the discs may fit.
 bool fill_sizes(const Check& check) {
     Scene& scene = check.scene;
     const Settings& settings = check.settings;

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Values that are right go to the scene as they are; of lists the rows that are right.
+/// Puts valid values into the scene as they are; of lists the valid rows.
 void take_values(const Check& check) {
     for (const Table& table : tables()) {
         const auto& all = check.settings.all();
@@ -46,7 +46,7 @@ void derive_defaults(const Check& check) {
         choose_fields(*scene.trajectory, scene);
 }
 
-/// All that a run writes has its place in one folder; a run that has one stores checkpoints.
+/// All outputs of a run have their places in one folder. A run with a folder stores checkpoints.
 void place_outputs(const Check& check) {
     Scene& scene = check.scene;
     if (scene.folder.empty()) return;
@@ -57,7 +57,7 @@ void place_outputs(const Check& check) {
     if (scene.measurements) scene.measurements->folder = scene.folder + "/measurements";
 }
 
-/// True where the text names a key whose value is wrong, so that nothing follows from it.
+/// True if the text names a key whose value is wrong, so that nothing follows from it.
 bool depends_on_wrong_value(const Check& check, std::string_view text) {
     const auto& all = check.settings.all();
     return std::any_of(all.begin(), all.end(), [text](const Setting& one) {
@@ -65,7 +65,7 @@ bool depends_on_wrong_value(const Check& check, std::string_view text) {
     });
 }
 
-/// A key that has no meaning is a problem, one that is missing, and two that exclude each other.
+/// A key without a meaning, a missing key, and two keys that exclude each other are problems.
 void check_needs(const Check& check, const Key& key) {
     const Settings& settings = check.settings;
     const auto is_there = [&settings](std::string_view other) { return settings.has(other); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings to a Scene: values, and how they go together. Everything wrong becomes a problem with
-// its line; the scene is worth something only if there are none.
+// Turns settings into a Scene: values, and how they go together. Every error becomes a
+// problem with its line. The scene is usable only if there are none.
 #pragma once
 
 #include "scene/disc_columns.hpp"
@@ -8,9 +8,9 @@
 
 namespace carrom {
 
-/// Fills in all but the name and the text. Without a right `discs.count` the number of discs is 0;
-/// where box and radius are not right together both are 0. `columns`: those of `discs.columns`,
-/// where they have been read.
+/// Fills in all but the name and the text. Without a valid `discs.count` the number of
+/// discs is 0; if box and radius are not valid together both are 0. `columns` are
+/// those of `discs.columns`, if they have been read.
 void fill_scene(Scene& scene, Settings& settings, Problems& problems, const DiscColumns* columns);
 
 } // namespace carrom

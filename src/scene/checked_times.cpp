@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks of times, contact times and samples that look at more than one number.
+// The checks of times, contact times and samples that involve more than one number.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// Tables that grow with time are kept in memory and in checkpoints.
+/// Limited because tables that grow with time are kept in memory and in checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
 
 /// A sync resets contact times, so a contact time as long as the time between syncs would make all
@@ -22,7 +22,7 @@ void check_contact_time(const Check& check) {
                        "a quarter of the time between syncs ('time.sync_every')");
 }
 
-/// A last step of 0 shows the start, and measures nothing.
+/// A last step of 0 only shows the start, and measures nothing.
 void check_first_sample(const Check& check, std::string_view key, std::int64_t from) {
     const std::int64_t last = check.scene.steps;
     if (from > last && last > 0)

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t most_wrong_rows = 20; ///< listed in full; the rest are counted
+constexpr std::size_t most_wrong_rows = 20; ///< these are listed; the rest are counted
 
 std::string value_text(const Value& value) {
     if (std::holds_alternative<bool>(value.data)) return "true or false";
@@ -31,7 +31,7 @@ std::optional<double> as_number(const Value& value) {
     return std::nullopt;
 }
 
-/// Holds one setting to its key.
+/// Checks one setting by its key.
 class ValueCheck {
 public:
     ValueCheck(const Key& key, Setting& setting, Problems& problems)
@@ -83,7 +83,7 @@ private:
         if (!std::isfinite(*number)) return refuse_number(*number);
         check_range(*number);
     }
-    /// One number, or two that follow each other.
+    /// One number, or an array of two.
     void check_lengths() {
         const auto* list = std::get_if<Values>(&setting_.value.data);
         if (!list) return check_number();
@@ -102,7 +102,7 @@ private:
         if (setting_.is_wrong) return;
         setting_.value.data = std::move(numbers);
     }
-    /// 1e5 counts as whole.
+    /// Numbers like 1e5 are whole, too.
     void check_integer() {
         const auto number = as_number(setting_.value);
         if (!number) return refuse_type();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of settings held to their keys: kind, range, words, shape of rows.
+// Checks values of settings by their keys: kind, range, words, shape of rows.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace carrom {
 
-/// Brings the value into the form that the key's `set` takes, or adds problems and marks it wrong.
-/// A wrong row of many becomes nothing.
+/// Brings the value into the form that the key's `set` takes; or adds problems and
+/// marks it as wrong. An invalid row becomes `monostate`.
 void check_value(const Key& key, Setting& setting, Problems& problems);
 
 /// "a number greater than 0", "an array of [x, y, radius]".
 std::string kind_text(const Key& key);
-/// "from 0 to 1", "greater than 0"; empty where every number will do.
+/// "from 0 to 1", "greater than 0"; empty if every number is allowed.
 std::string range_text(const Range& range);
-/// For people: large powers of two as such.
+/// Human-readable: large powers of two are printed as 2^53.
 std::string number_text(double number);
 /// The shortest decimal that reads back as the same bits.
 std::string decimal_text(double number);

@@ -15,12 +15,12 @@ std::string shown(const Key& key, const Scene& scene) {
     return value.is_nothing() ? "not set" : toml_text(key, value);
 }
 
-/// Empty where the key is the same in both, or is not to be looked at.
+/// Empty if the key is the same in both, or is not compared.
 std::string difference_in(const Key& key, const Scene& there, const Scene& here) {
     const bool is_there = key.has_meaning(there), is_here = key.has_meaning(here);
     const bool is_about_generator = key.need && key.need->is_of_generator;
     if (!key.is_physical || key.is_same(there, here) || (!is_there && !is_here)) return {};
-    if (is_there != is_here && is_about_generator) return {}; // the generator differs already
+    if (is_there != is_here && is_about_generator) return {}; // the generator is reported already
     if (key.has_rows()) return fmt::format("'{}' is another list there", key.name);
     return fmt::format("'{}' is {} there and {} here", key.name, shown(key, there),
                        shown(key, here));
@@ -34,7 +34,7 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
         if (std::string text = difference_in(key, there, here); !text.empty())
             differences.push_back(std::move(text));
     for (const SideColumn column : all_side_columns) {
-        const DiscColumn of_files = disc_column_of(column); // checkpoints do not have those
+        const DiscColumn of_files = disc_column_of(column); // checkpoints do not have file columns
         if (!has_column(there, of_files) && !has_column(here, of_files) &&
             there.first_numbers[column] != here.first_numbers[column])
             differences.push_back(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two scenes are the same run: everything that affects the bits, and nothing else.
+// Whether two scenes are the same run: compares all that affects the bits, and nothing else.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// One line for each setting that differs, "'discs.seed' is 1 there and 2 here". How long a run
-/// goes on and what it writes are no differences. Lines of discs in files are not looked at.
+/// One line for each setting that differs, "'discs.seed' is 1 there and 2 here". The
+/// length of a run and its outputs are not compared, nor lines of discs in files.
 std::vector<std::string> physical_differences(const Scene& there, const Scene& here);
 
 } // namespace carrom

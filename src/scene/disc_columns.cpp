@@ -18,7 +18,7 @@ struct Row {
     BySideColumn<double> beside;
 };
 
-/// What a line of `5 + columns.size()` words says, or nothing where DiscReader would refuse it.
+/// The numbers in a line of `5 + columns.size()` words; nothing if DiscReader would refuse it.
 std::optional<Row> row_of(const std::vector<std::string_view>& words,
                           const std::vector<DiscColumn>& columns) {
     if (words.size() != 5 + columns.size()) return std::nullopt;

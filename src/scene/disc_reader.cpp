@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// What a line has.
+/// The columns of a line, for messages.
 std::string columns_text(const std::vector<DiscColumn>& columns) {
     std::string text = "id x y vx vy";
     for (const DiscColumn column : columns) text += std::string(" ") + name_of(column);
@@ -60,7 +60,7 @@ std::vector<Problem> DiscReader::problems() const {
     return all;
 }
 
-/// Whether the line is a disc; otherwise what is wrong with it is noted as one problem.
+/// Whether the line is a disc. If not, notes its errors as one problem.
 bool DiscReader::parse(std::string_view line, InputDisc& disc) {
     const std::vector<DiscColumn>& columns = scene_.disc_columns;
     const std::size_t n_words = 5 + columns.size();
@@ -141,7 +141,7 @@ std::string DiscReader::missing_ids() const {
         if (has_seen(id)) continue;
         const DiscId first = id;
         while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
-        if (id + 1 >= seen_.size()) id = scene_.n_discs - 1; // nothing was seen beyond
+        if (id + 1 >= seen_.size()) id = scene_.n_discs - 1; // no larger ids were seen
         if (++n_ranges > most_ranges)
             list += ", ...";
         else

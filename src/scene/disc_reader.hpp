@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`, which are checked
-// here and kept by read_disc_columns) in any order of ids, in bounded chunks: one rank reads what
-// it could never hold. Costs up to N bits to see that every id comes once, and under a microsecond
-// a line.
+// Reads discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`,
+// which are checked here and kept by read_disc_columns) in any order of ids, in
+// bounded chunks, so that one rank can read more than it could hold. Takes up to N
+// bits to see that every id comes once, and less than a microsecond a line.
 //
-// Problems are collected, not thrown: reading goes on, so that one look at a file finds them all.
+// Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,18 @@ namespace carrom {
 
 class DiscReader {
 public:
-    static constexpr std::size_t most_problems = 20; ///< listed in full; the rest are counted
+    static constexpr std::size_t most_problems = 20; ///< these are listed; the rest are counted
     static constexpr std::size_t most_wrong_lines =
-        1'000'000; ///< reading ends there: this is no list of discs
+        1'000'000; ///< reading ends there, because this is no list of discs
 
     /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the
     /// reader.
     DiscReader(std::istream& stream, const Scene& scene);
 
-    /// Replaces `chunk` by the next discs, at most `limit`; false once there are none left.
+    /// Replaces `chunk` by the next discs, at most `limit`; false if none are left.
     bool read(std::vector<InputDisc>& chunk, std::size_t limit);
 
-    /// Everything wrong with the lines, ids that never came included. Call after `read` has
+    /// All errors of the lines, and ids that never came. To be called after `read` has
     /// returned false.
     std::vector<Problem> problems() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a member of Scene to the rest of its key: kind, words, and how values come and go.
+// Fills in the rest of a key from a member of Scene: kind, words, and how values come and go.
 #pragma once
 
 #include <array>

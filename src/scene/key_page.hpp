@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference of keys, docs/reference/keys.md and conflicts.md, written from their declarations.
+// The reference of keys, docs/reference/keys.md and conflicts.md, written from the declarations.
 #pragma once
 
 #include <string>
 
 namespace carrom {
 
-/// All keys by table. Markdown.
+/// All keys by table, as Markdown.
 std::string key_page();
 
-/// What does not go together. Markdown.
+/// All features that do not go together, as Markdown.
 std::string conflicts_page();
 
 } // namespace carrom

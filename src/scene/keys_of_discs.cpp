@@ -46,7 +46,7 @@ void set_list(Scene& scene, const Value& value) {
     if (have_spins) scene.first_numbers[SideColumn::spin] = spins;
 }
 
-/// Numbers that rows of a list cannot have stand in rows of species beside it.
+/// Columns that a list cannot hold are written in `discs.species`.
 bool are_species_listed(const Scene& scene) {
     return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
         return column != SideColumn::spin && !scene.first_numbers[column].empty();
@@ -70,7 +70,7 @@ Value get_list(const Scene& scene) {
     return {std::move(rows)};
 }
 
-/// Where rows of species have a column's number, behind count, radius and mass.
+/// The place of a column's number in rows of species, after count, radius and mass.
 constexpr std::size_t place_of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
 
 void set_species(Scene& scene, const Value& value) {
@@ -99,7 +99,7 @@ Value get_species(const Scene& scene) {
     for (const SideColumn column : all_side_columns)
         if (!has_column(scene, disc_column_of(column)))
             numbers[column] = scene.first_numbers[column];
-    BySideColumn<std::size_t> next; // run of each column
+    BySideColumn<std::size_t> next; // by column
     Values rows;
     DiscId first = 0;
     for (const Species& one : species) {
@@ -152,7 +152,7 @@ Key species_key() {
     return key;
 }
 
-/// A wish for a radius, which the reader works out: nothing stays of it in the scene.
+/// A way to ask for a radius. The reader computes the radius, and the scene does not keep the key.
 Key packing_key() {
     Key key = named_key("discs.packing", "1",
                         "Packing fraction, N pi r^2 over the box's area; sets the radius.")
@@ -166,7 +166,7 @@ Key packing_key() {
     return key;
 }
 
-/// Not known before the file of `discs.from` is read.
+/// Unknown before the file of `discs.from` is read.
 Key count_key() {
     Key count = key("discs.count", "discs",
                     "N, the number of discs; a list or species give it too.",
@@ -228,7 +228,7 @@ std::vector<Key> keys_of_time() {
 
 } // namespace
 
-/// Discs that another run has left.
+/// Discs from another run.
 std::vector<Key> keys_of_other_runs() {
     return {
         key("discs.from", "",

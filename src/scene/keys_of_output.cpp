@@ -9,9 +9,9 @@ namespace carrom {
 namespace {
 
 constexpr Range every{1, largest_steps};
-constexpr Range at_least_one{.low = 1}; ///< word
+constexpr Range at_least_one{.low = 1}; ///< the unit of a number of words
 
-/// A word for what the scene has no enumeration for. An empty one is not to be written.
+/// A key for words that have no enumeration in the scene. An empty value is not written.
 Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
            std::string (*word_of)(const Scene&), void (*take)(Scene&, const std::string&)) {
     Key key = named_key(std::move(name), "", help);

@@ -25,7 +25,7 @@ constexpr std::array<Entry, legacy_header_lines> entries = {
      {"time.steps", "S, the number of steps", true},
      {"output.text", "'print' or 'perf'", false}}};
 
-/// The word as the entry's value, or nothing where it is none.
+/// The word as the entry's value; nothing if it is not valid.
 std::optional<Value> value_of(const Entry& entry, std::string_view word) {
     if (entry.key == "output.text") {
         if (word == "print") return Value{std::string("every_step")};
@@ -53,7 +53,7 @@ void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::
 void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,
                        const std::string& name, bool discs_follow) {
     Place place{name, 0};
-    for (const Entry& entry : entries) // one that does not come is reported here
+    for (const Entry& entry : entries) // missing entries are reported here
         settings.set({std::string(entry.key), place, {}, true});
     std::size_t found = 0;
     while (!text.empty() && found < entries.size()) {

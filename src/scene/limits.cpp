@@ -45,7 +45,7 @@ std::string speed_problem(double speed, const Scene& scene) {
     const double most = most_crossings * scene.box.shortest() *
                         static_cast<double>(scene.micro_steps);
     if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
-    if (std::fabs(speed) > largest_size) return {}; // velocity_problem has it
+    if (std::fabs(speed) > largest_size) return {}; // velocity_problem reports it
     return fmt::format("the speed {} crosses the box more than 2^40 times in a micro-step; take "
                        "more time.micro_steps, or at most {:g}",
                        speed, most);
@@ -72,7 +72,7 @@ std::string column_problem(DiscColumn column, double number) {
 
 namespace {
 
-/// Where centres of discs of that radius may be.
+/// The places allowed for centres of discs of this radius.
 std::string room_text(const Scene& scene, double radius) {
     const Box& box = scene.box;
     const std::string room = box.is_square()
@@ -99,7 +99,7 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene, double radiu
     for (const auto& [centre, length, is_periodic, from, to] :
          {std::tuple(disc.x, box.x, scene.effects.is_periodic_x(), walls.x_low, walls.x_high),
           std::tuple(disc.y, box.y, scene.effects.is_periodic_y(), walls.y_low, walls.y_high)}) {
-        // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
+        // L - r and the program that wrote the input round to within an ulp of L, at most 2^-52 L.
         const double slack = 0x1p-52 * length;
         const double low = is_periodic ? 0 : from + radius - slack,
                      high = is_periodic ? length : (to - radius) + slack;

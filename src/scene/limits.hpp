@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What numbers a scene may hold. Sizes and speeds stay within 2^+-250, so that no product the
-// method takes of them can overflow or vanish (docs/understanding/method.md, section 4.4); lengths
-// above 2^-230, below which discriminants of near grazes are denormal.
+// The numbers that a scene may hold. Sizes and speeds stay within 2^+-250, so that no
+// product of the method can overflow or vanish (docs/understanding/method.md, section
+// 4.4). Lengths are above 2^-230, because discriminants of near grazes are denormal below.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 namespace carrom {
 
 inline constexpr double smallest_length = 0x1p-230;
-inline constexpr double smallest_size = 0x1p-250; ///< of a speed
+inline constexpr double smallest_size = 0x1p-250; ///< for speeds
 inline constexpr double largest_size = 0x1p+250;
 inline constexpr std::uint64_t largest_count =
-    0xFFFFFFFEu; ///< 32-bit places in arrays, one of them meaning "none"
+    0xFFFFFFFEu; ///< places in arrays have 32 bits, and one value means "none"
 inline constexpr std::int64_t largest_steps = std::int64_t{1}
                                               << 53; ///< step numbers are exact in a double
 inline constexpr double largest_packing =
@@ -26,28 +26,28 @@ inline constexpr std::int64_t longest_single_sync =
 inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< their fourth powers are floats
 inline constexpr double largest_box_in_radii =
-    1e6; ///< beyond, the wall band 1e-8 r drowns in the rounding of L
+    1e6; ///< beyond, the wall band 1e-8 r is less than the rounding of L
 inline constexpr double longest_drag = 4; ///< rate of drag times the time between syncs
 inline constexpr double most_crossings =
-    0x1p40; ///< of the box in a micro-step; beyond, times of collisions are all the same number
+    0x1p40; ///< of the box in a micro-step; beyond, all times of collisions are the same number
 
 bool has_boundary(const Effects& effects, BoundaryKind kind);
 bool are_pairs_lossy(const Effects& effects);
 /// Whether discs may come to rest on each other, or on a wall, so that a contact time is needed.
 bool lose_energy_or_fall(const Effects& effects);
 
-/// What is wrong with a velocity component, or empty.
+/// The problem of a velocity component, or empty.
 std::string velocity_problem(double component);
 
-/// The same for a speed in this scene, which knows the box and the method; the box may be 0.
+/// The problem of a speed in this scene, with its box and method, or empty. The box may be 0.
 std::string speed_problem(double speed, const Scene& scene);
 
-/// What is wrong with a disc's radius, mass or number of a column beside its state, or empty.
+/// The problem of a disc's radius, mass or number in another column, or empty.
 std::string column_problem(DiscColumn column, double number);
 
-/// All that is wrong with a disc that an input lists, or empty: a centre outside [r, L-r], r its
-/// `radius` (by more than the rounding of L), or a velocity out of range. Any centre will do where
-/// the scene has no right box.
+/// All problems of a disc in an input, or empty: a centre outside [r, L-r], r its
+/// `radius` (by more than the rounding of L), or a velocity out of range. If the scene
+/// has no valid box any centre is accepted.
 std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius);
 
 } // namespace carrom

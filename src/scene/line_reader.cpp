@@ -37,8 +37,8 @@ bool LineReader::next(std::string_view& line) {
     return true;
 }
 
-/// Characters before the first line end in the buffer, or all of them; the first `searched` are
-/// known to hold none.
+/// The number of characters before the first line end in the buffer, or of all. The
+/// first `searched` are known to have none.
 std::size_t LineReader::find_line_end(std::size_t searched) const {
     const char* first = buffer_.data() + begin_;
     const std::size_t available = end_ - begin_;

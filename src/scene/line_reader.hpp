@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of a stream in bounded memory: a line without an end must not fill the machine.
+// Reads lines of a stream in bounded memory, because a line without an end must not fill it.
 //
-// Reads blocks, so what follows the last line taken is lost to other readers of the stream.
+// Reads blocks, so other readers of the stream lose what follows the last line that was taken.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,23 @@ public:
     static constexpr std::size_t longest_line = 4096;
     static constexpr std::size_t most_skipped = std::size_t{64} << 20;
 
-    /// `lines_before` lines of the stream have been read by somebody else. The stream must outlive
-    /// the reader.
+    /// `lines_before` lines of the stream have been read before, which counts for line
+    /// numbers. The stream must outlive the reader.
     LineReader(std::istream& stream, std::int64_t lines_before);
 
-    /// The next line without its end; false at the end of the stream. `line` stays valid until the
-    /// next call. A line longer than `longest_line` is cut there and the rest of it is skipped;
-    /// where that is more than `most_skipped` the stream counts as ended.
+    /// The next line without its end; false at the end of the stream. `line` is valid
+    /// until the next call. A line longer than `longest_line` is cut there and the rest is
+    /// skipped; if more than `most_skipped` had to be skipped, the stream counts as ended.
     bool next(std::string_view& line);
 
     std::int64_t line_number() const { return line_number_; }
     bool is_cut() const { return is_cut_; }
     bool is_endless() const {
         return is_endless_;
-    } ///< the end that `next` met is that of its patience
+    } ///< `next` has ended because it skipped too much
     bool has_failed() const {
         return stream_.bad();
-    } ///< the end that `next` met was not the stream's end
+    } ///< `next` has ended before the end of the stream
 
 private:
     bool refill();

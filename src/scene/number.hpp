@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers from text by std::from_chars: exact, and the same in every locale. The whole text must be
-// the number.
+// Numbers from text by std::from_chars: exact, and equal in every locale. The whole
+// text must be the number.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_id(std::string_view text);
 
-/// Some editors begin UTF-8 with it.
+/// Some editors write it at the start of UTF-8.
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// Without blanks (space, tab, carriage return) at either end.
+/// The text without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The words of `line` that blanks part, at most `limit` of them; more words than that end in one
-/// last entry.
+/// Splits `line` at blanks into at most `limit` words; if there are more, the last
+/// entry has the rest.
 void split_words(std::string_view line, std::size_t limit, std::vector<std::string_view>& words);
 
 /// `text` in quotes, cut to a readable length, with control characters shown as `?`.

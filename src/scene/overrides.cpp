@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// Keys of the input that have no meaning for the generator which the command line chooses.
+/// Removes keys of the input without a meaning for the generator that the command line chooses.
 void remove_keys_of_other_generators(Settings& settings, const Settings& given) {
     const bool lists_discs = given.has("discs.file") || given.has("discs.list") ||
                              given.has("discs.from");
@@ -30,7 +30,7 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given) 
     });
 }
 
-/// What is wrong in the input is told even where the command line replaces it.
+/// Reports errors of the input also if the command line replaces the setting.
 void check_replaced(Settings& settings, const Settings& given, Problems& problems) {
     for (Setting& setting : settings.all()) {
         const Key* key = find_key(setting.key);
@@ -39,7 +39,7 @@ void check_replaced(Settings& settings, const Settings& given, Problems& problem
     }
 }
 
-/// What the command line says replaces what excludes it in the input.
+/// Removes settings of the input that are excluded by those of the command line.
 void remove_rivals(Settings& settings, const Settings& given) {
     for (const Key& key : keys()) {
         for (const std::string_view other : key.instead_of) {
@@ -72,7 +72,7 @@ void add_overrides(Settings& settings, Problems& problems,
         const Key* key = find_key(name);
         if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place, form_problem(text));
-        } else if (text.find('\n') != std::string::npos) { // it is kept on a line of its own
+        } else if (text.find('\n') != std::string::npos) { // it has to fit on one line of files
             add_problem(problems, place,
                         fmt::format("must stand on one line, not {}", in_quotes(word)));
         } else if (!key) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings from the command line, `key=value`. They replace what the input says, and whatever
-// excludes them there: `discs.packing` replaces a radius, another generator the keys that have no
-// meaning for it.
+// Settings from the command line, `key=value`. They replace those of the input, and
+// all that they exclude there: `discs.packing` replaces a radius, another generator
+// replaces the keys that have no meaning for it.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace carrom {
 void add_overrides(Settings& settings, Problems& problems,
                    const std::vector<std::string>& overrides);
 
-/// What is wrong with a text without a key or without `=`.
+/// The problem of a text without a key or without `=`.
 std::string form_problem(const std::string& text);
 
 } // namespace carrom

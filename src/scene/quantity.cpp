@@ -9,13 +9,13 @@ namespace carrom {
 
 namespace {
 
-/// A function, so that declarations can come before this file's own statics are made.
+/// In a function, so that declarations can come before the statics of this file exist.
 std::vector<Quantity>& list() {
     static std::vector<Quantity> declared;
     return declared;
 }
 
-/// "a", "b" or "c"
+/// Returns "a", "b" or "c".
 std::string listed(const std::vector<std::string_view>& names) {
     std::string text;
     for (std::size_t k = 0; k < names.size(); ++k)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a quantity of [output.measurements] declares about itself: its keys, what it does not go
-// with, its checks, and its text for the pages. The code that measures it lies further up, in
-// src/measure, and so do the declarations. A program that measures hands them down as it starts.
-// The reader, the pages and the checks go through the list, so they name no quantity.
+// What a quantity of [output.measurements] declares: its keys, what it does not go with, its
+// checks, and its text for the pages. The code that measures it is in a higher module,
+// src/measure, with its declaration. A program that measures passes the declarations down when
+// it starts. The reader, the pages and the checks loop over the list, so they name no quantity.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ namespace carrom {
 struct Quantity {
     std::string_view name;
     std::string_view help;            ///< for the page of keys
-    std::vector<Key> keys = {};       ///< settings that it needs; quantities can share one
+    std::vector<Key> keys = {};       ///< its settings; quantities can share one
     bool has_history = false;         ///< its tables grow with each sample
-    std::vector<Rule> rules = {};     ///< what it does not go with
-    void (*check)(const Check&) = {}; ///< with a right box and right discs; shared ones run once
-    void (*check_times)(const Check&) = {}; ///< once the times of the scene are known
+    std::vector<Rule> rules = {};     ///< features that it does not go with
+    void (*check)(const Check&) = {}; ///< for a valid box and valid discs; shared ones run once
+    void (*check_times)(const Check&) = {}; ///< after the times of the scene are known
 };
 
 /// To be called once, before any scene is read.
@@ -29,15 +29,15 @@ void declare_quantities(std::vector<Quantity> quantities);
 
 const std::vector<Quantity>& declared_quantities();
 
-/// The key of which quantities are measured: a problem with a setting that is not given stands
-/// there.
+/// The key of the quantities to measure. Problems of settings that are not given are
+/// reported at it.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
 inline bool measures(const Scene& scene, std::string_view quantity) {
     return scene.measurements && scene.measurements->measures(quantity);
 }
 
-/// A number that quantities share or have for themselves: `output.measurements.NAME`.
+/// A number that one or more quantities use: `output.measurements.NAME`.
 struct QuantitySetting {
     std::string_view name;
     double fallback = 0;
@@ -47,18 +47,18 @@ struct QuantitySetting {
         return found == output.settings.end() ? fallback : found->second.value;
     }
     std::string key_name() const { return "output.measurements." + std::string(name); }
-    /// Its key; `by_default` says in words what a check works out, if there is no fixed default.
+    /// Its key. `by_default` describes the default if a check computes it.
     Key number(std::string_view unit, std::string_view help,
                std::string_view by_default = "") const;
     Key integer(std::string_view unit, std::string_view help,
                 std::string_view by_default = "") const;
 };
 
-/// The declared keys, and what each has no meaning without.
+/// The declared keys, with the quantities that each needs.
 std::vector<Key> keys_of_quantities();
 std::vector<Rule> rules_of_quantities();
 
-/// Runs those of the quantities that the scene measures.
+/// Runs the checks of the quantities that the scene measures.
 void check_quantities(const Check& check);
 void check_times_of_quantities(const Check& check);
 

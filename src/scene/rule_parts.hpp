@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rules ask of a scene, and how one is written.
+// Questions that rules ask of a scene, and functions that make rules.
 #pragma once
 
 #include "scene/check.hpp"

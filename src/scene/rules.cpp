@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which features do not go together. The check and the reference's table both come from here.
+// The features that do not go together. The check and the page of conflicts both use this list.
 #include <utility>
 
 #include "scene/boundaries/boundary.hpp"
@@ -52,7 +52,7 @@ std::vector<Rule> rules_of_starts() {
     };
 }
 
-/// Frames have no numbers that discs do not have.
+/// Frames cannot show numbers that discs do not have.
 template <std::size_t k> Rule rule_of_column() {
     return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
                 {"output.trajectory.fields"}, [](const Scene& s) {

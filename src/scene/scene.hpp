@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One checked description of a run. Every reader ends in a `Scene`; nothing after it looks at the
-// input's text again.
+// One checked description of a run. Every reader ends in a `Scene`; after that nothing
+// reads the input's text again.
 //
-// Velocities and times here are the scene's (per step); the engine divides by `micro_steps` when it
-// takes over.
+// Velocities and times are the scene's (per step). The engine divides by `micro_steps`
+// when it takes the discs.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,18 @@
 namespace carrom {
 
 enum class Method { time_stepped, event_driven };
-/// What states are rounded to and what is computed in.
+/// The precision of stored states and of computation.
 enum class Precision { double_, single };
 /// How contacts are found: by the predicate, or by the course program's formula.
 enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind { maxwell, uniform };
 
-/// What goes to standard output: nothing, steps 0 and S, or every step (the course program's `perf`
-/// and `print`).
+/// The lines on standard output: none, steps 0 and S, or every step (the course
+/// program's `perf` and `print`).
 enum class TextOutput { none, first_and_last, every_step };
 
-/// A disc as an input gives it, velocity per step.
+/// A disc as inputs give it, with its velocity per step.
 struct InputDisc {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
@@ -42,26 +42,26 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs whose ids follow each other, up to `end`, that have one number at the start, per step
-/// where it is a rate.
+/// Consecutive ids, up to `end`, of discs with the same number at the start; per step
+/// if it is a rate.
 struct NumberRun {
     DiscId end = 0;
     double number = 0;
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// In the order of ids; none of a column where all discs begin with 0.
+/// In the order of ids; a column in which all discs begin with 0 has none.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// What a line of `discs_file` may have behind `id x y vx vy`: then come the columns beside the
-/// states.
+/// The numbers that a line of `discs_file` may have after `id x y vx vy`. The columns
+/// beside the states come last.
 enum class DiscColumn : std::size_t { radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
     return static_cast<DiscColumn>(static_cast<std::size_t>(DiscColumn::first_side) +
                                    static_cast<std::size_t>(column));
 }
-/// Of one that is neither radius nor mass.
+/// For a column that is neither radius nor mass.
 constexpr SideColumn side_column_of(DiscColumn column) {
     return static_cast<SideColumn>(static_cast<std::size_t>(column) -
                                    static_cast<std::size_t>(DiscColumn::first_side));
@@ -77,7 +77,7 @@ struct Stream {
 /// Each rank writes its own discs, or MPI-IO chooses ranks that write for all.
 enum class Transfers { independent, collective };
 
-/// `[output.checkpoint]`: when the state is stored, and where. At the end and on a signal as well.
+/// `[output.checkpoint]`: when and where the state is stored; always at the end and on a signal.
 struct CheckpointOutput {
     std::string folder; ///< in the run's folder
     std::optional<std::int64_t> every_steps;
@@ -87,15 +87,15 @@ struct CheckpointOutput {
     Transfers transfers = Transfers::independent;
 };
 
-/// `[output.trajectory]`: every so-many-th step in one file.
+/// `[output.trajectory]`: frames at regular steps in one file.
 struct TrajectoryOutput {
     std::string file; ///< in the run's folder
     std::int64_t every_steps = 1;
     bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
          has_neighbours = false;
-    bool has_image = false; ///< of a periodic box; where fields are not named it has
-    SideColumnSet columns;  ///< all that discs have, where fields are not named
-    bool is_single = true;  ///< numbers of 4 bytes, else of 8
+    bool has_image = false; ///< in a periodic box; true if the scene names no fields
+    SideColumnSet columns;  ///< all that discs have, if the scene names no fields
+    bool is_single = true;  ///< numbers of 4 bytes, otherwise of 8
 };
 
 /// `[output.collisions]`: every collision in one file.
@@ -103,18 +103,18 @@ struct CollisionOutput {
     std::string file;
 };
 
-/// `[output.measurements]`: what is sampled as the run goes on, and where the tables go. Quantities
-/// and their settings have the names that they are declared with (scene/quantity.hpp).
+/// `[output.measurements]`: what is sampled during the run, and where the tables go.
+/// Quantities and their settings have the names of their declarations (scene/quantity.hpp).
 struct MeasurementOutput {
     struct Number {
         double value = 0;
-        bool is_given = false; ///< by the scene; otherwise a check has worked it out
+        bool is_given = false; ///< by the scene; otherwise a check has set it
     };
 
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     std::vector<std::string> quantities;                 ///< in the order of the scene
-    std::map<std::string, Number, std::less<>> settings; ///< of quantities
+    std::map<std::string, Number, std::less<>> settings; ///< of the quantities
 
     bool measures(std::string_view quantity) const {
         return std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
@@ -129,31 +129,31 @@ struct MeasurementOutput {
 
 struct Scene {
     std::string name; ///< the file's name, "standard input" for `-`
-    std::string text; ///< the input's own text without the lines of discs, for checkpoints
+    std::string text; ///< the input's own text without lines of discs, for checkpoints
     std::int64_t lines_before_discs =
-        0;                              ///< lines of legacy text that come before its list of discs
+        0;                              ///< number of lines of legacy text before its list of discs
     bool discs_follow = false;          ///< legacy text goes on with lines of discs
     std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
 
-    Box box;           ///< its edges; 0 where they are not known
-    double radius = 0; ///< r; the largest one where there are several species
+    Box box;           ///< the edges; 0 if they are not known
+    double radius = 0; ///< r; the largest one of several species
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
-    std::string discs_file; ///< for Generator::file, relative to the scene's folder; empty: lines
-                            ///< follow the header
-    std::string discs_from; ///< an HDF5 file, likewise, whose discs follow as lines
-    std::optional<std::int64_t> discs_from_step; ///< of a frame; else the last one
+    std::string discs_file; ///< for Generator::file, relative to the scene; empty if
+                            ///< lines follow the header
+    std::string discs_from; ///< an HDF5 file with the initial discs, relative to the scene
+    std::optional<std::int64_t> discs_from_step; ///< the frame's step; else the last frame is used
     double speed = 1;                            ///< root mean square of the generated speeds
     std::optional<double> temperature;           ///< kT of generated discs, in place of the speed
     VelocityKind velocities = VelocityKind::maxwell;
-    double growth_rate = 0.01; ///< of Generator::compressed: how fast the largest diameter grows,
-                               ///< over the root mean square speed
+    double growth_rate = 0.01; ///< for Generator::compressed: the rate at which the
+                               ///< largest diameter grows, over the root mean square speed
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
-    std::vector<DiscColumn> disc_columns; ///< of `discs_file`, in their order (`discs.columns`)
-    FirstNumbers first_numbers;           ///< of columns beside the states
+    std::vector<DiscColumn> disc_columns; ///< columns of `discs_file` in order (`discs.columns`)
+    FirstNumbers first_numbers;           ///< for columns beside the states
 
     std::int64_t steps = 0;
     Method method = Method::event_driven; ///< legacy text: time-stepped
@@ -161,45 +161,45 @@ struct Scene {
     std::int64_t sync_every = 64;
     Precision precision = Precision::double_;
     Arithmetic arithmetic = Arithmetic::stable;
-    bool contraction = false; ///< of the naive formula's products and sums
+    bool contraction = false; ///< in the products and sums of the naive formula
     std::optional<double> accuracy;
 
     Effects effects; ///< times in steps
 
     TextOutput text_output = TextOutput::none;
-    std::string folder; ///< for all that is written, from where the program runs; empty: none
-    std::optional<CheckpointOutput> checkpoint; ///< of each run with a folder
+    std::string folder; ///< for all outputs, relative to the working folder; empty: none
+    std::optional<CheckpointOutput> checkpoint; ///< set for each run with a folder
     std::optional<TrajectoryOutput> trajectory;
-    std::string length_unit, time_unit; ///< `[output.units]`, of HDF5 files; empty: not known
+    std::string length_unit, time_unit; ///< `[output.units]`, for HDF5 files; empty: not known
     std::optional<CollisionOutput> collisions;
     std::optional<MeasurementOutput> measurements;
-    std::int64_t averages_from = 0; ///< the step that averages of the report begin at
+    std::int64_t averages_from = 0; ///< the first step of the report's averages
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 
     /// The share of the box that the discs cover at the start.
     double packing() const;
-    /// Where discs grow, at the end of the last step.
+    /// The packing at the end of the last step, for growing discs.
     double last_packing() const {
         const double growth = effects.growth_at(static_cast<double>(steps));
         return packing() * (growth * growth);
     }
-    /// True where the discs come from lines of text: `discs_file`, or the lines after the course
-    /// program's header.
+    /// True if the discs come from lines of text: those of `discs_file`, or those
+    /// after a legacy header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
 /// A disc's number at the start.
 double first_number(const Scene& scene, SideColumn column, DiscId id);
 
-/// The columns beside the states that the scene's discs have: those that its dynamics need, and
-/// those that it gives numbers of.
+/// The columns beside the states that the scene's discs have: those that the dynamics
+/// needs, and those to which the scene gives numbers.
 SideColumnSet side_columns_of(const Scene& scene);
 
-/// What frames have where the scene does not name their fields.
+/// Chooses the fields of frames for a scene that does not name them.
 void choose_fields(TrajectoryOutput& trajectory, const Scene& scene);
 
-/// Where `discs_file` or `discs_from` lies: relative to the folder of the scene's own file.
+/// The path of `discs_file` or `discs_from`, which are relative to the scene's own file.
 std::string discs_path(const Scene& scene);
 
 } // namespace carrom

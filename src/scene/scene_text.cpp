@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-/// What the keys of the scene's tables are without being named.
+/// A scene in which the keys of this scene's tables have their defaults.
 Scene with_defaults(const Scene& scene) {
     Scene plain;
     for (const Table& table : tables())
@@ -34,7 +34,7 @@ std::string scene_text(const Scene& scene) {
                 lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
                                      toml_text(key, value));
         }
-        // The bare name of a table says that the run has what it is about.
+        // The bare name of a table makes the reader create the table with its defaults.
         if (!lines.empty() || table.is_optional())
             text += fmt::format("[{}]\n{}", table.name, lines);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A checked scene as text again.
+// Writes a checked scene as text.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// TOML that reads as the same scene: keys that are not as they are by default. Lines of discs
-/// that follow legacy text stay where they are.
+/// TOML that reads as the same scene: the keys whose values differ from the default.
+/// Lines of discs that follow legacy text are not included.
 std::string scene_text(const Scene& scene);
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an input asks for, key by key, before anything is checked: the common form of TOML scenes,
-// legacy text and `--set key=value`. Each setting remembers where it stands, so that every problem
-// can name its line.
+// The settings of an input, key by key, before anything is checked. It is the common
+// form of TOML scenes, legacy text and `--set key=value`. Each setting remembers its
+// place, so that every problem can name its line.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Problems = std::vector<Problem>;
 
 struct Place {
     std::string name;
-    std::int64_t line = 0; ///< 0 where there are no lines, as for `--set`
+    std::int64_t line = 0; ///< 0 if there are no lines, as for `--set`
 };
 
 struct Value;
@@ -28,8 +28,8 @@ using Numbers = std::vector<double>;
 using Values = std::vector<Value>;
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
-/// A value of TOML. Rows of numbers become Numbers once they are checked; a wrong row becomes
-/// nothing (monostate), so that the rows behind it keep their places.
+/// A value of TOML. Rows of numbers become Numbers once they are checked. An invalid
+/// row becomes `monostate`, so that the rows after it keep their places.
 struct Value {
     std::variant<std::monostate, bool, std::int64_t, double, std::string, Numbers, Values,
                  NamedValues>
@@ -44,10 +44,10 @@ struct Setting {
     std::string key;
     Place place;
     Value value;
-    bool is_wrong = false; ///< reported already; the value is worth nothing
+    bool is_wrong = false; ///< already reported; the value must not be used
 };
 
-/// Settings in the order of the input. A table that is there has a setting of its name, too.
+/// Settings in the order of the input. A table that the input has is a setting of its name, too.
 class Settings {
 public:
     const Setting* find(std::string_view key) const {
@@ -56,13 +56,13 @@ public:
         return found == all_.end() ? nullptr : &*found;
     }
     bool has(std::string_view key) const { return find(key) != nullptr; }
-    /// Whether the key is there with a value that can be used.
+    /// Whether the input has the key with a usable value.
     bool is_right(std::string_view key) const { return has(key) && !find(key)->is_wrong; }
 
     std::vector<Setting>& all() { return all_; }
     const std::vector<Setting>& all() const { return all_; }
 
-    /// Adds the setting; one of the same key is replaced.
+    /// Adds the setting; replaces one of the same key.
     void set(Setting setting) {
         remove(setting.key);
         all_.push_back(std::move(setting));

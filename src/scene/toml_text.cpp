@@ -13,7 +13,7 @@ namespace {
 
 /// The parser recurses for each part of a key; scenes need three.
 constexpr int most_parts = 32;
-constexpr std::size_t most_unknown = 20; ///< listed in full; the rest are counted
+constexpr std::size_t most_unknown = 20; ///< these are listed; the rest are counted
 
 std::int64_t line_of(const toml::source_region& source) {
     return static_cast<std::int64_t>(source.begin.line);
@@ -40,7 +40,7 @@ Value to_value(const toml::node& node) {
     return value;
 }
 
-/// Behind a string that begins at `at`; a string that does not end takes all that follows.
+/// The place after a string that begins at `at`; a string without an end takes all that follows.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];
     const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
@@ -120,7 +120,7 @@ private:
     std::size_t n_unknown_ = 0;
 };
 
-/// What comes by `--set` has no lines.
+/// Values of `--set` have no lines.
 void forget_lines(Value& value) {
     value.line = 0;
     if (auto* values = std::get_if<Values>(&value.data))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TOML text to settings and back. What values may be is checked later, against their keys.
+// TOML text to settings and back. Values are checked later, by their keys.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace carrom {
 
-/// False where the text is not TOML at all, so that nothing can be said about its keys.
+/// Returns false if the text is no TOML at all, so that nothing is known about its keys.
 bool add_toml(Settings& settings, Problems& problems, std::string_view text,
               const std::string& name);
 
-/// One value as `--set` gives it: in TOML's syntax, but words need no quotes where the key takes
-/// one. Nothing where it is no value.
+/// Reads a value of `--set`. It is in TOML's syntax, but words need no quotes if the
+/// key takes a word. Nothing if it is no value.
 std::optional<Value> parse_value(const Key& key, const std::string& text);
 
 /// A checked value in TOML's syntax; it reads back as the same bits.

@@ -19,7 +19,7 @@ std::optional<std::size_t> nearest_of(std::string_view name,
                                       std::span<const std::string_view> names) {
     name = name.substr(0, 200);
     std::size_t least = std::min(std::max<std::size_t>(1, name.size() / 3) + 1,
-                                 name.size()); // not every letter replaced
+                                 name.size()); // at least one letter must be right
     std::optional<std::size_t> nearest;
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::size_t distance = edit_distance(name, names[i]);
@@ -47,7 +47,7 @@ std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     return names;
 }
 
-/// What the innermost table has that there is.
+/// The names that the innermost existing table has.
 std::string what_there_is(std::string_view table) {
     while (!table.empty() && !find_table(table)) table = table_of(table);
     if (table.empty())
@@ -87,7 +87,7 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     const bool is_known = !table.empty() && find_table(table);
     const std::vector<std::string_view> names = names_in(table, is_known);
     std::vector<std::string_view> compared = names;
-    if (is_known || table.empty()) // a key without a table: its table may have been forgotten
+    if (is_known || table.empty()) // a key without a table, whose table may have been forgotten
         std::transform(names.begin(), names.end(), compared.begin(), last_of);
     const auto nearest = nearest_of(is_known ? last_of(key) : key, compared);
     return "no such key " + in_quotes(key) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What to say of a key that there is not, and the name a misspelt one was most likely meant to be.
+// Messages about unknown keys, with the name that a misspelt key was most likely meant to be.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace carrom {
 
-/// The new name of a renamed key (and of its `value`), or the nearest name by edit distance, or
-/// the names that there are.
+/// The new name of a renamed key (and of its `value`), or the nearest name by edit
+/// distance, or the existing names.
 std::string unknown_key_text(std::string_view key, const Value& value);
 
-/// "; did you mean \"all\"?" with the nearest of a few names, each end of it in `quote`; empty
-/// where none is near: one letter wrong, or up to a third of them.
+/// "; did you mean \"all\"?" with the nearest of a few names, in `quote`s; empty if
+/// none is near enough: one letter wrong, or up to a third of the letters.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);
 
 /// Insertions, deletions and replacements that turn `a` into `b`.

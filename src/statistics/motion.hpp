@@ -46,8 +46,8 @@ struct Look {
     double area = 0;   ///< area of the box
 };
 
-/// All but stress, energy and area. The same bits for every machine shape: each term is rounded to
-/// 2^-62 of N times the largest speed. `species_table`: null for masses of 1. **Collective.**
+/// Samples all but stress, energy and area. Each term is rounded to 2^-62 of N times the largest
+/// speed, for the same bits on all machine shapes. No table: masses of 1. **Collective.**
 Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, double heaviest,
              std::uint64_t n_discs, int n_threads, const Communicator& communicator);
 

@@ -30,7 +30,7 @@ std::vector<Rule> rules_of_drag() {
     };
 }
 
-/// A sync that comes late would leave nothing of the velocities.
+/// Long times between syncs would leave almost nothing of the velocities.
 void check_times_of_drag(const Check& check) {
     const Scene& scene = check.scene;
     const double interval = steps_between_syncs(scene);

@@ -46,7 +46,7 @@ std::vector<Rule> rules_of_gravity() {
 void check_fall(const Check& check) {
     const Scene& scene = check.scene;
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return; // a problem already
+    if (drag * time > longest_drag) return; // reported already
     const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
                                  {"effects.gravity.y", scene.effects.gravity.y}}) {

@@ -60,7 +60,7 @@ void check_growth(const Check& check) {
     const double most = std::min({std::sqrt(densest / scene.packing()),
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
-    if (growth <= most || most < 1) return; // no room at the start is told elsewhere
+    if (growth <= most || most < 1) return; // missing room at the start is reported elsewhere
     check.refuse({"effects.growth.rate"},
                  fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
                              "there is room for them up to step {:.0f}",

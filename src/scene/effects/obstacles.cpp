@@ -12,8 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// Of a fixed disc's radius and that of a disc, over the box: a disc touches the nearest images of
-/// a body at most.
+/// The largest sum of a fixed disc's radius and that of a disc, over the box, so that
+/// a disc touches only the nearest images of a body.
 constexpr double largest_in_period = 0.99;
 
 const Need some_obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
