@@ -33,7 +33,7 @@ struct AccuracyOptions {
     RunOptions run;
     StudyOptions study;
     bool of_distances = false;
-    std::string share, arithmetic = "all"; ///< as the command line has them
+    std::string share, arithmetic = "all"; ///< the words of the command line
 };
 
 constexpr int most = 1000000;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two studies of `carrom accuracy`: what settings make of collision rates and pressures, and at
-// what cost; and how far their discs get from those of the exact run, along time. Both run every
-// setting from the same starts.
+// The two studies of `carrom accuracy`. One measures how settings change collision
+// rates and pressures, and at what cost; the other how discs depart from those of the
+// exact run with time. Both run every setting from the same starts.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class Formulas {
     usual,
     stable,
     all
-}; ///< double and stable; both precisions; and the naive formulas too
+}; ///< double and stable; both precisions; and naive formulas, too
 
 struct StudyOptions {
     std::string table = "accuracy.csv";
@@ -28,13 +28,13 @@ struct StudyOptions {
     bool quiet = false;
 };
 
-/// Costs and errors of K = 1, 2, 4, ... under both rules; repetitions take turns. Throws
-/// InputError. On one rank.
+/// Costs and errors of K = 1, 2, 4, ... in both methods; repetitions take turns.
+/// Throws InputError. Called on one rank.
 void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
-/// Distances to the exact run after about each collision of a disc, for K = 1, 16, 256. Throws
-/// InputError. On one rank.
+/// Distances to the exact run after about each collision of a disc, for K = 1, 16,
+/// 256. Throws InputError. Called on one rank.
 void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 

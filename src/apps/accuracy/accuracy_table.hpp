@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines of the tables that `carrom accuracy` writes: one for each trial, or, of distances along
-// time, one for each look.
+// The lines of the tables of `carrom accuracy`: one for each trial or, in the table of
+// distances along time, one for each sample.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace carrom {
 
-/// What a line begins with, unlike all others.
+/// The begin of a line, which no other line has.
 struct TrialKey {
     int start = 0; ///< number of the start, from 0
     RunSetting setting;
     TrialLength length;
-    int repetition = 0; ///< the same trial again, for its cost
+    int repetition = 0; ///< a repetition of the trial, to measure its cost
 };
 
-/// How far discs are from those of another run, in diameters.
+/// The distance of discs from those of another run, in diameters.
 struct Distance {
     double root_mean_square = 0, median = 0;
 };
 
-/// What became of a trial. `failure` says why it could not be run to its end, and there are no
-/// numbers then. `distance` is that to the exact run at the early step.
+/// The results of a trial. If it could not be run to its end `failure` has the reason,
+/// and there are no numbers. `distance` is that to the exact run at the early step.
 struct TrialOutcome {
     Trial trial;
     Distance distance;
@@ -35,7 +35,7 @@ std::string costs_line(const Scene& scene, const TrialStart& start, const TrialK
                        const TrialOutcome& outcome, int threads);
 
 std::string distances_header();
-/// `collisions` are those that a disc has had with others in the exact run until `step`.
+/// `collisions` is how many a disc has had with others in the exact run up to `step`.
 std::string distances_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
                            std::int64_t step, double collisions, const Distance& distance);
 

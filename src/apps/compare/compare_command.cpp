@@ -43,7 +43,7 @@ struct CompareOptions {
     std::optional<double> tolerance;
 };
 
-/// What keeps a scene from being compared.
+/// The reasons why a scene cannot be compared.
 std::vector<Problem> reasons_against(const Scene& scene) {
     std::vector<Problem> problems;
     const auto add = [&](const char* text) { problems.push_back({scene.name, 0, text}); };
@@ -57,7 +57,7 @@ std::vector<Problem> reasons_against(const Scene& scene) {
     return problems;
 }
 
-/// `stream` is left at the first line of discs, on rank 0. **Collective.**
+/// Leaves `stream` at the first line of discs, on rank 0. **Collective.**
 Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
                         const Communicator& ranks) {
     SceneText text;
@@ -73,7 +73,7 @@ Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
     return scene;
 }
 
-/// Step after step, as far as lines are right; false where one is not. **Collective.**
+/// Grades step after step; returns false at the first wrong line. **Collective.**
 bool grade(const Scene& scene, ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
     int is_right = 1, has_left_runs = 0;
     for (std::int64_t step = 0; step <= scene.steps && is_right == 1; ++step) {
@@ -119,7 +119,7 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
                   options.output == "-" ? "standard input" : options.output);
     const bool is_same = grade(scene, runs, grader, ranks);
     if (ranks.is_root()) fmt::print("{}", grader.verdict());
-    int is_graded = grader.has_graded_all() ? 1 : 0; // rank 0 knows
+    int is_graded = grader.has_graded_all() ? 1 : 0; // only rank 0 knows it
     ranks.broadcast(is_graded);
     if (!is_same) return ExitCode::difference;
     return is_graded == 1 ? ExitCode::success : incomplete;

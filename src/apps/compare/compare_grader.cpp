@@ -14,14 +14,14 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A right program may round so many times worse than the runs that growth is measured with.
+/// A right program may round so many times worse than the runs by which growth is measured.
 constexpr double growth_margin = 1000;
-/// The same over a single step from known numbers.
+/// This factor for a single step from known numbers.
 constexpr double step_margin = 20;
-constexpr std::uint64_t own_runs = 6; ///< one of the output's numbers, the others beside it
-/// In radii: from such differences on, roundings may decide which discs collide.
+constexpr std::uint64_t own_runs = 6; ///< from the output's numbers, the others from near by
+/// In radii: roundings may decide which discs collide if differences are this large.
 constexpr double deciding = 0.1;
-/// In radii: fewer digits than that are no excuse for larger differences.
+/// In radii: fewer digits do not excuse larger differences.
 constexpr double coarsest_digit = 0.01;
 
 } // namespace
@@ -64,7 +64,7 @@ bool Grader::grade_end() {
     return false;
 }
 
-/// The lines of a step; false where they are not those of all discs by id.
+/// Reads the lines of a step; false if they are not those of all discs by id.
 bool Grader::read(std::int64_t step) {
     for (DiscId id = 0; id < scene_.n_discs; ++id) {
         StudentLine& line = lines_[id];
@@ -81,7 +81,7 @@ bool Grader::read(std::int64_t step) {
     return true;
 }
 
-/// What holds of any step, whatever roundings decide: numbers are finite, and centres in the box.
+/// Checks what holds at any step, whatever roundings decide: finite numbers, centres in the box.
 bool Grader::are_possible(std::int64_t step) {
     const double slack = setting_.radius; // a disc may be beyond its wall to the micro-step's end
     for (const StudentLine& line : lines_) {
@@ -135,7 +135,7 @@ SharedState Grader::own_state(const Aim& aim, std::int64_t step) const {
     return state;
 }
 
-/// To another number that the student's program writes the same way.
+/// Changes numbers to others that the student's program writes in the same way.
 void Grader::move_last_digits(Disc& disc, std::uint64_t seed) const {
     double* const numbers[] = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::uint64_t i = 0; i < 4; ++i) {
@@ -145,8 +145,8 @@ void Grader::move_last_digits(Disc& disc, std::uint64_t seed) const {
     }
 }
 
-/// One step of the rule from the student's own step before. The others begin as far away as the
-/// student's last digits may be.
+/// One step of the rule from the student's own step before. The other runs begin as
+/// far away as the student's last digits allow.
 Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
@@ -179,7 +179,7 @@ double Grader::difference_to(const std::vector<Disc>& discs, double clock, DiscI
         std::fabs(line.vx - disc.vx * unit_), std::fabs(line.vy - disc.vy * unit_)};
     double largest = 0;
     for (const double one : differences) {
-        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // NaN too
+        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // also for NaN
         largest = std::max(largest, one);
     }
     return largest;
@@ -197,8 +197,8 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// Where roundings decide a disc may be where any rounding leads to. Equal times are no roundings:
-/// if a wrong choice between them gives the line, that is the mistake.
+/// If roundings decide, a disc may be at any place to which a rounding leads. Equal times
+/// are not roundings: if a wrong choice between them gives the line, that is the mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines_) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -246,7 +246,7 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
     return discs;
 }
 
-/// Notes the line of that disc as the first that differs; returns false.
+/// Notes the disc's line as the first that differs; returns false.
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
     const StudentLine& line = lines_[id];
     const Disc& disc = aim.discs[id];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a student's lines to the rule, step by step, on one rank.
+// Compares a student's lines with the rule, step by step, on one rank.
 //
-// As long as roundings cannot decide anything, lines are held to the program's own run. Each disc
-// may be off by the tolerance and by what roundings have grown to. From then on two right programs
-// have different discs, so each step is held to the rule as it goes on from the student's own step
-// before. Costs N lines of memory, and a plain step for each line later on.
+// Before roundings can decide anything, lines are compared with the program's own run. Each
+// disc may be off by the tolerance and by the growth of roundings. Afterwards two right
+// programs have different discs, so each step is compared with the rule applied to the
+// student's own step before. Takes N lines of memory, and a plain step for each line later on.
 #pragma once
 
 #include <cstdint>
@@ -25,28 +25,28 @@ public:
     /// `scene` and `stream` must outlive this.
     Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name);
 
-    /// The program's runs are of use only until this is true.
+    /// Once this is true the program's runs are not needed any more.
     bool has_left_runs() const { return has_left_runs_; }
-    /// Looks how far roundings have grown at a step, whether it is written or not.
+    /// Measures the growth of roundings at a step, whether it is written or not.
     void note_growth(std::int64_t step, const ExpectedDiscs& expected);
-    /// Reads the lines of that step and holds them to the rule; false at the first that differs.
-    /// `expected` is empty once roundings decide.
+    /// Reads the lines of that step and compares them with the rule; false at the
+    /// first that differs. `expected` is empty once roundings decide.
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
-    /// Behind the last step there must be no more lines.
+    /// Checks that no lines follow the last step.
     bool grade_end();
-    /// Whether all written steps so far were held to the rule.
+    /// Whether all written steps so far were compared with the rule.
     bool has_graded_all() const { return n_not_graded_ == 0; }
 
-    /// What differs, or how the output is the same.
+    /// Says which line differs, or in which sense the output is the same.
     std::string verdict() const;
 
 private:
-    /// What a step is held to.
+    /// The reference for a step.
     struct Aim {
         std::vector<Disc> discs;
         double clock = 0;
-        std::vector<double> allowed;           ///< by id; infinite where roundings decide
-        std::vector<std::vector<Disc>> others; ///< what other roundings lead to
+        std::vector<double> allowed;           ///< by id; infinite if roundings decide
+        std::vector<std::vector<Disc>> others; ///< results of other roundings
     };
 
     bool read(std::int64_t step);
@@ -72,8 +72,8 @@ private:
     double tolerance_, unit_;
     StudentOutput output_;
     std::vector<StudentLine> lines_;        ///< of the step, by id
-    std::optional<SharedState> before_;     ///< of the written step before, to go on from
-    std::optional<SharedState> own_before_; ///< the same as the student's lines have it
+    std::optional<SharedState> before_;     ///< at the written step before, to go on from
+    std::optional<SharedState> own_before_; ///< the same step by the student's lines
     std::int64_t written_before_ = 0;
     std::vector<double> digits_before_; ///< StudentLine::last_digit
     std::vector<bool> is_counter_unknown_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t words_of_a_disc = 6, words_with_counters = 8;
 
-/// 0.01 for 1.25, 0.0001 for 1.25e-2. A whole number says nothing of what was rounded: 0.
+/// 0.01 for 1.25, 0.0001 for 1.25e-2; 0 for a whole number, which does not show its rounding.
 double last_digit_of(std::string_view word) {
     const std::size_t point = word.find('.');
     if (point == std::string_view::npos) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines of discs that a student's program has written, read one by one.
+// Reads the lines of discs in the output of a student's program one by one.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 namespace carrom {
 
 struct StudentLine {
-    std::int64_t number = 0; ///< in the file, from 1
+    std::int64_t number = 0; ///< number of the line, from 1
     std::int64_t step = 0;
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
-    double last_digit = 0; ///< what one unit of it is worth, in the number that has the fewest
+    double last_digit = 0; ///< the value of one unit of it, in the number with the fewest digits
     bool has_counters = false;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };
@@ -28,7 +28,7 @@ public:
     /// The stream must outlive this.
     StudentOutput(std::istream& stream, std::string name);
 
-    /// The next line that is not blank; false at the end. InputError where it is no line of a disc.
+    /// The next line that is not blank; false at the end. InputError if it is no line of a disc.
     bool next(StudentLine& line);
 
     std::int64_t line_number() const { return lines_.line_number(); }

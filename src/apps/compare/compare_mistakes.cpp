@@ -22,7 +22,7 @@ constexpr const char* stop_at_wall = "stop at a wall";
 constexpr const char* overlap = "overlap";
 constexpr const char* corner = "corner";
 
-/// Smaller deviations first: where several give the same lines the first one counts.
+/// Smaller deviations first, because the first one counts if several give the same lines.
 constexpr std::array known_mistakes{
     KnownMistake{Mistake::ties_by_higher_id, order,
                  "of collisions at equal times the one of the higher ids is kept"},
@@ -73,7 +73,7 @@ std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, M
 
 bool agree(const GivenDisc& made, const GivenDisc& given) {
     const auto is_near = [&given](double a, double b) {
-        return std::fabs(a - b) <= given.tolerance; // no NaN is
+        return std::fabs(a - b) <= given.tolerance; // false for NaN
     };
     return is_near(made.x, given.x) && is_near(made.y, given.y) && is_near(made.vx, given.vx) &&
            is_near(made.vy, given.vy);

@@ -25,12 +25,12 @@ void advance(Disc& disc, double time) {
 
 bool is_wall(const PlainRule::Candidate& candidate) { return candidate.q == Collision::wall; }
 
-/// By time, then the lower id, then the wall before a pair, then the other id.
+/// Orders by time, then the lower id, then the wall before a pair, then the other id.
 auto place_in_order(const PlainRule::Candidate& c) {
     return std::make_tuple(c.t, c.p, is_wall(c) ? 0 : 1, c.q);
 }
 
-/// The place of a candidate for one who sorts otherwise.
+/// The place of a candidate in a wrong order.
 std::tuple<double, double, double, double> place_by_mistake(const PlainRule::Candidate& c,
                                                             Mistake mistake) {
     const double t = c.t, p = static_cast<double>(c.p), pair = is_wall(c) ? 0 : 1,
@@ -50,7 +50,7 @@ bool sorts_otherwise(Mistake mistake) {
 
 } // namespace
 
-/// What a disc sweeps in a micro-step.
+/// The part of the box that a disc sweeps in a micro-step.
 struct PlainRule::Path {
     double x_low, x_high, y_low, y_high;
     const Disc* disc;
@@ -108,7 +108,7 @@ void PlainRule::look_at(const Disc& p, const Disc& q, double m) {
     if (t >= 0 && t <= 1) candidates_.push_back({t, p.id, q.id});
 }
 
-/// From the micro-step's start; `never` for none.
+/// The time from the micro-step's start; `never` if there is no contact.
 double PlainRule::contact_time(const Disc& p, const Disc& q, double m) const {
     if (const double t = overlap_time(p, q, m); t != never) return t;
     if (mistake_ == Mistake::overlap_at_end) return never;
@@ -116,7 +116,7 @@ double PlainRule::contact_time(const Disc& p, const Disc& q, double m) const {
     return contact.exists() ? (contact.base - m) + contact.delay : never;
 }
 
-/// When discs collide that the rule lets pass through each other, by the mistake.
+/// The time at which discs collide by mistake that the rule lets pass through each other.
 double PlainRule::overlap_time(const Disc& p, const Disc& q, double m) const {
     const double sigma = 2 * setting_.radius;
     const double at = mistake_ == Mistake::overlap_at_end ? m + 1 : m;
@@ -159,7 +159,7 @@ void PlainRule::keep_candidates(double m) {
     }
 }
 
-/// The event-driven method inside the micro-step: after each collision its discs look anew.
+/// The event-driven method inside the micro-step: after each collision its discs are searched anew.
 void PlainRule::keep_all_collisions(double m) {
     const auto sooner = [](const Candidate& a, const Candidate& b) {
         return place_in_order(a) < place_in_order(b);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method for one process, with a switch for each way to get it wrong: `carrom
-// compare` finds out which mistake gives a student's line.
+// The time-stepped method for one process, with a switch for each mistake. `carrom
+// compare` finds the mistake that gives a student's line.
 //
-// A micro-step looks at all pairs whose paths may meet, sorts all candidates by the total order and
+// A micro-step tests all pairs whose paths may meet, sorts all candidates by the total order and
 // walks them. Without a mistake the decisions are the engine's. Price: up to N^2/2 predicates.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// One deviation from the rule. compare_mistakes.hpp has their words.
+/// One deviation from the rule; compare_mistakes.hpp describes them.
 enum class Mistake {
     none,
     ties_by_higher_id,
@@ -55,16 +55,16 @@ public:
         bool is_kept = false;
     };
 
-    /// `discs` by id, as a Simulation stores them after so many micro-steps.
+    /// `discs` by id, as a Simulation stores them after `micro_steps_done`.
     PlainRule(const RuleSetting& setting, std::vector<Disc> discs, std::int64_t micro_steps_done,
               Mistake mistake);
 
     void run_micro_step();
 
-    /// By id, on `clock()`.
+    /// By id, at `clock()`.
     std::span<const Disc> discs() const { return discs_; }
     double clock() const { return static_cast<double>(micro_steps_ % setting_.sync_every); }
-    /// Of the last micro-step, in the order of decision.
+    /// The candidates of the last micro-step, in the order of decision.
     std::span<const Candidate> candidates() const { return candidates_; }
 
 private:

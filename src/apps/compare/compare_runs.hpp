@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run that a student's output is held to, and two runs of the same scene with other roundings:
-// one that begins some last bits away, one with the course program's formulas too. How far these
-// get from the first one is how far roundings have grown.
+// The run that a student's output is compared with, and two runs of the same scene with
+// other roundings: one begins some last bits away, one also has the course program's
+// formulas. Their distance from the first run shows how far roundings have grown.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// On rank 0, by id.
+/// Discs on rank 0, by id.
 struct ExpectedDiscs {
     std::vector<Disc> discs;
     double clock = 0;
@@ -28,7 +28,7 @@ public:
     ComparedRuns(const Scene& scene, const std::vector<InputDisc>& discs,
                  const Communicator& ranks);
 
-    /// Goes on to that step. Discs are on rank 0, nothing elsewhere. **Collective.**
+    /// Goes on to that step. Rank 0 gets discs, the others nothing. **Collective.**
     ExpectedDiscs at(std::int64_t step);
 
 private:
@@ -45,7 +45,7 @@ double drawn(std::uint64_t id, std::uint64_t seed);
 /// `place` a few of its last bits up or down; 0 stays 0.
 double nudged(double place, std::uint64_t id, std::uint64_t seed);
 
-/// The largest difference between the four numbers of two discs. Velocities times `unit`.
+/// The largest difference between the four numbers of two discs; `unit` multiplies velocities.
 double difference(const Disc& a, double clock_a, const Disc& b, double clock_b, double unit);
 
 } // namespace carrom

@@ -27,7 +27,7 @@ namespace {
 
 enum class Format { xyz, text, csv };
 
-/// Which columns stand for which others where a file is written as text.
+/// Other names for columns in a file that is written as text.
 constexpr std::array<std::string_view, 6> common_columns = {
     "x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
 
@@ -63,7 +63,7 @@ public:
         while (id >= end_) end_ += species_[++k_].count;
         return species_.empty() ? all_ : species_[k_];
     }
-    /// Of the disc that was asked for last: H, He and so on, or X.
+    /// For the disc of the last call: H, He and so on, or X.
     std::string_view symbol() const {
         return species_.empty() || species_.size() >= symbols.size() ? symbols[0] : symbols[k_ + 1];
     }
@@ -75,7 +75,7 @@ private:
     std::uint64_t end_ = 0;
 };
 
-/// Extended XYZ: a frame's first two lines.
+/// The first two lines of a frame of extended XYZ.
 void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int64_t step) {
     std::string others;
     for (const std::size_t k : other_columns(summary))
@@ -109,7 +109,7 @@ public:
                            body.radius, body.mass);
         } else {
             fmt::format_to(end, "{},{}", step, id);
-            for (const std::size_t place : places_) { // what the file does not have stays empty
+            for (const std::size_t place : places_) { // columns that it does not have stay empty
                 out.push_back(',');
                 if (place < rows.size()) fmt::format_to(end, "{}", rows[place][i]);
             }
@@ -119,7 +119,7 @@ public:
     }
 
 private:
-    /// Of a common column; 0 where the file does not have it.
+    /// A number of a common column; 0 if the file does not have it.
     double number(const Rows& rows, std::size_t i, std::size_t column) const {
         return places_[column] < rows.size() ? rows[places_[column]][i] : 0;
     }
@@ -179,7 +179,7 @@ void write_log(const FrameFile& file, DataOutput& output) {
     }
 }
 
-/// What keeps a file from being written in that format; empty if nothing does.
+/// The reason why a file cannot be written in that format; empty if it can.
 std::string reason_against(const FileSummary& summary, Format format) {
     if (format == Format::csv) return {};
     if (summary.kind == FileKind::collisions)
@@ -189,7 +189,7 @@ std::string reason_against(const FileSummary& summary, Format format) {
     return {};
 }
 
-/// Returns what went wrong with the output.
+/// Returns the failure of the output, or empty.
 std::string convert_alone(const std::string& path, Format format, const std::string& target) {
     std::vector<Problem> problems;
     if (!target.empty())

@@ -41,7 +41,7 @@ std::string frames_text(const std::vector<std::int64_t>& steps) {
     return steps.size() > 1 ? text + fmt::format(", every {}", every) : text;
 }
 
-/// From when to when a log goes; it is in the order of time.
+/// The time span of a log, which is in the order of time.
 std::string span_text(const FrameFile& file) {
     const FileSummary& summary = file.summary();
     const std::uint64_t n = summary.n_rows;
@@ -54,7 +54,7 @@ std::string span_text(const FrameFile& file) {
                                               last[step][0], first[time][0], last[time][0]));
 }
 
-/// The fields of a trajectory as scenes name them.
+/// The fields of a trajectory, by their names in scenes.
 std::string fields_text(const FileSummary& summary) {
     constexpr std::array<std::array<const char*, 2>, 6> common = {
         {{"position", "x"},
@@ -77,7 +77,7 @@ std::string trajectory_text(const FileSummary& summary) {
            labelled_line("frames", frames_text(summary.steps));
 }
 
-/// A line for each species, or one where all discs are equal.
+/// A line for each species, or a single one if all discs are equal.
 std::string species_text(const FileSummary& summary) {
     constexpr std::size_t most_lines = 20;
     if (summary.species.empty())
@@ -121,7 +121,7 @@ std::string header_text(const CheckpointHeader& header) {
     try {
         const Effects effects = scene_of(header, {}).effects;
         if (effects.are_any()) text += labelled_line("effects", summary_of(effects));
-    } catch (const InputError&) { // another version's scene; the rest is good to know all the same
+    } catch (const InputError&) { // another version's scene; all else is worth printing
     }
     std::string overrides = header.scene_overrides;
     if (!overrides.empty()) overrides.pop_back(); // each ends its line

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What no state of a run can be; empty if all is well.
+/// Describes a number that no state of a run can have; empty if there is none.
 std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header,
                     const Extent& box) {
     const double clock = header.clock();
@@ -48,14 +48,14 @@ std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& hea
     return {};
 }
 
-/// Where a run may show the centre of a disc without a radius. **Not collective.**
+/// The places at which a run may show a disc's centre, without radii. **Not collective.**
 Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     Extent box = extent_at(effects, header.box(), static_cast<double>(header.step));
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
         if (effects.boundaries[side].kind == BoundaryKind::open)
             line = outwards * infinity; // discs may be on their way out
         if (effects.boundaries[side].is_periodic())
-            line += outwards * header.radius; // centres are anywhere in the box
+            line += outwards * header.radius; // centres may be anywhere in the box
     };
     make_room(0, box.x_low, -1);
     make_room(1, box.x_high, 1);
@@ -64,11 +64,11 @@ Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     return box;
 }
 
-/// Bytes and hash are checked by reading; then the discs themselves. **Collective.**
+/// Reading checks bytes and hash; this checks the discs themselves. **Collective.**
 void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const CheckpointHeader& header = checkpoint.header;
-    const Effects effects = scene_of(header, {}).effects; // an unreadable scene is no use either
+    const Effects effects = scene_of(header, {}).effects; // its scene must be readable as well
     const Extent room = room_of(header, effects);
     const SpeciesTable species(effects.species, header.radius);
     std::string flaw;
@@ -94,7 +94,7 @@ void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});
 }
 
-/// Rows of a file's numbers by name; those that it does not have are 0.
+/// Rows of a file's numbers by name; columns that the file does not have are 0.
 class NamedRows {
 public:
     explicit NamedRows(const FrameFile& file) : file_(file) {}
@@ -119,9 +119,9 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Whether a run could show a disc there. Discs leave an open side as their centre is a radius
-/// beyond it, and lie there at rest; in the time-stepped method a disc that another one has pushed
-/// out may fly to the end of its micro-step before.
+/// Whether a run could show a disc there. Discs leave through an open side when their
+/// centre is a radius beyond it, and lie there at rest. In the time-stepped method a
+/// disc that another one has pushed out may fly to the end of its micro-step before.
 bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary) {
     if (!rows.are_finite(i)) return false;
     if (!summary.has("x")) return true;
@@ -134,12 +134,12 @@ bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summar
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)
         has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
-                    beyond[side] <= reach; // smaller discs than the largest leave before
+                    beyond[side] <= reach; // discs smaller than the largest leave before
     for (std::size_t side = 0; side < beyond.size(); ++side) {
         if (beyond[side] <= summary.amplitudes[side]) continue;
         if (!summary.open_boundaries[side]) return false;
-        // Without velocities nobody knows how far it flies; pushed out over a corner it leaves by
-        // one side and keeps its place along it.
+        // Without velocities its flight is unknown. A disc that is pushed out over a
+        // corner leaves through one side and keeps its place along it.
         const bool is_bounded = summary.has("vx") && !has_left;
         if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;
     }

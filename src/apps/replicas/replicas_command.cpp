@@ -48,7 +48,7 @@ struct ReplicasOptions {
     std::string folder;
 };
 
-/// The keys that make replicas differ.
+/// The seeds of the scene, which make replicas differ.
 std::vector<const Key*> seeds_of(const Scene& scene) {
     std::vector<const Key*> seeds;
     for (const Key& key : keys())
@@ -70,7 +70,7 @@ RunOptions options_of(const ReplicasOptions& options, const Scene& scene, std::i
     return one;
 }
 
-/// Throws InputError where the folder has another scene's run.
+/// Throws InputError if the folder has a run of another scene.
 bool is_done(const RunOptions& one, const Communicator& rank) {
     if (!one.resume) return false;
     const Scene scene = load_scene_alone(one, {}, rank);
@@ -81,7 +81,7 @@ bool is_done(const RunOptions& one, const Communicator& rank) {
     return true;
 }
 
-/// This rank's replicas, one after the other. The code is `stopped` where it was told to stop.
+/// Runs this rank's replicas one after the other. Returns `stopped` if it was asked to stop.
 ExitCode run_mine(const ReplicasOptions& options, const Scene& scene, const Communicator& ranks) {
     const Communicator alone = Communicator::of_this_rank();
     for (std::int64_t k = ranks.rank(); k < options.count; k += ranks.size()) {
@@ -93,9 +93,9 @@ ExitCode run_mine(const ReplicasOptions& options, const Scene& scene, const Comm
     return ExitCode::success;
 }
 
-/// What all ranks have come to; the first failure of any is thrown on all.
+/// Collects the results of all ranks. Throws the first failure of any rank on all.
 bool all_are_done(const ReplicasOptions& options, const Scene& scene, const Communicator& ranks) {
-    constexpr double patience_seconds = 1e9; // other ranks have long runs to end
+    constexpr double patience_seconds = 1e9; // other ranks may have long runs to finish
     ExitCode code = ExitCode::success, failure_code = ExitCode::success;
     std::string failure;
     try {

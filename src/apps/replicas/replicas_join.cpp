@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Mean and standard error of the mean; NaN where too few are numbers.
+/// Mean and standard error of the mean; NaN if there are too few numbers.
 struct Mean {
     double value = NAN, error = NAN;
 };
@@ -90,13 +90,13 @@ std::string lines_of_replicas(const std::vector<Replica>& replicas,
     return text + '\n';
 }
 
-/// Whether a column has the errors of another one, as each run knows them by itself.
+/// Whether a column has the errors of another one, as each run estimates them.
 bool is_error_of_run(const std::string& column, const Json& table) {
     return column.ends_with("_error") && table.contains(column.substr(0, column.size() - 6));
 }
 
-/// A table with a column `NAME_error` behind each column in which replicas differ. Errors of single
-/// runs are averaged to `NAME_run_error`, so that no two columns have one name.
+/// A table with a column `NAME_error` after each column in which replicas differ. The errors
+/// of single runs are averaged as `NAME_run_error`, so that no two columns have the same name.
 class JoinedTable {
 public:
     JoinedTable(std::string name, const std::vector<Json>& reports) : name_(std::move(name)) {
@@ -179,7 +179,7 @@ std::string join_replicas(const std::vector<Replica>& replicas, const std::strin
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);
-        if (!std::isfinite(mean.value)) continue; // some replica does not know it
+        if (!std::isfinite(mean.value)) continue; // a replica does not have it
         joined[quantity.name] = {{"value", mean.value}, {"error", or_null(mean.error)}};
         text += fmt::format("{:<19}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
     }

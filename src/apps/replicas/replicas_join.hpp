@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What independent runs of one scene say together: means, with errors from how the runs differ.
+// Joint results of independent runs of one scene: means, and errors from the runs' differences.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Replica {
     std::uint64_t seed = 0;
 };
 
-/// The last step that the folder's report speaks of; nothing where there is no whole report.
+/// The last step in the folder's report; nothing if there is no complete report.
 std::optional<std::int64_t> last_step_reported(const std::string& folder);
 
 /// Reads the replicas' reports and writes to `folder`:

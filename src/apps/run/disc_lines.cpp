@@ -24,7 +24,7 @@ std::vector<LocalIndex> order_by_id(std::span<const Disc> discs) {
     return order;
 }
 
-/// Adding +0 turns -0 into +0: two states of the same hash give the same text.
+/// Adding +0 turns -0 into +0, so that two states of the same hash give the same text.
 DiscLine line_of(const Disc& disc, double clock, double velocity_unit) {
     return {disc.id,
             disc.x_at(clock) + 0.0,
@@ -35,7 +35,7 @@ DiscLine line_of(const Disc& disc, double clock, double velocity_unit) {
             disc.wall_collisions};
 }
 
-/// std::to_chars gives what printf does, eight times as fast.
+/// std::to_chars gives the digits of printf, eight times as fast.
 void append_number(fmt::memory_buffer& text, double number, int digits) {
     std::array<char, 352> word; // holds any double with 16 decimals
     const auto style = digits == RunOptions::round_trip_digits ? std::chars_format::general

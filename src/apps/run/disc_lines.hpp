@@ -2,8 +2,8 @@
 // The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the
 // last step.
 //
-// Each rank sorts its own discs by id; then slab after slab of ids travels to rank 0. Price: a sort
-// of indices (4 bytes per disc), every disc sent once, some 0.8 us per line on rank 0.
+// Each rank sorts its own discs by id, and sends slab after slab of ids to rank 0. Price: a
+// sort of indices (4 bytes per disc), every disc sent once, some 0.8 us per line on rank 0.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace carrom {
 
-/// What a line shows, in the scene's units.
+/// The numbers of a line, in the scene's units.
 struct DiscLine {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };
 
-/// Appends one line. 17 digits are significant ones, which read back as the same bits; fewer are
-/// decimals.
+/// Appends one line. 17 digits are significant ones, which read back as the same bits;
+/// fewer are decimals.
 void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits,
                  bool with_counters);
 
@@ -37,7 +37,7 @@ public:
     DiscLines(const Scene& scene, const std::string& path, int digits, const Communicator& ranks,
               std::uint64_t slab = default_slab);
 
-    /// The next step after `step` that is to be written, or the last one.
+    /// The next step after `step` that has to be written, or the last one.
     std::int64_t next_due(std::int64_t step) const;
 
     bool is_due(std::int64_t step) const;
@@ -45,8 +45,8 @@ public:
     /// Writes the present step. If that fails every rank throws. **Collective.**
     void write(const Simulation& simulation);
 
-    /// After the last step: makes sure that all of it has been taken. If not every rank throws.
-    /// **Collective.**
+    /// To be called after the last step. Every rank throws unless all lines have been
+    /// written. **Collective.**
     void close();
 
 private:

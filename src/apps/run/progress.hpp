@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a run is, on standard error: one line rewritten on a terminal, a line now and then in a
-// batch log.
+// The progress of a run on standard error: one line that is rewritten on a terminal, a
+// line now and then in a batch log.
 //
-// Lines in a log come at growing intervals, so a week-long run leaves some hundred of them. Under
-// mpirun standard error is a pipe even at a terminal, so there it is lines too.
+// Lines in a log come at growing intervals, so a week-long run leaves some hundred of
+// them. Under mpirun standard error is a pipe even at a terminal, so it gets lines, too.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace carrom {
 
 class StatusLine {
 public:
-    /// Shows nothing unless `wanted`: the caller decides which rank talks.
+    /// Shows nothing unless `wanted`; the caller decides which rank prints.
     explicit StatusLine(bool wanted);
     ~StatusLine() { finish(); }
     StatusLine(const StatusLine&) = delete;
@@ -25,7 +25,7 @@ public:
     void show(const std::string& text);
     /// Leaves the cursor on an empty line.
     void finish();
-    /// Since this was made.
+    /// The time since this was made.
     double seconds() const;
 
 private:
@@ -36,13 +36,13 @@ private:
     std::chrono::duration<double> interval_;
 };
 
-/// The same of a run.
+/// The progress of a run.
 class Progress {
 public:
     Progress(std::int64_t first_step, std::int64_t last_step, bool wanted)
         : first_step_(first_step), last_step_(last_step), line_(wanted) {}
 
-    /// To be called as often as one likes; prints when it is time to.
+    /// May be called at any rate; prints if it is time.
     void show(std::int64_t step);
     /// Leaves the cursor on an empty line.
     void finish() { line_.finish(); }

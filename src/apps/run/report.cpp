@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// JSON has no infinity and no NaN: null then.
+/// Null stands for infinity and NaN, which JSON does not have.
 nlohmann::ordered_json number_or_null(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
@@ -49,7 +49,7 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
-/// Thermodynamics stands at the top of the report: what most readers look for.
+/// Thermodynamics is at the top of the report, because most readers want it.
 void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
                         const Averages& averages) {
     const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
@@ -63,7 +63,7 @@ void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
                                  {"yy", estimate(averages.pressure_tensor.yy)}};
 }
 
-/// Columns of numbers; null where there is none.
+/// Columns of numbers; null for a missing one.
 nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
     nlohmann::ordered_json all = nlohmann::ordered_json::object();
     for (const MeasuredTable& table : tables) {
@@ -139,7 +139,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
     if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);
-    // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
+    // A scene's name may have any bytes that the file system allows; others than UTF-8 become "?".
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says of itself to programs when it is over.
+// The report of a finished run for other programs.
 #pragma once
 
 #include <string>

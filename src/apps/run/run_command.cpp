@@ -56,8 +56,8 @@ Examples:
 Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
 could not be written; 70 a broken invariant; 75 stopped on request before the end.)";
 
-/// Summary and report, by rank 0. If the report cannot be written every rank throws.
-/// **Collective.**
+/// Rank 0 prints the summary and writes the report. If the report cannot be written
+/// every rank throws. **Collective.**
 void print_result(const RunOptions& options, const Scene& scene, const RunResult& result,
                   const Communicator& ranks) {
     std::string failure;
@@ -74,7 +74,7 @@ void print_result(const RunOptions& options, const Scene& scene, const RunResult
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// What a run says that has given up a step after `step`; `kept` says what is left.
+/// The error of a run that has given up a step after `step`; `kept` says what is left.
 StopRequested given_up(std::int64_t step, const std::string& kept, const Scene& scene) {
     return StopRequested(fmt::format(
         "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,
@@ -83,7 +83,7 @@ StopRequested given_up(std::int64_t step, const std::string& kept, const Scene& 
                              : fmt::format("; carrom run -o {} --resume goes on", scene.folder)));
 }
 
-/// The lines of discs on standard output or in a file, and how far the run is.
+/// Writes the lines of discs to standard output or a file, and shows the progress.
 class ShownSteps : public StepAction {
 public:
     /// A restart does not write the lines of its first step again. **Collective.**
@@ -101,7 +101,7 @@ public:
         progress_.show(last_step_);
         return true;
     }
-    /// The last step that has been made whole.
+    /// The last step that has been completed.
     std::int64_t last_step() const { return last_step_; }
     /// **Collective.**
     void finish() {
@@ -122,8 +122,8 @@ private:
     std::int64_t last_step_;
 };
 
-/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is asked
-/// to stop: false then. **Collective.**
+/// Runs to the end of the scene with all outputs on the way, or to where the run is
+/// asked to stop: then it returns false. **Collective.**
 bool step_to_end(Run& run, const RunOptions& options, double& output_seconds) {
     const Scene& scene = run.scene();
     Stopwatch watch;
@@ -184,7 +184,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
-        signals.emplace(ranks.is_root()); // else not while standard input may keep us waiting
+        signals.emplace(ranks.is_root()); // else not while standard input may make the run wait
     Loaded loaded = load(options, problems, ranks);
     if (!signals) signals.emplace(ranks.is_root());
     Tuning tuning = options.tuning;
@@ -227,7 +227,7 @@ Subcommand run_subcommand() {
         if (!has_input)
             problems.push_back({"carrom run", 0,
                                 "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
-        const bool reads_input = options.input == "-"; // which may keep us waiting
+        const bool reads_input = options.input == "-"; // the run may wait for it
         if (!has_input) return failing(problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {
                     return run_scene(options, problems, ranks);

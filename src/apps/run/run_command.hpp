@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `carrom run`: from a scene to its last step, with its lines on standard output and a summary at
-// the end.
+// `carrom run` takes a scene to its last step, with its lines on standard output and a
+// summary at the end.
 #pragma once
 
 #include "apps/run/run_options.hpp"
@@ -8,7 +8,7 @@
 
 namespace carrom {
 
-/// The whole run of a scene, with all that it writes. `problems` of the command line are thrown
+/// Runs a whole scene with all its outputs. `problems` of the command line are thrown
 /// together with the scene's. **Collective.**
 ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
                    const Communicator& ranks);

@@ -70,7 +70,7 @@ std::vector<Option> run_options(RunOptions& run) {
 
 namespace {
 
-/// `--set KEY VALUE`: the value is a word too many then, and ends the run before a scene is read.
+/// `--set KEY VALUE` leaves the value as an extra word, which ends the run before a scene is read.
 void take_out_keys_alone(std::vector<std::string>& overrides, std::vector<Problem>& problems) {
     std::erase_if(overrides, [&problems](const std::string& text) {
         const bool is_alone = !text.empty() && text.find('=') == std::string::npos;

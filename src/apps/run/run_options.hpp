@@ -10,11 +10,11 @@
 
 namespace carrom {
 
-/// The options of `carrom run`, which set `run`; it must live as long.
+/// The options of `carrom run`. They set `run`, which must live as long.
 std::vector<Option> run_options(RunOptions& run);
 
-/// The same once all options are there, with `overrides` for those that set a key. Appends what
-/// does not go together to `problems`.
+/// Completes the options when all are read, with `overrides` for those that set a key.
+/// Appends problems of options that do not go together.
 RunOptions completed(RunOptions options, std::vector<Problem>& problems);
 
 } // namespace carrom

@@ -22,10 +22,10 @@ double disc_steps(const RunResult& result) {
            static_cast<double>(result.last_step - result.first_step);
 }
 
-/// The largest of the ranks' times over their mean; 1 where there is none. **Collective.**
+/// The largest of the ranks' times over their mean; 1 if all are 0. **Collective.**
 double imbalance_of(double seconds, const Communicator& ranks) {
     const auto nanoseconds = static_cast<std::uint64_t>(
-        1e9 * seconds); // whole numbers: ranks add them in any order
+        1e9 * seconds); // whole numbers, so that ranks may add them in any order
     const auto sum = static_cast<double>(ranks.sum(nanoseconds));
     return sum > 0 ? static_cast<double>(ranks.max(nanoseconds)) * ranks.size() / sum : 1;
 }
@@ -138,7 +138,7 @@ std::string doubts_of_averages(const Averages& averages) {
 
 namespace {
 
-/// How many others the centre of a disc would have within their common diameter if discs did not
+/// The number of others within a common diameter of a disc's centre, if discs did not
 /// collide.
 double ideal_overlaps(const Scene& scene) {
     const std::vector<Species> alike = {{scene.n_discs, scene.radius, 1}};
@@ -154,8 +154,8 @@ double ideal_overlaps(const Scene& scene) {
 
 } // namespace
 
-/// Discs that overlap pass through each other. So the share of overlaps that an ideal gas would
-/// have tells how much of the hardness is lost. The factor is fitted to runs of gases.
+/// Discs that overlap pass through each other. So their share of the overlaps of an ideal
+/// gas shows how much of the hardness is lost. The factor is fitted to runs of gases.
 LostCollisions lost_collisions(const Scene& scene, const RunResult& result) {
     const double ideal = ideal_overlaps(scene);
     if (scene.method != Method::time_stepped || !(ideal > 0) ||

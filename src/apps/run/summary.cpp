@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// What leaves the default's bits, and so its promise; empty for the default.
+/// Choices that change the default's bits, and so its promise; empty for the default.
 std::string arithmetic_text(const Scene& scene) {
     std::string text;
     if (scene.precision == Precision::single) text += ", precision = \"single\"";
@@ -37,18 +37,18 @@ std::string phases_text(const RunResult& result) {
     for (const auto& [name, seconds] : result.phase_seconds) all += seconds;
     std::string text;
     for (const auto& [name, seconds] : result.phase_seconds)
-        if (seconds >= 0.005 * all) // the report has the small ones too
+        if (seconds >= 0.005 * all) // the report has short ones, too
             text += fmt::format("{}{} {:.3g} s ({:.0f} %)", text.empty() ? "" : ", ", name, seconds,
                                 100 * ratio(seconds, all));
     return text;
 }
 
-/// How even the ranks' work is, and where it is least so.
+/// How even the ranks' work is, and in which phase it is least even.
 std::string imbalance_text(const RunResult& result) {
     std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest",
                                    result.imbalance);
     const double enough = 0.1 *
-                          busy_seconds(result.phase_seconds); // what is short is uneven by chance
+                          busy_seconds(result.phase_seconds); // short phases are uneven by chance
     double most = 0;
     std::string uneven;
     for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {
@@ -124,7 +124,7 @@ std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& 
                        tables.front().remarks.front());
 }
 
-/// "120 of 400 discs: left 70, top 50" where a side is open.
+/// "120 of 400 discs: left 70, top 50" if a side is open.
 std::string departed_text(const Scene& scene, const Totals& totals) {
     std::uint64_t all = 0;
     std::string boundaries;
@@ -188,7 +188,7 @@ std::string average_lines(const Scene& scene, const Averages& averages) {
     return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
-/// What the method made of the collisions.
+/// How the method has treated collisions.
 std::string method_line(const Scene& scene, const RunResult& result) {
     if (scene.method == Method::event_driven)
         return labelled_line("windows", windows_text(result.runs));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says of itself to people when it is over.
+// The human-readable summary of a finished run.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace carrom {
 
-/// Lines of text, each ended.
+/// Lines of text, each with a line end.
 std::string summary_text(const Scene& scene, const RunResult& result);
 
 } // namespace carrom

@@ -9,8 +9,8 @@
 
 namespace {
 
-/// False, and the reason printed once, where a launcher of another MPI library has started several
-/// copies of a program that each take themselves for the only one.
+/// Returns false, and prints the reason once, if a launcher of another MPI library has
+/// started several copies of a program that each take themselves for the only one.
 bool is_started_well(const carrom::Communicator& ranks) {
     const carrom::LoneProcess process = carrom::lone_process(ranks.size());
     if (!process.problem.empty() && process.is_first)

@@ -58,7 +58,7 @@ Action printed(std::string text) {
     }};
 }
 
-/// What a report of a problem should say. Needs no MPI.
+/// The facts that a report of a problem should contain. Needs no MPI.
 std::string version_text() {
     const BuildFacts facts = build_facts();
     return fmt::format("carrom {}\n"
@@ -89,7 +89,7 @@ Action refused(const std::string& reason) {
     return failing({{"command line", 0, reason + " (see carrom --help)"}});
 }
 
-/// A switch takes no value: `NAME=no` would else be read as its opposite, any other as none.
+/// A switch takes no value, because `NAME=no` would be read as its opposite, and others as none.
 void declare_switch(CLI::App& command, const Option& option, bool& is_on) {
     const auto complaint = [](const std::string& word) {
         return word == "true" ? std::string{} : "takes no value; leave \"=" + word + "\" out";
@@ -120,10 +120,10 @@ void declare(CLI::App& app, const Subcommand& subcommand) {
     command->set_help_flag(help_words, help_of_help);
     for (const Option& option : subcommand.options) declare(*command, option);
     command->footer(subcommand.footer);
-    command->allow_extras(); // all of them are reported at once
+    command->allow_extras(); // so that all of them are reported at once
 }
 
-/// Words that fit nowhere. After an unknown option the others may be its values: left out then.
+/// Words that fit nowhere. After an unknown option they may be its values, so they are omitted.
 std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& command) {
     const std::string see = std::string("; see carrom ") + subcommand.name + " --help";
     std::vector<Problem> unknown, others;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's large arrays ask for huge pages. Discs are reached out of order, and where a page
-// holds 64 of them, most of the time goes into finding the page: a gas of 1e6 discs is 1.3 times as
-// fast with huge ones (docs/log/performance.md). Systems that give them to all are not affected.
+// The program's large arrays ask for huge pages. Discs are accessed out of order, and if a page
+// holds 64 of them, most of the time goes into finding the page. A gas of 1e6 discs is 1.3 times as
+// fast with huge pages (docs/log/performance.md). Systems that always use them are not affected.
 //
-// Of the program alone: a library does not replace its user's memory.
+// This is for the program only, because a library must not replace its user's memory functions.
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -16,15 +16,15 @@ namespace {
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
 #ifdef M_MMAP_THRESHOLD
-// Large arrays go back to the system one by one. By itself glibc takes them from the heap once it
-// has seen some of them go, and there lists that grow leave holes: 4 bytes a disc. What is asked
-// for is a huge page more than the array, so that its begin can be aligned. Smaller lists come
-// and go in the heap, which keeps what they need.
+// Large arrays are returned to the system one by one. By default glibc moves them to
+// the heap once it has seen some of them freed, and lists that grow there leave holes:
+// 4 bytes a disc. Each request is a huge page larger than the array, so that its begin
+// can be aligned. Smaller lists come and go in the heap, which keeps their memory.
 [[maybe_unused]] const bool are_large_apart = mallopt(M_MMAP_THRESHOLD, 2 * huge_page) != 0 &&
                                               mallopt(M_TRIM_THRESHOLD, 8 * huge_page) != 0;
 #endif
 
-/// Null where there is none.
+/// Returns null if there is none.
 void* find_memory(std::size_t size, std::size_t alignment) {
     const bool is_large = size >= huge_page;
     if (is_large && alignment < huge_page) alignment = huge_page;
@@ -32,7 +32,7 @@ void* find_memory(std::size_t size, std::size_t alignment) {
     void* memory = nullptr;
     if (posix_memalign(&memory, alignment, size) != 0) return nullptr;
 #ifdef MADV_HUGEPAGE
-    if (is_large) madvise(memory, size, MADV_HUGEPAGE); // a wish: it may fail
+    if (is_large) madvise(memory, size, MADV_HUGEPAGE); // only a hint; it may fail
 #endif
     return memory;
 }

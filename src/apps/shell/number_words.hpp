@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words of the command line that are to be numbers.
+// Words of the command line that must be numbers.
 #pragma once
 
 #include <charconv>
@@ -16,8 +16,8 @@ namespace carrom {
 inline constexpr double least_above_0 = std::numeric_limits<double>::min(),
                         largest_double = std::numeric_limits<double>::max();
 
-/// Sets `number`, or an optional one, to a finite number from `least` to `most`; `why` says where
-/// the limits come from. `number` must live as long as what is returned.
+/// Sets `number`, or an optional one, to a finite number from `least` to `most`; `why`
+/// gives the reason of the limits. `number` must live as long as the returned function.
 template <class Target, class Number>
 TakeWord number(Target& number, Number least, Number most, const char* why = "") {
     return [=, &number](const char* option, const std::string& word,
@@ -25,7 +25,7 @@ TakeWord number(Target& number, Number least, Number most, const char* why = "")
         Number value{};
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const bool is_number = error == std::errc{} && end == word.data() + word.size();
-        if (is_number && value >= least && value <= most) { // no NaN is
+        if (is_number && value >= least && value <= most) { // false for NaN
             number = value;
             return;
         }

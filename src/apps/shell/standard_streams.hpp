@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard error, whatever it is: a run of days must not end because its log is full or closed.
+// Standard error in any state: a long run must not end because its log is full or closed.
 #pragma once
 
 #include <string_view>
@@ -11,14 +11,14 @@
 
 namespace carrom {
 
-/// Fills the place of each standard stream that is closed with something that cannot be read from
-/// (0) or written to (1, 2). Else the next file that is opened would take its number, and messages
-/// would end in data. From here on a pipe that nobody reads is an error of writing, not the end of
-/// the process. Call before anything is opened.
+/// Replaces each standard stream that is closed by one that cannot be read from (0) or
+/// written to (1, 2). Otherwise the next file would get its number, and messages would
+/// go into data. From here on a pipe without a reader is an error of writing, and does
+/// not end the process. To be called before anything is opened.
 void keep_standard_streams();
 
-/// Prints to standard error; control characters but ends of lines are escaped. What cannot be
-/// written there is dropped: nobody is left to read it.
+/// Prints to standard error; escapes control characters except ends of lines. Text
+/// that cannot be written is dropped, because there is no reader.
 void print_text(std::string_view text);
 
 template <class... Values>
@@ -26,14 +26,14 @@ void print_message(fmt::format_string<Values...> format, Values&&... values) {
     print_text(fmt::vformat(format, fmt::make_format_args(values...)));
 }
 
-/// Prints the messages of a run: rank 0 to standard error, the others nowhere.
+/// Prints the messages of a run to standard error on rank 0, and drops them on the others.
 Messages messages_of(const Communicator& ranks, bool is_quiet);
 
-/// Writes what standard output still holds. False, with a message, where any of it was lost; not
-/// where the reader of a pipe had enough.
+/// Writes the rest of standard output. Returns false, with a message, if any of it was
+/// lost, but not if the reader of a pipe has ended.
 bool finish_standard_output();
 
-/// Whether standard error is a terminal, whose last line can be written anew.
+/// Whether standard error is a terminal, whose last line can be rewritten.
 bool has_terminal();
 /// Replaces the last line of a terminal.
 void rewrite_line(std::string_view text);

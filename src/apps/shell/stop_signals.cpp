@@ -13,16 +13,16 @@ namespace carrom {
 
 namespace {
 
-volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0; // for the answer alone
+volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0; // for the answer only
 
-/// Calls only what a handler may call.
+/// Calls only functions that a handler may call.
 void answer(int number) {
     constexpr std::string_view text = "\ntold to stop: the steps under way are finished first if "
                                       "that takes no more than a second";
     constexpr std::string_view advice = "; once more ends the run at once";
     for (const std::string_view part :
          {text, number == SIGINT ? advice : std::string_view(), std::string_view("\n")}) {
-        // Nobody is left to hear of it if this fails.
+        // If this fails, nobody would read a message about it.
         [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, part.data(), part.size());
     }
 }
@@ -41,18 +41,18 @@ void note_signal(int number) {
 
 void note_stop_signals() {
     static bool are_noted = false;
-    if (are_noted) return; // else a second INT would not find the default
+    if (are_noted) return; // otherwise a second INT would not find the default
     are_noted = true;
     struct sigaction action{};
     action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART; // reads and writes under way go on
+    action.sa_flags = SA_RESTART; // reads and writes in progress go on
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction present{};
     sigaction(SIGINT, nullptr, &present);
-    if (present.sa_handler == SIG_IGN) return; // as shells have it for what runs in the background
-    action.sa_flags |= SA_RESETHAND;           // whoever asks again does not want to wait
+    if (present.sa_handler == SIG_IGN) return; // shells ignore it for processes in the background
+    action.sa_flags |= SA_RESETHAND;           // a second request does not want to wait
     sigaction(SIGINT, &action, nullptr);
 }
 

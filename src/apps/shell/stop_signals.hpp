@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// USR1 and TERM, as batch systems send them before they end a job, and Ctrl-C's INT: noted, to be
-// acted upon at the end of a step, or inside one that takes long (core/stop_request.hpp). A second
-// INT ends the process.
+// USR1 and TERM, which batch systems send before they end a job, and the INT of
+// Ctrl-C. They are noted, and take effect at the end of a step, or inside a step that
+// takes long (core/stop_request.hpp). A second INT ends the process.
 #pragma once
 
 namespace carrom {
 
-/// From here on these signals no longer end the process, to its very end: one that comes after the
-/// last step must not make a failure of a complete run. To be called before MPI starts.
+/// From here on these signals do not end the process, to its very end, because one that comes
+/// after the last step must not make a complete run fail. To be called before MPI starts.
 void note_stop_signals();
 
 class StopSignals {
@@ -15,7 +15,7 @@ public:
     /// Notes them from here on if `note_stop_signals` has not been called. Where `are_reported`,
     /// the first one is answered on standard error at once: the end of a step may be far away.
     explicit StopSignals(bool are_reported);
-    ~StopSignals(); ///< no answers any more
+    ~StopSignals(); ///< ends the answers
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 

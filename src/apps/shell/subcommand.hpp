@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A subcommand as a table of its options and what they lead to.
+// A subcommand as a table of its options and its action.
 //
 // command_line.cpp turns tables into a parser. A new subcommand is a function that returns a table,
 // and a line in command_line.cpp.
@@ -15,29 +15,29 @@
 
 namespace carrom {
 
-/// What a command line asks for.
+/// The action that a command line asks for.
 struct Action {
     std::function<ExitCode(const Communicator&)> act; ///< every rank calls it. **Collective.**
-    bool needs_mpi = false;        ///< without a launcher too; else a lone process starts no MPI
-    bool stops_on_request = false; ///< signals are noted, from the start of the process on
+    bool needs_mpi = false;        ///< without a launcher, too; else a process alone starts no MPI
+    bool stops_on_request = false; ///< signals are noted from the start of the process on
 };
 
 /// An action that throws these problems.
 Action failing(std::vector<Problem> problems);
 
-/// Takes the word behind an option, or notes what is wrong with it.
+/// Takes the word after an option, or notes its problem.
 using TakeWord = std::function<void(const char* option, const std::string& word,
                                     std::vector<Problem>& problems)>;
 
-/// The word behind an option (all of them, where it may be repeated) goes to `value` as it stands,
-/// or is taken as a number (number_words.hpp); a switch sets it.
+/// The word after an option (all of them, if it may be repeated) is stored in `value`
+/// as it is, or taken as a number (number_words.hpp). A switch sets its value.
 struct Option {
-    const char* name;      ///< "--threads"; without dashes it is known by its place
-    const char* type_name; ///< of the word that follows, as in "FILE"; empty for a switch
+    const char* name;      ///< "--threads"; a name without dashes is a place in the line
+    const char* type_name; ///< of the word that follows, such as "FILE"; empty for a switch
     const char* help;
     std::variant<std::string*, std::vector<std::string>*, bool*, TakeWord> value;
     bool is_required = false;
-    const char* group = "Options"; ///< of the help
+    const char* group = "Options"; ///< in the help
 };
 
 struct Subcommand {
@@ -45,8 +45,8 @@ struct Subcommand {
     const char* help; ///< one line
     const char* footer;
     std::vector<Option> options; ///< their values must live as long as `action`
-    /// Called once all values are there, with the problems of the words so far: adds its own, or
-    /// leaves them to the action, which may find more.
+    /// Called when all values are known, with the problems of the words so far. Adds
+    /// its own problems, or leaves them to the action, which may find more.
     std::function<Action(std::vector<Problem>& problems)> action;
     const char* word_too_many = "is one word too many";
 };

@@ -8,11 +8,11 @@
 
 namespace carrom {
 
-/// As `time.method` has it.
+/// The word of `time.method`.
 const char* name_of(Method method);
 
-/// A label of at most 12 characters and a text, which may come from a file: control characters are
-/// escaped.
+/// A label of at most 12 characters and a text. The text may come from a file, so
+/// control characters are escaped.
 std::string labelled_line(const char* label, const std::string& text);
 
 } // namespace carrom
