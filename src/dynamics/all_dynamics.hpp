@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every dynamics that kernels and engines are compiled for. engine/dynamics_of_scene.hpp chooses
-// among them. Each costs some seconds of compile time: questions that are not asked for each pair
-// are answered when the program runs.
+// All dynamics that kernels and engines are compiled for. engine/dynamics_of_scene.hpp
+// chooses one of them. Each costs some seconds of compile time, so questions that are
+// not asked for each pair are answered at run time.
 #pragma once
 
 #include "dynamics/dynamics.hpp"
@@ -12,7 +12,7 @@
 #include "dynamics/sheared_dynamics.hpp"
 #include "dynamics/study_dynamics.hpp"
 
-// make(dynamics) for each.
+// Calls make(dynamics) for each of them.
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \

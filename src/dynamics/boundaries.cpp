@@ -49,20 +49,20 @@ Extent Boundaries::extent_of_lines(double time) const {
 
 Extent Boundaries::walls_between(double begin, double end) const {
     const Extent first = extent_of_lines(begin), last = extent_of_lines(end);
-    // A chord is no further from its curve than that times the largest acceleration in between, the
-    // last.
+    // A chord is at most an eighth of (end - begin)^2 times the largest acceleration,
+    // that at the end, away from its curve.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
-    // And a small disc departs before a large one does.
-    // What an oscillating wall hits is as fast as the wall at most, and no further than that takes
-    // it from the wall's highest place.
+    // A small disc departs before a large one does. A disc that an oscillating wall
+    // hits is at most as fast as the wall, and gets no further than this takes it from
+    // the wall's highest place.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
         return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0) +
                (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
-    // A wall that moves in, and that all falls away from, may have hit discs that are far from it
-    // at the end, but none that is further than its first velocity would have taken it: discs are
-    // slower than the wall when it hits them.
+    // A wall that moves in, and from which all discs fall away, may have hit discs
+    // that are far from it at the end. They are no further than its first velocity
+    // would have taken it, because discs are slower than the wall when it hits them.
     const auto led = [&](std::size_t side) { return wall_velocity(side, begin) * (end - begin); };
     return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0),
             std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
@@ -70,8 +70,8 @@ Extent Boundaries::walls_between(double begin, double end) const {
             std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
 }
 
-/// With drag a frame and a clock that begin at `time` see the same flight: F(s + d) - F(s) - F'(s)
-/// d = F(d / (1 - c s)).
+/// With drag a frame and a clock that begin at `time` describe the same flight: F(s +
+/// d) - F(s) - F'(s) d = F(d / (1 - c s)).
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (effects_.drag == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -96,8 +96,8 @@ Boundaries::Meeting Boundaries::meeting(const Disc& disc, Axis axis) const {
     return {disc.tau + to_high, low + 1};
 }
 
-/// Straight flight and a pull towards the wall alone: what pulls away from it is left out, to be on
-/// the safe side.
+/// Takes a straight flight and a pull towards the wall only. A pull away from it is
+/// ignored, to be on the safe side.
 bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
     if (disc.has_departed()) return false;
     const double rest = time - disc.tau, fallen_for = rest / fall_.slowing_at(disc.tau);
@@ -105,7 +105,7 @@ bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
         auto [distance, rate, pull] = approach(disc, side);
         const double towards = std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_any();
-        if (oscillates) [[unlikely]] { // from its highest place, which may come at once
+        if (oscillates) [[unlikely]] { // from the wall's highest place, which may come at once
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);
         }
@@ -150,8 +150,8 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     double away = restitution * std::fabs(normal - wall);
     if (effects_.boundaries[side].kind == BoundaryKind::thermal) {
-        // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the
-        // other part Maxwell's. All images of a disc draw the same.
+        // Discs leave a wall of temperature T with v_n of the density v_n / T exp(-v_n^2 / 2
+        // T); the other component is Maxwell's. All images of a disc draw the same numbers.
         const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id,
                           4 * n_before + drawn_side(side));
@@ -162,8 +162,8 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
         along = (speed * random_direction(random).x) / fall_.slowing_at(time) -
                 gravity_[1 - side / 2] * fall_.falling_time(time);
     }
-    // A disc that is pulled back stays away for the contact time at least: else one at rest would
-    // bounce without end.
+    // A disc that is pulled back stays away for the contact time at least, because one
+    // at rest would otherwise bounce without end.
     const double contact_time = effects_.contact.contact_time;
     const double pull = oscillates ? oscillations_[side].pressure_at(time, time + contact_time)
                                    : -sign * pull_at(side);

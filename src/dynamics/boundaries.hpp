@@ -33,17 +33,17 @@ public:
     void begin_interval(std::int64_t n);
     /// The walls themselves in the frame's coordinates.
     Extent extent_at(double time) const;
-    /// See PlainDynamics: at both ends inside, and by as much as the walls' paths are bent in
-    /// between.
+    /// See PlainDynamics: inside of the walls at both ends, by as much as their paths
+    /// bend in between.
     Extent walls_between(double begin, double end) const;
     /// When the disc meets a side of this axis, or `never`.
     double wall_time(const Disc& disc, Axis axis) const { return meeting(disc, axis).time; }
-    /// Carries out the collision of `time` = wall_time(disc, axis), the event-driven method.
+    /// Carries out the collision at `time` = wall_time(disc, axis) in the event-driven method.
     void bounce_at(Disc& disc, Axis axis, double time) const;
     /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
     bool may_meet(const Disc& disc, double time, double margin) const;
 
-    /// The side that a velocity along `axis` leads to, not 0.
+    /// The side to which a velocity along `axis` leads; it must not be 0.
     static std::size_t side_ahead(const Disc& disc, Axis axis) {
         return 2 * static_cast<std::size_t>(axis) +
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
@@ -52,15 +52,15 @@ public:
         return effects_.boundaries[side].kind == BoundaryKind::open;
     }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
-    /// Where the disc's centre is when it is just outside an open side, in the box.
+    /// The centre's coordinate across an open side, in the box, when the disc is just outside.
     double departure(const Disc& disc, std::size_t side) const {
         return departure_or_touch(side, species_.of(disc.id).radius);
     }
-    /// What becomes of a disc that has come there, advanced to `time`.
+    /// Lets a disc that has come there, advanced to `time`, leave the box.
     void depart(Disc& disc, std::size_t side, double time) const;
 
-    /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being
-    /// where it touches.
+    /// Time-stepped method, walls at rest: reverses the velocity along `axis` of a
+    /// disc that touches.
     void reverse(Disc& disc, Axis axis) const;
 
 private:
@@ -68,7 +68,7 @@ private:
         double time = never;
         std::size_t side = 0;
     };
-    /// Distance into the box, its rate in the clock, and its acceleration, at the disc's own time.
+    /// Distance into the box, its rate in the clock, and its acceleration, at the disc's time.
     struct Approach {
         double distance, rate, pull;
     };
@@ -83,8 +83,8 @@ private:
 
     /// The length of the axis that the side ends.
     double length_of(std::size_t side) const { return side / 2 == 0 ? box_.x : box_.y; }
-    /// By which a thermal wall draws: a box that is taller than wide draws as the same one lying
-    /// down.
+    /// The side by which a thermal wall draws. A box that is taller than wide draws
+    /// like the same box lying down.
     std::size_t drawn_side(std::size_t side) const {
         return longer_axis(box_) == Axis::x ? side : (side + 2) % 4;
     }
@@ -92,14 +92,14 @@ private:
         const double from_line = is_open(side) ? -radius : radius;
         return side % 2 == 0 ? from_line : length_of(side) - from_line;
     }
-    /// For the centre of a disc of that radius that touches, or has just left an open side; of an
-    /// oscillating wall its line, here and in the next two.
+    /// For the centre of a disc of this radius that touches, or has just left through an
+    /// open side. For an oscillating wall this and the next two functions describe its line.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
         return (place + speeds_[side] * time) - fall_.fallen(pull_at(side), time);
     }
-    /// What discs near the wall are accelerated with against it: drag brakes those that a moving
-    /// wall pushes.
+    /// The acceleration of discs near the wall towards it, relative to the wall. Drag
+    /// brakes discs that a moving wall pushes.
     double pull_at(std::size_t side) const {
         return gravity_[side / 2] - effects_.drag * speeds_[side];
     }

@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// As in a plain scene, beside other effects. The guard of InelasticContact is left out: it is
-/// fast.
+/// Elastic contacts beside other effects. They have no guard like those of
+/// InelasticContact, because this has to be fast.
 class ElasticContact {
 public:
     explicit ElasticContact(const ContactEffect&) {}
@@ -33,9 +33,9 @@ public:
     explicit InelasticContact(const ContactEffect& effect)
         : impulse_((1 + effect.restitution) / 2), contact_time_(effect.contact_time) {}
 
-    /// In the time-stepped method, where a disc collides once in a micro-step at most.
+    /// For the time-stepped method, in which a disc collides at most once in a micro-step.
     double impulse() const { return impulse_; }
-    /// In the event-driven method; `p` and `q` as they are stored before the contact at `time`.
+    /// For the event-driven method; `p` and `q` are the stored states before the contact at `time`.
     double impulse_at(const Disc& p, const Disc& q, double time) const {
         return time - p.tau < contact_time_ || time - q.tau < contact_time_ ? 1 : impulse_;
     }
@@ -57,7 +57,7 @@ public:
           friction_(effect.friction), inertia_(effect.inertia), contact_time_(effect.contact_time) {
     }
 
-    /// Within the contact time discs part elastically, as smooth ones: see InelasticContact.
+    /// Within the contact time discs part elastically, like smooth ones: see InelasticContact.
     bool is_guarded(const Disc& p, const Disc& q, double time) const {
         return time - p.tau < contact_time_ || time - q.tau < contact_time_;
     }

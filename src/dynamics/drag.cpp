@@ -26,7 +26,7 @@ double drag_slowing(double rate, double time) {
 double drag_clock(double rate, double time) {
     const double z = rate * time;
     if (z <= 0.5) return time * short_integral(z);
-    // s(t) = s(t/2) (1 + exp(-c t/2)): no subtraction of like numbers.
+    // s(t) = s(t/2) (1 + exp(-c t/2)) avoids subtracting like numbers.
     return drag_clock(rate, time / 2) * (1 + drag_slowing(rate, time / 2));
 }
 

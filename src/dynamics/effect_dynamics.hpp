@@ -18,8 +18,8 @@
 
 namespace carrom {
 
-/// `is_mixed`: discs are of several radii and masses. Then the radius is the largest one, and band
-/// and tolerance are those of that.
+/// `is_mixed` means several radii and masses. The radius is then the largest one, and
+/// band and tolerance belong to it.
 template <class Contact, bool is_mixed = false> class EffectDynamics : public PlainDynamics {
 public:
     static constexpr bool has_species = is_mixed;
@@ -79,13 +79,13 @@ public:
         exchange_momentum(p, q, time, contact_.impulse_at(p, q, time));
     }
 
-    /// As in the plain dynamics, but for obstacles.
+    /// The plain dynamics' answer, with obstacles.
     MetWalls met_walls(const Disc& disc, double m, double t) const {
         if (has_obstacles() && t != side_time(disc, m)) return {};
         return wall_dynamics(disc).met_walls(disc, m, t);
     }
 
-    /// Rough discs: spins are angles per micro-step, counterclockwise.
+    /// For rough discs: spins are angles per micro-step, counterclockwise.
     void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
         exchange_spin(p, q, m + t, false, p_spin, q_spin);
         stop(p, m, t);
@@ -95,14 +95,14 @@ public:
         exchange_spin(p, q, time, contact_.is_guarded(p, q, time), p_spin, q_spin);
     }
 
-    /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
+    /// A disc's candidate with a wall or an obstacle, whichever comes first.
     double wall_time(const Disc& disc, double m) const {
         const double at_wall = side_time(disc, m);
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
 
-    /// The plain dynamics' times; the sides decide what happens at them. In the time-stepped method
-    /// walls are at rest.
+    /// Times are those of the plain dynamics; the sides decide what happens at them.
+    /// Walls are at rest in the time-stepped method.
     void bounce(Disc& disc, double m, double t) const {
         if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t);
         const PlainDynamics walls = wall_dynamics(disc);
@@ -166,8 +166,8 @@ protected:
         return contact.body;
     }
 
-    /// As at walls: what would run into an obstacle before the micro-step ends waits there.
-    /// `at_wall`: when it does so at a side; `left` is the obstacle just left.
+    /// A disc that would run into an obstacle before the micro-step ends waits there. `at_wall`
+    /// is the time at which a side stops it; `left` is the obstacle it has just left.
     void stop_at(Disc& disc, double m, double at_wall, std::uint32_t left) const {
         const ObstacleContact contact = has_obstacles()
                                             ? first_obstacle(disc, {disc.tau, m + 1, true, left})
@@ -192,8 +192,8 @@ private:
         return boundaries_.is_open(Boundaries::side_ahead(disc, axis));
     }
 
-    /// As in the plain dynamics. Through an open side a disc leaves when its centre is a radius
-    /// beyond it.
+    /// The plain dynamics' answer for walls. Through an open side a disc leaves when
+    /// its centre is a radius beyond it.
     double side_time(const Disc& disc, Axis axis, double m) const {
         const double x = along(axis, disc.x, disc.y), v = along(axis, disc.vx, disc.vy);
         if (v == 0 || !is_open(disc, axis)) return wall_dynamics(disc).axis_time(axis, disc, m);
@@ -253,8 +253,8 @@ protected:
         return *this;
     }
 
-    /// Of the momentum that equal discs would exchange each takes 2 m' / (m + m') as velocity, m'
-    /// being the other's mass; 1 if they are equal.
+    /// The momentum that equal discs would exchange, times 2 m' / (m + m') for each disc's
+    /// velocity, m' being the other's mass. The factor is 1 if the masses are equal.
     [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, const Encounter& encounter,
                                                      double impulse) const {
         if constexpr (is_mixed) {
@@ -266,8 +266,8 @@ protected:
         }
     }
 
-    /// As exchange_momentum_at, with an impulse s along the surfaces, which acts on both spins
-    /// alike; in units of the distance of centres, as k is. With s = 0 its bits.
+    /// Also adds an impulse s along the surfaces, which acts on both spins alike, in units of
+    /// the distance of centres, like k. With s = 0 the bits are those of exchange_momentum_at.
     [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, const Encounter& encounter,
                                                  bool is_guarded, double& p_spin,
                                                  double& q_spin) const {
@@ -295,16 +295,16 @@ protected:
 
 private:
     bool has_pairs_;
-    double contact_time_; ///< for obstacles in the event-driven method
+    double contact_time_; ///< used for obstacles in the event-driven method
     SpeciesTable species_;
     FallingFrame fall_;
     Boundaries boundaries_;
     std::shared_ptr<const Obstacles>
-        obstacles_; ///< the same for all copies; null where there are none
+        obstacles_; ///< shared by all copies of this; null if there are no obstacles
 };
 
-using InelasticDynamics = EffectDynamics<InelasticContact>; ///< of any restitution, 1 included
+using InelasticDynamics = EffectDynamics<InelasticContact>; ///< any restitution, also 1
 using MixedDynamics = EffectDynamics<InelasticContact, true>;
-using RoughDynamics = EffectDynamics<RoughContact, true>; ///< of one species or several
+using RoughDynamics = EffectDynamics<RoughContact, true>; ///< one species or several
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The effects of a scene beyond free flight, elastic pairs and four elastic walls. Plain numbers:
+// The effects of a scene beyond free flight, elastic pairs and four elastic walls, as numbers.
 // contacts.hpp, boundaries.hpp, gravity.hpp, drag.hpp and obstacles.hpp say what they do.
 #pragma once
 
@@ -24,16 +24,16 @@ enum class ContactKind { elastic, none, restitution, rough };
 
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
-    double restitution = 1;      ///< what is left of the normal relative velocity, 0 to 1
+    double restitution = 1;      ///< share of the normal relative velocity that is left, 0 to 1
     double contact_time = 0.001; ///< a disc that has collided within this time collides
                                  ///< elastically; event-driven method only
-    // Of rough discs:
+    // For rough discs:
     double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity
                                         ///< where they stick, -1 (smooth) to 1
     double friction =
         std::numeric_limits<double>::infinity(); ///< Coulomb's: the tangential impulse is at most
                                                  ///< this times the normal one
-    double inertia = 0.5; ///< moment of inertia in m r^2; that of a uniform disc
+    double inertia = 0.5; ///< moment of inertia in m r^2; 0.5 for a uniform disc
 
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
@@ -50,10 +50,10 @@ enum class BoundaryKind {
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
-    double restitution = 1; ///< of walls, moving ones as well
-    double temperature = 0; ///< of thermal ones: kT, a velocity squared, for masses of 1
-    double speed = 0;       ///< of moving ones, along +x or +y
-    // Of oscillating ones (oscillation.hpp):
+    double restitution = 1; ///< for walls, moving ones as well
+    double temperature = 0; ///< for thermal walls: kT, a velocity squared, for masses of 1
+    double speed = 0;       ///< for moving walls, along +x or +y
+    // For oscillating walls (oscillation.hpp):
     double amplitude = 0;
     double period = 1;
     double phase = 0; ///< at the start, as an angle
@@ -104,8 +104,8 @@ enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
-    double strength = 0;    ///< of kicks: xi^2
-    double rate = 0;        ///< of new velocities, or of friction
+    double strength = 0;    ///< for kicks: xi^2
+    double rate = 0;        ///< at which discs get new velocities, or rate of friction
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
 
@@ -122,7 +122,7 @@ struct Effects {
     std::uint64_t thermal_seed = 3210;
     ObstacleList obstacles{};
     std::vector<Species>
-        species{};     ///< in the order of ids; empty where all discs are of one radius and mass 1
+        species{};     ///< in the order of ids; empty if all discs have one radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
     double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
     Thermostat thermostat{};
@@ -134,7 +134,7 @@ struct Effects {
     bool is_periodic_y() const { return boundaries[2].is_periodic(); }
     bool are_sheared() const { return boundaries[2].kind == BoundaryKind::sheared; }
     bool are_periodic() const { return is_periodic_x() || is_periodic_y(); }
-    /// At the scene's start; see Periods::begin_interval.
+    /// The periods at the scene's start; see Periods::begin_interval.
     Periods periods(const Box& box) const {
         return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0, 0,
                 are_sheared() ? shear * box.y : 0};
@@ -143,7 +143,7 @@ struct Effects {
     double flow_at(double y, const Box& box) const {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
-    /// How much larger radii are at `time` since the scene's start.
+    /// The factor by which radii have grown at `time` since the scene's start.
     double growth_at(double time) const { return 1 + growth * time; }
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
@@ -156,7 +156,7 @@ struct Effects {
 /// The same effects with the micro-step, 1/K of a step, as the unit of time.
 Effects per_micro_step(const Effects& effects, double micro_steps);
 
-/// What discs have beside their states under these effects.
+/// The numbers that discs have beside their states under these effects.
 SideColumnSet side_columns_of(const Effects& effects);
 
 /// The part about pairs and species of a line for a summary, such as "restitution 0.9 of pairs";
@@ -165,11 +165,11 @@ std::string description(const Effects& effects);
 
 /// Where the walls are at `time` since the scene's start, in a box that was `box` then.
 Extent extent_at(const Effects& effects, const Box& box, double time);
-/// The same with oscillating walls at so many amplitudes towards the inside of their lines.
+/// The walls' lines; oscillating walls are moved in from theirs by this many amplitudes.
 Extent extent_of_lines(const Effects& effects, const Box& box, double time,
                        double amplitudes_inwards = 0);
 
-/// Of oscillating walls, 0 without any.
+/// The largest speed of oscillating walls; 0 if there are none.
 double largest_wall_speed(const Effects& effects);
 
 } // namespace carrom

@@ -10,15 +10,15 @@ namespace carrom {
 
 namespace {
 
-/// Newton's rule takes some ten steps, and halving alone brings a bracket to its last bit in hardly
-/// more than these.
+/// Newton's rule takes some ten steps. Halving alone takes few more to bring a bracket
+/// to its last bit.
 constexpr int most_newton_steps = 100;
 
 struct Value {
     double value, slope;
 };
 
-/// A root of a function that has different signs at the ends, by its value and slope at a time.
+/// The root of a function with different signs at the ends, given its value and slope at a time.
 template <class Function>
 double root_between(double low, double high, bool rises, const Function& function) {
     double s = low + (high - low) / 2;
@@ -46,7 +46,7 @@ struct Parabola {
         const auto [x, y, vx, vy] = at(s);
         return {x * vx + y * vy, (vx * vx + vy * vy) + (x * gx + y * gy)};
     }
-    /// Where the rate itself turns round, ascending; both infinite if it never does.
+    /// The times at which the rate turns round, ascending; both infinite if it never does.
     std::array<double, 2> bends() const {
         const double a = 1.5 * (gx * gx + gy * gy), b = 3 * (wx * gx + wy * gy),
                      c = (wx * wx + wy * wy) + (dx * gx + dy * gy);
@@ -57,7 +57,7 @@ struct Parabola {
         if (found[1] < found[0]) std::swap(found[0], found[1]);
         return found;
     }
-    /// A time after `s` at which the distance grows for good.
+    /// A time after `s` from which the distance grows for good.
     double late(double s) const {
         const double g = std::sqrt(gx * gx + gy * gy);
         double step = std::sqrt(wx * wx + wy * wy) / g +
@@ -79,8 +79,8 @@ double falling_contact(double dx, double dy, double wx, double wy, double gx, do
                        double reach) {
     const Parabola flight{dx, dy, wx, wy, gx, gy, reach};
     const auto rate = [&flight](double s) { return flight.rate(s); };
-    double start = 0; // of the present piece
-    double fall = 0;  // since when the distance falls, if it does
+    double start = 0; // the begin of the present piece
+    double fall = 0;  // the time since which the distance falls, if it does
     bool falls = flight.rate(0).value < 0;
     const auto [first, second] = flight.bends();
     for (const double bend : {first, second, never}) {

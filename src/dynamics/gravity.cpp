@@ -7,7 +7,7 @@ namespace carrom {
 
 namespace {
 
-/// Of 1 - c s, at the latest contact that counts.
+/// Bounds 1 - c s at the latest contact that counts.
 constexpr double least_slowing = 0.01;
 /// Newton's rule takes four to twelve.
 constexpr int most_steps = 100;
@@ -26,29 +26,29 @@ double short_fall(double q) {
 double dragged_fall(double rate, double clock) {
     const double q = rate * clock;
     if (!(q > 0.25)) return clock * clock * short_fall(q);
-    // Half the time is what the clock takes to 1 - c s' = sqrt(1 - c s): F(s) = 2 F(s') + s'^2, a
-    // sum of positive terms.
+    // Half the time takes the clock to 1 - c s' = sqrt(1 - c s), so F(s) = 2 F(s') +
+    // s'^2, a sum of positive terms.
     const double half = clock / (1 + std::sqrt(1 - q));
     return 2 * dragged_fall(rate, half) + half * half;
 }
 
 double dragged_fall_delay(double distance, double velocity, double pull, double rate) {
-    // F(s) >= s^2 / 2: the parabola is late where the disc is pulled to the wall, and early where
-    // it is pulled away.
+    // F(s) >= s^2 / 2, so the parabola is late if the disc is pulled to the wall, and
+    // early if it is pulled away.
     double s = fall_delay(distance, velocity, pull);
     if (pull == 0 || s == 0) return s;
     const double latest = (1 - least_slowing) / rate;
     const auto height = [=](double at) {
         return (distance + velocity * at) + pull * dragged_fall(rate, at);
     };
-    // Where the distance is largest or least: velocity + pull F'(s) = 0.
+    // The distance has its extremum where velocity + pull F'(s) = 0.
     const double turn = std::min(
         std::fabs(velocity) / (std::fabs(pull) + rate * std::fabs(velocity)), latest);
     const bool is_pulled_on = pull < 0;
     if (is_pulled_on) {
         if (velocity >= 0 && !(height(turn) > 0)) return turn;
         s = std::min(s, latest);
-        if (height(s) > 0) return s == latest ? never : s; // the latter by rounding
+        if (height(s) > 0) return s == latest ? never : s; // its height is rounding alone
     } else if (!(s < turn) || !(height(turn) < 0)) {
         return never;
     }
@@ -68,14 +68,14 @@ double FallingFrame::clock_at(double micro_steps) const {
 
 double FallingFrame::micro_steps_at(double clock) const { return time_of_drag_clock(drag_, clock); }
 
-/// The velocity in the box is (1 - c s) v + g s, and a step of the clock takes ds / (1 - c s). With
-/// q = c s the integrals are those of 1 - q for v v, of s for v g and of s^2 / (1 - q) for g g. The
-/// square is completed in v.
+/// The velocity in the box is (1 - c s) v + g s, and a step of the clock takes ds / (1
+/// - c s). With q = c s the integrals are those of 1 - q for v v, of s for v g and of
+/// s^2 / (1 - q) for g g. Completing the square in v gives the form of FlightIntegral.
 FlightIntegral FallingFrame::flight_integral_at(double time) const {
     if (!(time > 0)) return {};
     const double q = drag_ * time, weight = time * (1 - 0.5 * q);
     if (!gravity_.is_any()) return {weight, 0, 0, 0, 0};
-    double of_squares = 0; // over s^3
+    double of_squares = 0; // divided by s^3
     if (q < 0x1p-6) {
         for (int k = 10; k >= 3; --k) of_squares = 1.0 / k + q * of_squares;
     } else {

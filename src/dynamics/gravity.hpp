@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Uniform gravity, alone or with linear drag (drag.hpp).
 //
-// All discs fall alike. So states are stored in a frame that falls with them: at each sync it is at
-// rest in the box. In it discs fly straight, and pairs need not know of gravity. A wall rises in
-// it: a disc meets a wall where a quadratic is 0.
+// All discs fall alike, so states are stored in a frame that falls with them. At each
+// sync it is at rest in the box. In it discs fly straight, and pairs need not know of
+// gravity. A wall rises in it, so a disc meets a wall at the root of a quadratic.
 //
-// With drag of the rate c the frame has a clock s of its own. A disc under the acceleration g is at
-// x + v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all discs share
-// the fall. The time of the parabola bounds a contact from one side: Newton's rule comes to it from
-// there step by step, and never goes beyond. That takes no bracket and a handful of steps.
-// Everything is + - * / and sqrt in a fixed order: the same bits on every machine.
+// With drag of the rate c the frame has its own clock s. A disc under the acceleration g is
+// at x + v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all
+// discs share the fall. The parabola's time bounds a contact from one side, and Newton's rule
+// approaches the contact from there without passing it. This takes no bracket and a handful
+// of steps. All is + - * / and sqrt in a fixed order: the same bits on every machine.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@
 
 namespace carrom {
 
-/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and falls; infinite
-/// if there is none. Touching counts while it falls, not while it grows. No like numbers are
-/// subtracted.
+/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and
+/// falls; infinite if there is none. Touching counts while it falls, not while it
+/// grows. It subtracts no like numbers.
 inline double fall_delay(double distance, double velocity, double pull) {
     if (velocity < 0) {
         if (!(distance > 0)) return 0;
@@ -36,30 +36,30 @@ inline double fall_delay(double distance, double velocity, double pull) {
                           : never; // pulled away before it gets there
     }
     if (!(pull < 0)) return never;
-    // It comes back. A disc that rounding has left beyond the wall comes up to it first, or else
-    // turns round where it is.
+    // It comes back. A disc that rounding has left beyond the wall first comes up to
+    // the wall, or else turns round where it is.
     return (velocity + std::sqrt(std::max(velocity * velocity - 2 * pull * distance, 0.0))) / -pull;
 }
 
-/// F(s) of the drag `rate` c, to some ulp; 0 <= c s < 1.
+/// F(s) for drag of the rate c, to some ulp; 0 <= c s < 1.
 double dragged_fall(double rate, double clock);
 /// Its derivative, s / (1 - c s).
 inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
 
-/// As fall_delay, of distance + velocity s + pull F(s): what drag's clock shows then, set to 0 now.
-/// Contacts at which less than a hundredth of a velocity is left are none: a sync comes before.
+/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts
+/// at which less than a hundredth of a velocity is left do not count, because a sync comes before.
 double dragged_fall_delay(double distance, double velocity, double pull, double rate);
 
-/// The frame that falls with the discs, and its clock. Times are the clock's, since the last sync.
+/// The frame that falls with the discs, and its clock. Times are on the clock, since the last sync.
 class FallingFrame {
 public:
-    /// Per micro-step.
+    /// The arguments are per micro-step.
     FallingFrame(const Gravity& gravity, double drag) : gravity_(gravity), drag_(drag) {}
 
     double clock_at(double micro_steps) const;
     double micro_steps_at(double clock) const;
 
-    /// How far what is pulled with `g` has fallen, and how fast it falls then per g.
+    /// How far a disc that is pulled with `g` has fallen, and its speed of falling per g.
     double fallen(double g, double time) const {
         if (drag_ == 0 || g == 0) return (0.5 * g * time) * time;
         return g * dragged_fall(drag_, time);
@@ -70,11 +70,11 @@ public:
     /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
     double slowing_at(double time) const { return 1 - drag_ * time; }
 
-    /// What flights have gathered since the sync; the C library is not asked, so that its bits are
-    /// those of every machine.
+    /// The integral over flights since the sync. It does not use the C library, so its
+    /// bits are the same on every machine.
     FlightIntegral flight_integral_at(double time) const;
-    /// The weight of flight_integral_at over slowing_at: what impulses in the box are multiplied
-    /// by.
+    /// The weight of flight_integral_at over slowing_at: the factor of impulses in the
+    /// box.
     double pair_weight_at(double time) const {
         return drag_ == 0 ? time : time * (1 - 0.5 * drag_ * time) / slowing_at(time);
     }

@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// As contact_delay, of a distance `sigma` that grows at the rate `growth` times `sigma`, not
-/// negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
+/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`,
+/// not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
 template <class Real>
 [[gnu::always_inline]] inline Real growing_contact_delay(Real dx, Real dy, Real wx, Real wy,
                                                          Real sigma, Real growth,
@@ -33,7 +33,7 @@ template <class Real>
     if (gap <= 0) return 0;
     const Real clock = gap * (distance + sigma) / (-b + std::sqrt(disc));
     const Real rest = std::fma(-growth, clock, Real{1});
-    return rest > 0 ? clock / rest : none; // the clock never shows 1 / g
+    return rest > 0 ? clock / rest : none; // the clock never comes to 1 / g
 }
 
 } // namespace carrom

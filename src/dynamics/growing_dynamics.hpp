@@ -22,11 +22,11 @@ class GrowingDynamics : public PeriodicDynamics<MixedDynamics> {
 
 public:
     static constexpr bool may_have_obstacles = false;
-    /// Discs that jam collide ever faster as long as they grow: a run should end before it takes
-    /// hours.
+    /// Discs that jam collide ever faster as long as they grow, so a run should end
+    /// before it takes hours.
     static constexpr double cascade_interval = 0x1p-10;
 
-    /// `effects` per micro-step.
+    /// `effects` are per micro-step.
     GrowingDynamics(const Box& box, double radius, const Effects& effects)
         : Constant(box, radius, effects), rate_(effects.growth),
           guard_(effects.contact.contact_time) {
@@ -105,7 +105,7 @@ private:
         return to_low <= to_high ? Meeting{disc.tau + to_low, false}
                                  : Meeting{disc.tau + to_high, true};
     }
-    /// As at a wall that comes in as fast as the disc grows.
+    /// Like a bounce at a wall that comes in as fast as the disc grows.
     void bounce_at(Disc& disc, Axis axis, double time) const {
         const bool is_high = meeting(disc, axis).is_high;
         const double restitution =
@@ -123,7 +123,7 @@ private:
 
     double rate_, guard_;
     std::array<double, 4> restitutions_{};
-    double at_sync_ = 1; ///< how much radii had grown at the last sync
+    double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
 };
 
 } // namespace carrom

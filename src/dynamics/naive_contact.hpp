@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The school formula for the time of contact, as the course program has it. The accuracy study
-// measures it against the stable one (pair_contact.hpp).
+// The school formula for the time of contact, which the course program uses. The
+// accuracy study compares it with the stable one (pair_contact.hpp).
 //
 // It takes B^2 - 4 A C and -B - sqrt(...) as they stand. Both are differences of like numbers when
 // a pair is far apart or grazes. In single precision it misses a fifth of the hits at a thousand
@@ -13,9 +13,9 @@
 
 namespace carrom {
 
-/// Time until the points come within `sigma`; negative for never, and where they overlap already.
-/// `contracted`: products are fused with the sums they go into, as a compiler does with
-/// -ffp-contract=fast. It is written out, so that all compilers do the same.
+/// The time until the points come within `sigma`; negative if they never do, and if they
+/// overlap already. With `contracted`, products are fused with the sums they go into, like a
+/// compiler does with -ffp-contract=fast. It is written out, so that all compilers do the same.
 template <class Real>
 Real naive_contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma, bool contracted) {
     const auto sum_of_products = [contracted](Real a, Real b, Real c, Real d) {

@@ -14,12 +14,12 @@ namespace carrom {
 
 namespace {
 
-/// Those of a body that a disc in the box may touch: the body's own and eight around.
+/// A disc in the box may touch this many images of a body: its own one and eight around.
 constexpr std::uint32_t n_images = 9;
 
-/// The first time at which a distance that begins with `rate` and is pulled at comes down to 0. On
-/// the body's own `side` one that is not above 0 counts from where it turns round; from elsewhere
-/// it has to come up first.
+/// The first time at which a distance that begins with `rate` and is pulled at comes
+/// down to 0. On the body's own `side` a distance that is not above 0 counts from
+/// where it turns round; from elsewhere it has to come up first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -50,7 +50,7 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
         bodies_.push_back({segment.x1, segment.y1, 0});
     }
     const auto n = static_cast<double>(bodies_.size());
-    // Nearly square cells: as many as for a square box, of them more along the longer side.
+    // Nearly square cells: as many as for a square box, with more of them along the longer side.
     const double stretch = std::sqrt(box.x / box.y);
     const auto cells = [n](double length, double factor, double period) {
         const double number = std::floor(std::clamp(std::sqrt(2 * n), 4.0, 4096.0) * factor);
@@ -80,7 +80,7 @@ Obstacles::Cells Obstacles::cells_of(const Extent& extent) const {
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
-/// Where the centres of discs that touch its image lie.
+/// The places of the centres of discs that touch the body's image.
 Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const {
     const double reach = body.radius + radius, x = body.x + shift.x, y = body.y + shift.y;
     const double x_end = x + body.length * body.ux, y_end = y + body.length * body.uy;
@@ -88,8 +88,8 @@ Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const 
             std::max(y, y_end) + reach};
 }
 
-/// False for cells that an oblique line keeps clear of. Those at the border also stand for what
-/// lies beyond.
+/// False for cells that an oblique line does not touch. Cells at the border also stand
+/// for the places beyond.
 bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
@@ -124,7 +124,7 @@ void Obstacles::sort_into_cells() {
     visit([this, &ends](std::size_t cell, const Entry& entry) { in_cells_[ends[cell]++] = entry; });
 }
 
-/// Calls what(image) for what lies in the cells, perhaps several times for each.
+/// Calls what(image) for the images in the cells, perhaps several times for each.
 template <class What> void Obstacles::visit_cells(const Cells& cells, const What& what) const {
     for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column) {
         const std::int64_t x = columns_.box_of(column);
@@ -144,9 +144,9 @@ template <class What> void Obstacles::visit_cells(const Cells& cells, const What
     }
 }
 
-/// The body's number; in a periodic box one for each of nine images, told by the box in which the
-/// disc's centre is that touches, at (x, y): it is a function of the disc's state then, wherever
-/// that is stored.
+/// The body's number; in a periodic box a number for each of nine images. The image
+/// follows from the box that holds the centre (x, y) of the touching disc, so the
+/// number is a function of the disc's state, wherever that is stored.
 std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -154,7 +154,7 @@ std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     return image.body * n_images + static_cast<std::uint32_t>(3 * (dx + 1) + (dy + 1));
 }
 
-/// The other way round, for a disc that is there now.
+/// The image of a code, for a disc that is there now.
 Obstacles::Entry Obstacles::image_of(std::uint32_t code, const Disc& disc) const {
     if (!periods_.are_any()) return {code, 0, 0};
     const auto image = static_cast<int>(code % n_images);
@@ -167,7 +167,7 @@ Obstacles::Entry Obstacles::image_of(std::uint32_t code, const Disc& disc) const
     return {code / n_images, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
 }
 
-/// `dx`, `dy` from the line's beginning, `wx`, `wy` in the box.
+/// `dx`, `dy` are from the line's beginning, `wx`, `wy` in the box.
 double Obstacles::line_delay(const Body& line, double radius, double dx, double dy, double wx,
                              double wy) const {
     const auto [gx, gy] = gravity_;
@@ -185,7 +185,7 @@ double Obstacles::line_delay(const Body& line, double radius, double dx, double 
     return first;
 }
 
-/// From the state alone: the first time at which the distance is not positive and falls.
+/// A function of the state only: the first time at which the distance is not positive and falls.
 double Obstacles::contact_time(const Disc& disc, const Body& body, double radius,
                                Shift shift) const {
     const bool falls = gravity_[0] != 0 || gravity_[1] != 0;
@@ -199,7 +199,7 @@ double Obstacles::contact_time(const Disc& disc, const Body& body, double radius
     return delay < 0 ? never : disc.tau + delay;
 }
 
-/// What the flight covers in the box; a parabola keeps within an eighth of its pull from the chord.
+/// The part of the box that a flight covers. A parabola is within an eighth of its pull.
 Extent Obstacles::path_of(const Disc& disc, double begin, double end) const {
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
@@ -209,7 +209,7 @@ Extent Obstacles::path_of(const Disc& disc, double begin, double end) const {
             std::max(y0, y1) + y_bend};
 }
 
-/// Parts of a flight in which it goes no further than a cell or so.
+/// The number of parts of a flight in which it goes no further than about a cell.
 double Obstacles::slices_of(const Disc& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
         return std::max(std::fabs(v + gravity_[axis] * begin), std::fabs(v + gravity_[axis] * end));
@@ -267,7 +267,7 @@ void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_tou
     }
     const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
     double away = (is_touched ? 1 : restitution_) * std::fabs(normal);
-    // As at walls: one that is pulled back stays away for the contact time at least.
+    // Like at walls, a disc that is pulled back stays away for the contact time at least.
     const double pull = -(nx * gravity_[0] + ny * gravity_[1]);
     if (pull > 0) away = std::max(away, 0.5 * pull * contact_time_);
     disc.vx += (away - normal) * nx;

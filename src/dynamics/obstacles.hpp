@@ -2,12 +2,12 @@
 // Bodies that stand fixed in a box: discs, and straight segments with a disc of radius 0 at either
 // end. A disc that comes to one is reflected from it, as from a wall.
 //
-// A disc of radius r touches a fixed one of radius R where their centres are r + R apart (the
-// predicate of pairs; a quartic under gravity: falling_contact.hpp) and a segment where it is r
-// from its line (a quadratic). The contact is a function of the stored state alone. The bodies lie
-// in a grid of cells for good; a flight looks at the cells on its way, to its first contact. In a
-// periodic box the grid repeats itself, and a body is seen from the cells that its images reach
-// into as well. A stored state may be many boxes away: bodies come to it, by whole box lengths.
+// A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
+// predicate of pairs; a quartic under gravity: falling_contact.hpp), and a segment if it is r from
+// its line (a quadratic). The contact is a function of the stored state alone. A grid of cells
+// holds the bodies for good; a flight searches the cells on its way, up to its first contact. In a
+// periodic box the grid repeats itself, and a body is also in the cells that its images reach
+// into. A stored state may be many boxes away: bodies are shifted to it by whole box lengths.
 #pragma once
 
 #include <array>
@@ -28,13 +28,13 @@ struct ObstacleContact {
     static constexpr std::uint32_t no_body = 0xffffffff;
 
     double time = std::numeric_limits<double>::infinity();
-    std::uint32_t body = no_body; ///< a number for each body, or for each of its nearest images;
-                                  ///< see Obstacles::code_of
+    std::uint32_t body = no_body; ///< a number for each body, or for each of its
+                                  ///< nearest images; see Obstacles::code_of
 
     bool exists() const { return body != no_body; }
 };
 
-/// Times that count, those since the last sync.
+/// The times that count, since the last sync.
 struct ContactTimes {
     double from = 0, to = 0;
     bool hold_from = true; ///< whether `from` itself counts
@@ -44,18 +44,18 @@ struct ContactTimes {
 
 class Obstacles {
 public:
-    /// For discs of radius `largest_radius` at most; `effects` per micro-step.
+    /// For discs of at most `largest_radius`; `effects` are per micro-step.
     Obstacles(const Box& box, double largest_radius, const Effects& effects);
 
     bool are_none() const { return bodies_.empty(); }
 
-    /// The first body that the disc of that radius comes to at such a time; the one of the lower
-    /// number where two are met at once.
+    /// The first body that a disc of that radius meets at such a time; the one of the
+    /// lower number if it meets two at once.
     ObstacleContact first_contact(const Disc& disc, double radius, const ContactTimes& times) const;
 
-    /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at
-    /// `time`, its own now; `is_touched` says whether it has been touched within the contact time
-    /// before.
+    /// Reverses the velocity of a disc at the body of a contact's number `code` at
+    /// `time`, the disc's own time now. `is_touched` means that it has been touched
+    /// within the contact time before.
     void rebound(Disc& disc, std::uint32_t code, double time, bool is_touched) const;
 
     struct Overlap {
@@ -71,15 +71,15 @@ public:
 private:
     struct Body {
         double x, y;                       ///< its centre, or one end of a line
-        double radius;                     ///< 0 of a line
-        double ux = 0, uy = 0, length = 0; ///< of a line: direction and length
+        double radius;                     ///< 0 for a line
+        double ux = 0, uy = 0, length = 0; ///< for a line: direction and length
         bool is_line() const { return length > 0; }
     };
     /// Numbers go on beyond a periodic side.
     struct Cells {
         std::int64_t first_column, last_column, first_row, last_row;
     };
-    /// A body, or an image of one, so many boxes from the cell's box.
+    /// A body, or an image of one, this many boxes from the cell's box.
     struct Entry {
         std::uint32_t body;
         std::int16_t x, y;
@@ -91,7 +91,7 @@ private:
         std::int64_t n = 1;
 
         std::int64_t cell_of(double place) const;
-        /// How many boxes away from the first one a cell is.
+        /// The number of boxes from the first one to a cell.
         std::int64_t box_of(std::int64_t cell) const;
     };
 

@@ -15,11 +15,11 @@ namespace carrom {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-/// A disc comes within the wall's reach twice at most; the others are for rounding.
+/// A disc comes within the wall's reach at most twice; the other visits allow for rounding.
 constexpr int most_visits = 8;
-/// Periods that a search looks at before a disc comes within reach, and beyond one.
+/// A search begins this many periods before a disc comes within reach, and ends as many after.
 constexpr double margin = 1.0 / 16;
-/// In periods. Far beyond any sync.
+/// In periods; far beyond any sync.
 constexpr double latest = 0x1p40;
 
 /// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The terms behind are below 2^-63.
@@ -42,9 +42,9 @@ struct ValueAndSlope {
     double value, slope;
 };
 
-/// The root of a function that has different signs at the ends, to a rounding of `origin` and it.
-/// Newton's rule, and halving where that leads out of the bracket or its steps do not get shorter
-/// by half.
+/// The root of a function with different signs at the ends, to a rounding of `origin`
+/// and itself. Uses Newton's rule, and halving if that leaves the bracket or its steps
+/// do not get shorter by half.
 template <class Function>
 double root_between(double low, double high, bool rises, double origin, const Function& function) {
     double s = low + (high - low) / 2, last_step = high - low;
@@ -100,7 +100,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double gravity, doub
     rate_ = two_pi / period_;
     phase_ = whole_turns_off(side.phase / two_pi);
     turns_ = phase_;
-    // The wall's acceleration is that of falling discs where the sine is this.
+    // Here the wall's acceleration is that of falling discs.
     const double sine = -gravity / (amplitude_ * rate_ * rate_);
     const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
     first_bend_ = whole_turns_off(bend);
@@ -122,7 +122,7 @@ double Oscillation::pressure_at(double time, double later) const {
     return std::max(sign_ * at(time).acceleration, sign_ * at(later).acceleration) - pull_;
 }
 
-/// Of one disc, s after `time`.
+/// The flight of one disc, s after `time`.
 struct Oscillation::Flight {
     const Oscillation& wall;
     double distance, rate, from_wall, time;
@@ -140,7 +140,7 @@ struct Oscillation::Flight {
         const auto [slope, bend] = rate_at(s);
         return slope < 0 || (slope == 0 && bend < 0);
     }
-    /// When the disc next is where the wall may be, and deeper than the slack.
+    /// The next time at which the disc is within the wall's reach, deeper than the slack.
     double entry_after(double s) const {
         const double left = from_line_at(s) - wall.amplitude_ + wall.slack_;
         return left > 0 ? s + fall_delay(left, rate + wall.pull_ * s, wall.pull_) : s;
@@ -150,7 +150,7 @@ private:
     double from_line_at(double s) const {
         return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
     }
-    /// At s = 0 the very number that a rebound has left.
+    /// At s = 0 it is exactly the number that a rebound has left.
     double slope_at(double s, const WallMotion& then) const {
         return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
     }
@@ -166,8 +166,8 @@ double Oscillation::bend_after(double time) const {
     }
 }
 
-/// In times from `begin` to `end` at least. Between two bends the rate changes sign once at most,
-/// so the distance falls in one piece of that, or does not.
+/// Searches the times from `begin` to `end` at least. Between two bends the rate changes
+/// sign at most once, so the distance falls in one piece of that, or not at all.
 double Oscillation::first_contact(const Flight& flight, double begin, double end) const {
     const auto distance = [&flight](double s) { return flight.distance_at(s); };
     const auto rate = [&flight](double s) { return flight.rate_at(s); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When two freely flying discs touch: the one predicate that every decision rests on
+// When two freely flying discs touch. All decisions rest on this predicate
 // (docs/understanding/method.md, section 4).
 //
 // The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
@@ -31,10 +31,10 @@ template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
     return (p1 - p2) + (e1 - e2);
 }
 
-/// Time until points at separation (dx, dy) with relative velocity (wx, wy) come within `sigma`;
-/// negative for never. Pairs that overlap by more than `deepest_overlap` never do (infinity: they
-/// collide at once if they approach). Inlined wherever it is called, so that the code of one
-/// dynamics does not depend on which others are compiled beside it.
+/// The time until points at separation (dx, dy) with relative velocity (wx, wy) come within
+/// `sigma`; negative if they never do. Pairs that overlap by more than `deepest_overlap`
+/// never do (infinity: they collide at once if they approach). Inlined wherever it is called,
+/// so that the code of one dynamics does not depend on which others are compiled beside it.
 template <class Real>
 [[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
                                                  Real deepest_overlap) {
@@ -54,8 +54,8 @@ template <class Real>
     return c / (-b + std::sqrt(disc));
 }
 
-/// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits
-/// whoever asks, and when. Inlined as above.
+/// The contact of discs `p` and `q` (in any order) from their stored states alone, so
+/// the bits do not depend on who asks, and when. Inlined like contact_delay.
 template <class Real, class AnyDisc>
 [[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q,
                                                              Real sigma, Real deepest_overlap) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dynamics of boxes with periodic sides: another dynamics, for images of discs
-// (core/image.hpp).
+// The dynamics of boxes with periodic sides: another dynamics, applied to images of
+// discs (core/image.hpp).
 //
-// The separation of two discs is that of their stored places and a whole number of box lengths,
-// added in one fixed association. An axis has walls or is periodic. Everything else is as in the
-// other dynamics.
+// The separation of two discs is that of their stored places and a whole number of box
+// lengths, added in one fixed association. An axis has walls or is periodic. All other
+// answers are those of the other dynamics.
 #pragma once
 
 #include "core/image.hpp"
@@ -51,7 +51,7 @@ public:
         exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
     }
 
-    /// Rough discs.
+    /// For rough discs.
     void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
         exchange_spin(p, q, m + t, false, p_spin, q_spin);
         stop(p, m, t);
@@ -70,7 +70,7 @@ public:
         if (this->has_obstacles() && t != side_time(disc, m)) return {};
         return {periods_.x == 0, periods_.y == 0};
     }
-    /// There is one axis with walls at most, and so no corner.
+    /// At most one axis has walls, so there are no corners.
     void bounce(Disc& disc, double m, double t) const {
         if (this->has_obstacles() && t != side_time(disc, m))
             return stop(disc, m, t, this->rebound_in(disc, m));

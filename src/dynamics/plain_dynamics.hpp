@@ -2,8 +2,8 @@
 // The dynamics of a scene that names no effect: free flight, elastic pairs, four elastic walls at
 // rest (docs/understanding/method.md, sections 3 and 4). Its answers are those of dynamics.hpp.
 //
-// A dynamics with effects is derived from it and replaces some answers. It uses the parts of the
-// others that are named at the end.
+// A dynamics with effects is derived from it and replaces some answers. The others use
+// the parts at the end.
 #pragma once
 
 #include <algorithm>
@@ -21,18 +21,18 @@
 
 namespace carrom {
 
-/// Which walls a bounce is at.
+/// The walls of a bounce.
 struct MetWalls {
     bool at_x = false, at_y = false;
 };
 
-/// From one disc's centre to another one's.
+/// The vector from one disc's centre to another one's.
 struct Separation {
     double x = 0, y = 0;
 };
 
-/// Of two discs that touch: the separation of the second one's centre from the first one's, and its
-/// relative velocity.
+/// Two discs that touch: the separation of the second one's centre from the first
+/// one's, and its relative velocity.
 struct Encounter {
     double ex = 0, ey = 0;
     double wx = 0, wy = 0;
@@ -90,14 +90,14 @@ public:
         disc.tau = time;
     }
 
-    /// From p to q, which are both where they collide.
+    /// From p to q, which are both at the place of their collision.
     static Separation separation(const Disc& p, const Disc& q) { return {q.x - p.x, q.y - p.y}; }
-    /// From p to q. Both are at `time`, or fly there.
+    /// From p to q, which are both at `time`, or fly there.
     static Separation separation_at(const Disc& p, const Disc& q, double time) {
         return {q.x_at(time) - p.x_at(time), q.y_at(time) - p.y_at(time)};
     }
     static constexpr double mass_of(const Disc& /*disc*/) { return 1; }
-    /// What searches have to allow for: the square of the disc's speed now, and at `time`.
+    /// The squared speed that searches have to allow for: the disc's own, now and at `time`.
     static double squared_speed(const Disc& disc) { return squared_speed_of(disc); }
     static double squared_speed_at(const Disc& disc, double /*time*/) {
         return squared_speed_of(disc);
@@ -147,7 +147,7 @@ public:
     }
     bool may_meet_wall(const Disc& disc, double time) const {
         const double x = disc.x_at(time), y = disc.y_at(time);
-        // The last term: a time is rounded, and a fast disc goes some way in that.
+        // The last term allows for rounded times, in which a fast disc flies some way.
         const double margin = tolerance_ + time_rounding * time *
                                                std::max(std::fabs(disc.vx), std::fabs(disc.vy));
         const RestingWalls<double> at_x = walls(Axis::x), at_y = walls(Axis::y);
@@ -168,8 +168,8 @@ public:
 
     // Parts of the answers above, for other dynamics.
 
-    /// The same for a pair whose radii have the sum `diameter`, or for a disc of another `radius`
-    /// at walls. Band and tolerance stay.
+    /// These walls and pairs for a pair whose radii have the sum `diameter`, or for a
+    /// disc of another `radius` at walls. Band and tolerance stay the same.
     PlainDynamics with_sizes(double radius, double diameter) const {
         PlainDynamics dynamics = *this;
         dynamics.radius_ = radius;
@@ -209,9 +209,9 @@ protected:
         return {ex, ey, q.vx - p.vx, q.vy - p.vy};
     }
 
-    /// New velocities of discs that touch. `impulse` is in units of that of an elastic contact of
-    /// equal masses, of which p and q take their shares. Multiplying by 1 leaves every bit, and no
-    /// instruction.
+    /// Gives new velocities to discs that touch. `impulse` is in units of that of an
+    /// elastic contact of equal masses, of which p and q take their shares.
+    /// Multiplying by 1 changes no bit, and takes no instruction.
     [[gnu::always_inline]] static void push_apart(Disc& p, Disc& q, const Encounter& encounter,
                                                   double impulse, double p_share = 1,
                                                   double q_share = 1) {
@@ -233,7 +233,7 @@ protected:
     double radius_, diameter_, band_, tolerance_;
 
 private:
-    /// Brings the disc to in-step time t = wall_time(disc, m).
+    /// Advances the disc to in-step time t = wall_time(disc, m).
     [[gnu::always_inline]] MetWalls reach_walls(Disc& disc, double m, double t) const {
         const double x_time = axis_time(Axis::x, disc, m), y_time = axis_time(Axis::y, disc, m);
         advance(disc, m + t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic walls at rest, as one coordinate of a disc's centre meets them. `Real` is double, or the
-// float of the accuracy study.
+// Elastic walls at rest, for one coordinate of a disc's centre. `Real` is double, or
+// float for the accuracy study.
 //
 // The time-stepped method decides a micro-step m by where the disc would be at its end. Only the
 // wall ahead counts. A slow disc that ends within the band bounces at t = 1 without touching: so
@@ -16,7 +16,7 @@ template <class Real> class RestingWalls {
 public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
-    /// At 0 and `length`, for the centres of discs of that radius.
+    /// Walls at 0 and `length`, for the centres of discs of that radius.
     RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 
@@ -39,7 +39,7 @@ public:
         return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
     }
 
-    /// How far into the `rest` of a micro-step the disc would leave the box, or `never`.
+    /// The time into the `rest` of a micro-step at which the disc would leave the box, or `never`.
     [[gnu::always_inline]] Real stop(Real x, Real v, Real rest) const {
         const Real at_end = x + v * rest;
         if (v < 0 && at_end < low_) return std::max((low_ - x) / v, Real{0});
@@ -47,7 +47,7 @@ public:
         return never;
     }
 
-    /// Event-driven method: how long the disc takes to the wall ahead, or `never`.
+    /// Event-driven method: the time that the disc takes to the wall ahead, or `never`.
     Real delay(Real x, Real v) const {
         if (v == 0) return never;
         const Real delay = ((v < 0 ? low_ : high_) - x) / v;

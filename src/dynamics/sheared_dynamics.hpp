@@ -34,11 +34,11 @@ public:
         this->periods_.begin_interval(n);
     }
 
-    // Kinetic stress is that of velocities in the flow, which change along a flight. It is sampled.
+    // Kinetic stress is relative to the flow, and changes along a flight, so it is sampled.
     static FlightIntegral flight_integral_at(double /*time*/) { return {}; }
     static constexpr double pair_weight_at(double /*time*/) { return 0; }
 
-    /// Both discs are where they collide.
+    /// For discs that are both at the place of their collision.
     Separation separation(const Disc& p, const Disc& q) const {
         const Shift shift = this->periods_.between(p, q, p.tau);
         return {(q.x - p.x) + shift.x, (q.y - p.y) + shift.y};
@@ -56,14 +56,14 @@ public:
         return contact(p, q, Walled::never);
     }
 
-    /// There is nothing fixed, so nothing has to stop.
+    /// Nothing in the box is fixed, so no disc has to stop.
     void collide(Disc& p, Disc& q, double m, double t) const {
         exchange_momentum(p, q, m + t, this->contact_.impulse());
     }
     void collide_at(Disc& p, Disc& q, double time) const {
         exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
     }
-    /// Rough discs.
+    /// For rough discs.
     void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
         exchange_spin(p, q, m + t, false, p_spin, q_spin);
     }
@@ -71,7 +71,7 @@ public:
         exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
     }
 
-    /// Of the fastest image next to the disc's own one.
+    /// The squared speed of the fastest image next to the disc's own one.
     double squared_speed(const Disc& disc) const {
         const double vx = std::fabs(this->periods_.vx_of(disc)) + std::fabs(this->periods_.speed);
         return vx * vx + disc.vy * disc.vy;
@@ -92,7 +92,7 @@ private:
         return {base, contact_delay(dx, dy, (q.vx - p.vx) + shift.vx, q.vy - p.vy,
                                     this->pair_diameter(p, q), deepest_overlap)};
     }
-    /// Advances both discs to where they collide; what q's image does as p sees it.
+    /// Advances both discs to where they collide; q is seen as its image.
     Encounter encounter_at(Disc& p, Disc& q, double time) const {
         this->advance(p, time);
         this->advance(q, time);
@@ -109,7 +109,7 @@ private:
     }
 };
 
-/// One species or several, of any restitution, 1 included.
+/// One species or several, any restitution, also 1.
 using ShearedMixedDynamics = ShearedDynamics<MixedDynamics>;
 using ShearedRoughDynamics = ShearedDynamics<RoughDynamics>;
 

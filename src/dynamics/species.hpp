@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each disc is: its radius and its mass, which a run never changes.
+// Species: the radius and the mass of each disc, which a run never changes.
 //
-// Species come in the order of ids, so a disc's species follows from its id: no array, no byte in
-// messages and checkpoints. A few species are found by as many comparisons. Many are spread into a
-// table by id: 16 bytes a disc on every rank.
+// Species come in the order of ids, so a disc's species follows from its id: no array,
+// no byte in messages and checkpoints. Few species are found by comparisons; many are
+// spread into a table by id, 16 bytes a disc on every rank.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// So many discs of a kind. Their ids follow those of the species before.
+/// A number of equal discs. Their ids follow those of the species before.
 struct Species {
     std::uint64_t count = 0;
     double radius = 0;
@@ -30,10 +30,10 @@ struct SizeAndMass {
     double mass = 1;
 };
 
-/// Copies share what they hold.
+/// Copies share their tables.
 class SpeciesTable {
 public:
-    /// Where there are no species all discs have this radius and mass 1.
+    /// Without species all discs have this radius and mass 1.
     SpeciesTable(std::span<const Species> species, double radius);
 
     const SizeAndMass& of(DiscId id) const {
@@ -50,7 +50,7 @@ private:
     };
     struct Table {
         std::vector<Range> ranges;
-        std::vector<SizeAndMass> by_id; ///< empty where ranges are few
+        std::vector<SizeAndMass> by_id; ///< empty if there are few ranges
     };
 
     std::shared_ptr<const Table> table_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain dynamics computed less well, for the accuracy study (docs/understanding/accuracy.md): in
-// single precision, by the naive contact formula, or both. Runs use PlainDynamics unless a scene
-// asks for this one.
+// Plain dynamics with less accurate arithmetic, for the accuracy study
+// (docs/understanding/accuracy.md): single precision, the naive contact formula, or
+// both. Runs use PlainDynamics unless a scene asks for this one.
 //
-// `Real` is what states are rounded to and what is computed in. A float's state is stored in
-// doubles of the same value: nothing else in the program has to know. The formula is chosen when
-// the program runs.
+// `Real` is the precision of states and of computation. A float's state is stored in
+// doubles of the same value, so the rest of the program need not know. The formula is
+// chosen when the program runs.
 //
 // Such a dynamics finds contacts where discs do not touch, and misses some. The search looks only
 // where discs touch, within a margin, and how far depends on ranks and threads. So a contact counts
@@ -26,7 +26,7 @@ namespace carrom {
 
 enum class ContactFormula { stable, naive, naive_contracted };
 
-/// A disc's numbers in the precision that is computed in.
+/// A disc's numbers in the precision of the computation.
 template <class Real> struct RoundedState {
     Real x, y, vx, vy, tau;
 
@@ -38,12 +38,12 @@ template <class Real> struct RoundedState {
     Real y_at(Real time) const { return y + vy * (time - tau); }
 };
 
-/// Takes from the plain dynamics what has no arithmetic: clock, frame and the answers that are no.
+/// Takes the parts without arithmetic from the plain dynamics: clock, frame, negative answers.
 template <class Real> class StudyDynamics : public PlainDynamics {
 public:
     static constexpr bool is_for_study = true;
-    /// Where discs have no room, rounding moves them on in time now and then: a cascade without end
-    /// is not at one time.
+    /// If discs have no room, rounding moves them on in time now and then, so an
+    /// endless cascade is not at a single time.
     static constexpr double cascade_interval = 0x1p-3;
 
     StudyDynamics(const Box& box, double radius, ContactFormula formula)
@@ -60,7 +60,7 @@ public:
     double slack() const { return slack_; }
     double search_diameter() const { return diameter() + 2 * slack_; }
 
-    /// Rounds a state to the precision that it is to have.
+    /// Rounds a state to its precision.
     static void round(Disc& disc) {
         for (double* number : {&disc.x, &disc.y, &disc.vx, &disc.vy, &disc.tau})
             *number = real(*number);
@@ -167,7 +167,7 @@ private:
                                           formula_ == ContactFormula::naive_contracted)};
     }
 
-    /// Whether the discs, taken to that time in double precision, are within the margin.
+    /// Whether the discs, advanced to that time in double precision, are within the margin.
     bool is_near(const Disc& p, const Disc& q, double time) const {
         const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
         const double farthest = search_diameter() - rounding();

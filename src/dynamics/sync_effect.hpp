@@ -6,8 +6,8 @@
 // `at_sync`, which are functions of the seed, the disc and the count of syncs. Then every machine
 // shape gets the same bits, and a restart needs nothing but the count.
 //
-// The engine asks the list of effects once a sync, never for a pair. It is empty in scenes without
-// such an effect.
+// The engine calls the list of effects once a sync, never for a pair. The list is
+// empty in scenes without such an effect.
 #pragma once
 
 #include <cstddef>
@@ -34,13 +34,13 @@ struct SyncDiscs {
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.
     std::function<void(const Part& part)> in_parts;
-    /// In place, over all ranks. **Collective.**
+    /// Adds up in place over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks;
     /// **Collective.**
     std::function<double(double)> largest_over_ranks;
 
-    /// Adds up over all discs that are in the box: `term(i, parts)` adds those of disc i to a copy
-    /// of `sums`. **Collective.**
+    /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
+    /// a copy of `sums`. **Collective.**
     template <class Term> void add_up(std::vector<ExactSum>& sums, const Term& term) const;
 };
 

@@ -139,7 +139,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
     if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);
-    // A scene's name may have any bytes that the file system allows; others than UTF-8 become "?".
+    // A scene's name may have any bytes that the file system allows; invalid UTF-8 is replaced.
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

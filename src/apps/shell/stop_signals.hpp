@@ -12,8 +12,8 @@ void note_stop_signals();
 
 class StopSignals {
 public:
-    /// Notes them from here on if `note_stop_signals` has not been called. Where `are_reported`,
-    /// the first one is answered on standard error at once: the end of a step may be far away.
+    /// Notes signals from here on, unless `note_stop_signals` does. If `are_reported`, the
+    /// first one is answered on standard error at once, because the step's end may be far away.
     explicit StopSignals(bool are_reported);
     ~StopSignals(); ///< ends the answers
     StopSignals(const StopSignals&) = delete;
