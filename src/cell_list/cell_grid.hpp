@@ -257,7 +257,7 @@ private:
 
     std::vector<LocalIndex> apart_;
     std::vector<float> apart_lanes_; ///< x, y, vx, vy by place in `apart_`
-    double longest_flight_ = 0;      ///< of the discs in `apart_`, in cells
+    double longest_flight_ = 0;      ///< longest flight in `apart_`, in cells
 };
 
 } // namespace carrom

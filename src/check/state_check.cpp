@@ -24,8 +24,8 @@ struct Part {
     DiscId disc = 0;
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
-    double impulse = 0; ///< of a collision with a wall
-    double work = 0;    ///< of growing surfaces
+    double impulse = 0; ///< if it was with a wall
+    double work = 0;    ///< by growing surfaces
 };
 
 bool is_finite(const Disc& disc) {

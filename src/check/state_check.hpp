@@ -126,7 +126,7 @@ private:
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;
     double total_mass_ = 0, smallest_mass_ = 1;
-    double wall_speed_ = 0, wall_pull_ = 0; ///< of oscillating walls: the largest speed, and the
+    double wall_speed_ = 0, wall_pull_ = 0; ///< for oscillating walls: the largest speed, and the
                                             ///< largest acceleration with which one presses a disc
     double work_of_images_ = 0;             ///< on this rank, since the last look
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last look
@@ -135,7 +135,7 @@ private:
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;
     std::uint64_t first_id_ = 0;
-    std::vector<Known> known_, before_; ///< of this rank's slab of ids: now, and at the last look
+    std::vector<Known> known_, before_; ///< this rank's slab of ids now, and at the last check
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
            energy_ = 0;                   ///< plain discs cannot become faster than with all of it

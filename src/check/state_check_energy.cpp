@@ -112,7 +112,7 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
     const double energy = energy_of(own);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
-        double gain = 0; // of few discs, if any, so rounding does not matter
+        double gain = 0; // few discs add to it, so rounding does not matter
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
@@ -196,7 +196,7 @@ double StateCheck::twice_energy(const Known& known) const {
     const double turning = body.radius * known.spin,
                  square = squared_speed_of(seen) + effects_.contact.inertia * turning * turning;
     if (!effects_.gravity.is_any()) return body.mass * square;
-    const double clock = seen.tau; // as it was checked
+    const double clock = seen.tau; // the disc's own time
     const auto height = [this](double place, double pull) {
         return (pull < 0 ? place : -place) + 2 * scene_.box.longest();
     };

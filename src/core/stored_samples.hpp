@@ -17,7 +17,7 @@ struct FirstPlace {
     double lengths_x = 0, lengths_y = 0; ///< in a periodic box: by how many box lengths
                                          ///< it has been brought back since then
     double vx = 0, vy = 0;               ///< at that time, per step
-    double image_x = 0, image_y = 0;     ///< the same count since the scene's start
+    double image_x = 0, image_y = 0;     ///< this count since the scene's start
 };
 
 /// How many box lengths a disc has flown on beyond a periodic box since the scene's start.
@@ -28,12 +28,12 @@ struct DiscImage {
 inline constexpr std::int32_t most_images = 1 << 30;
 
 struct StoredSamples {
-    std::vector<std::int64_t> averages; ///< the same on all ranks; empty before the first block
-    std::vector<std::int64_t> sums;     ///< the same on all ranks; empty where nothing is measured
-    bool have_first_places = false;     ///< the same on all ranks
-    bool have_lengths = false;          ///< the same on all ranks
-    bool have_velocities = false;       ///< the same on all ranks
-    bool have_images = false;           ///< the same on all ranks; for the images of a trajectory
+    std::vector<std::int64_t> averages; ///< equal on all ranks; empty before the first block
+    std::vector<std::int64_t> sums;     ///< equal on all ranks; empty if nothing is measured
+    bool have_first_places = false;     ///< equal on all ranks
+    bool have_lengths = false;          ///< equal on all ranks
+    bool have_velocities = false;       ///< equal on all ranks
+    bool have_images = false;           ///< equal on all ranks; for the images of a trajectory
     /// A run of ids without gaps. To be written, these are the discs of this rank's
     /// pieces (pieces.hpp); as read, those of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;

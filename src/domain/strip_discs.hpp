@@ -150,7 +150,7 @@ private:
     bool has_images_ = false; ///< own discs had the images in the box when they were sorted
     TransferPlan halo_plan_;
     std::vector<int> other_partners_;       ///< in a periodic box, where a rank is its own partner
-    std::vector<std::size_t> halo_offsets_; ///< of each partner's discs, behind the own ones
+    std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
     std::vector<std::uint8_t> is_shown_;    ///< by own disc: a partner has it in its halo
 };
 

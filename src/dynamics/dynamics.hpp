@@ -57,7 +57,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
 
     // Clock and frame, in which discs fly straight.
     changing.begin_interval(n);                   // times now count from micro-step n
-    { d.clock_at(time) } -> std::same_as<double>; // of micro-steps since the sync
+    { d.clock_at(time) } -> std::same_as<double>; // at micro-steps since the sync
     { d.micro_steps_at(time) } -> std::same_as<double>;
     { d.frame_at(time) } -> std::same_as<Frame>;
     { d.extent_at(time) } -> std::same_as<Extent>;     // where the walls are

@@ -118,7 +118,7 @@ private:
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;
     Periods periods_;
-    double largest_radius_;    ///< of discs
+    double largest_radius_;    ///< a disc's
     std::vector<Body> bodies_; ///< fixed discs, then a line and its two ends for each segment
     CellAxis columns_, rows_;
     double margin_ = 0;

@@ -83,8 +83,8 @@ protected:
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
     double time_ = 0;               ///< on the clock, since the last sync
-    double redistributed_time_ = 0; ///< of the last migration
-    double largest_speed_ = 0;      ///< of any own disc
+    double redistributed_time_ = 0; ///< when discs last migrated
+    double largest_speed_ = 0;      ///< no own disc is faster
     double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
     PhaseClock phases_;
 

@@ -73,7 +73,7 @@ double largest_mass(std::span<const Disc> own, const SpeciesTable* species_table
 
 void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals) {
-    double largest = 0; // of all components of velocities
+    double largest = 0; // the largest component of a velocity
     for (const Disc& disc : own)
         largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
     largest = communicator.max(largest) * velocity_unit;

@@ -245,7 +245,7 @@ private:
     std::optional<Obstacles> obstacles_;
     const Communicator& communicator_;
     std::uint64_t start_;
-    double diameter_; ///< of the largest discs
+    double diameter_; ///< the largest discs'
     SpeciesTable species_;
     Axis axis_;
     Box box_;

@@ -20,7 +20,7 @@ namespace carrom {
 /// A data set with one row for each disc, and the function that turns discs into its bytes.
 struct DiscTarget {
     std::string path;
-    hid_t type; ///< of the numbers
+    hid_t type; ///< the numbers' type
     std::uint64_t bytes_per_row = 0;
     std::string unit; ///< for other programs; empty for data sets that they do not read
     std::function<void(std::span<const Disc>, std::byte*)> put;

@@ -26,7 +26,7 @@ struct FileSummary : RecordedSystem {
     std::uint64_t n_rows = 0;         ///< discs, or collisions
     std::size_t bytes_per_number = 8; ///< for a trajectory's positions and velocities
     std::vector<std::int64_t> steps;  ///< the steps of the frames
-    std::string state_hash;           ///< of a checkpoint only
+    std::string state_hash;           ///< only checkpoints have one
     std::vector<std::int64_t> gaps;   ///< for a log: the first and last step of each gap
 
     /// The place of a column, or of the end if there is no such column.

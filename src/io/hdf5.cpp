@@ -36,7 +36,7 @@ namespace carrom::h5 {
 namespace {
 
 constexpr std::size_t longest_text = std::size_t{1} << 28; // scenes end at 2^26
-constexpr unsigned most_links = 64;                        // of a group of ours
+constexpr unsigned most_links = 64;                        // a group in Carrom's files
 
 /// The innermost entries of the error stack have the system's words.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
@@ -129,7 +129,7 @@ Properties properties(hid_t kind) {
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
     leave_out_times(creation);
-    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED}); // as for groups
+    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED}); // like groups
     return creation;
 }
 

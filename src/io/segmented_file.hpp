@@ -28,10 +28,10 @@ namespace carrom {
 
 /// A row has `row` numbers along each axis; one number where there is no axis.
 struct RecordedColumn {
-    std::string path;         ///< of the data set in the file that readers open
+    std::string path;         ///< path of the data set in the file that readers open
     hid_t type;               ///< 4 or 8 bytes, little-endian, also in memory
     std::vector<hsize_t> row; ///< {} or {discs} or {discs, components}
-    std::string unit = {};    ///< of the numbers, if it is known (h5md.hpp)
+    std::string unit = {};    ///< the numbers' unit, if it is known (h5md.hpp)
 };
 
 class SegmentedFile {

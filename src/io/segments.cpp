@@ -21,7 +21,7 @@ constexpr std::size_t end_size = mark.size() + sizeof(StateHash);
 constexpr const char *columns_path = "/carrom/recording/columns",
                      *segments_path = "/carrom/recording/segments";
 constexpr std::uint64_t largest_column = std::uint64_t{1} << 60;
-constexpr std::size_t n_fixed = 6; ///< of a segment, before the places of its columns
+constexpr std::size_t n_fixed = 6; ///< a segment's numbers before the places of its columns
 
 StateHash hash_of(std::span<const std::byte> bytes) {
     Hasher hasher;

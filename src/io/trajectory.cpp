@@ -172,7 +172,7 @@ private:
     std::span<const Disc> discs_;
     SideSpans columns_;
     std::span<const BondOrder> orders_;
-    std::span<const DiscImage> images_; ///< of the ids to come
+    std::span<const DiscImage> images_; ///< those with ids to come
     double clock_;
     const TrajectoryLayout& layout_;
     const Communicator& communicator_;

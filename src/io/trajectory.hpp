@@ -69,7 +69,7 @@ private:
     TrajectoryLayout layout_;
     const Communicator& communicator_;
     std::unique_ptr<SegmentedFile> file_;
-    std::vector<std::int64_t> steps_; ///< of all frames, on rank 0
+    std::vector<std::int64_t> steps_; ///< steps of all frames, on rank 0
     std::size_t n_described_ = 0;     ///< number of frames in the XDMF file
 };
 

@@ -34,7 +34,7 @@ struct SampleCounts {
     std::int64_t first_step = 0, last_step = -1;
     std::uint64_t n_samples = 0;
     std::uint64_t n_discs = 0; ///< over all samples, inside the box
-    double area = 0;           ///< of the box, over all samples
+    double area = 0;           ///< sum of the box's area over all samples
 };
 
 /// The run that is measured; it outlives the measurements.
@@ -57,9 +57,9 @@ struct MeasuredRun {
 
 /// The state at a sample. Discs are those of this rank, and valid in `Measurement::sample` only.
 struct SampledState {
-    std::span<const Disc> shown;  ///< as the box sees them
-    std::span<const Disc> inside; ///< those of the shown ones that are in the box
-    std::uint64_t n_discs = 0;    ///< of `shown`, on all ranks
+    std::span<const Disc> shown;  ///< by their states as the box sees them
+    std::span<const Disc> inside; ///< the shown discs that are in the box
+    std::uint64_t n_discs = 0;    ///< number of shown discs on all ranks
     Extent box;
     bool is_first = false; ///< there is no interval before it
 };

@@ -51,7 +51,7 @@ private:
 
     mutable MeasuredRun run_;
     Measurements measurements_;
-    std::vector<std::string> names_; ///< of the quantities, in their order
+    std::vector<std::string> names_; ///< names of the quantities, in their order
     bool has_begun_ = false;
 };
 

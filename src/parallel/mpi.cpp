@@ -64,7 +64,7 @@ void on_mpi_error(MPI_Comm*, int* code,
 
 struct Outcome {
     int code = 0;
-    std::string text; ///< of an error that all ranks should have met; empty if the body returned
+    std::string text; ///< an error that all ranks should have met; empty if the body returned
     int code_alone = abort_code; ///< if other ranks do not come to the same end in time
 };
 

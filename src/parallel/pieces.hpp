@@ -174,7 +174,7 @@ private:
     std::uint64_t n_;
     Pieces pieces_;
     std::vector<std::uint32_t> order_;          ///< this rank's records, piece after piece
-    std::vector<std::uint32_t> first_in_order_; ///< of each piece, and the end
+    std::vector<std::uint32_t> first_in_order_; ///< where each piece begins, and the end
     std::uint64_t round_ = 0, begin_ = 0;
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;

@@ -75,7 +75,7 @@ private:
     Stopwatch stretch_watch_;
     double seconds_since_written_ = 0; ///< on rank 0's clock
     double seconds_since_copied_ = 0;  ///< on rank 0's clock
-    std::optional<Copy> copy_;         ///< of a state before the last one written, or none
+    std::optional<Copy> copy_;         ///< a state before the last one written, or none
     std::vector<std::string> kept_;    ///< paths, oldest first
     std::future<void> removal_;        ///< removes older checkpoints, on rank 0
 };

@@ -59,7 +59,7 @@ private:
     GrowingFiles growing_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
-    std::vector<Collision> collisions_; ///< of this rank since it last recorded some
+    std::vector<Collision> collisions_; ///< this rank's, since it last recorded some
 };
 
 } // namespace carrom

@@ -22,7 +22,7 @@ struct Check {
     Scene& scene;
     Settings& settings;
     Problems& problems;
-    const DiscColumns* columns = nullptr; ///< of the file of discs
+    const DiscColumns* columns = nullptr; ///< in the file of discs
 
     /// A problem at the first of these keys that the input has, or else of the scene as a whole.
     template <class Keys> void refuse_first(const Keys& keys, std::string text) const {

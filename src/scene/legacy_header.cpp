@@ -77,7 +77,7 @@ void add_legacy_header(Settings& settings, Problems& problems, std::string_view 
         add_problem(problems, place,
                     fmt::format("the input ends before {}", entries[found].meaning));
     settings.set({"discs.generator", place, {std::string(discs_follow ? "file" : "legacy")}});
-    settings.set({"time.method", place, {std::string("time-stepped")}}); // as in the course program
+    settings.set({"time.method", place, {std::string("time-stepped")}}); // the course program's
 }
 
 } // namespace carrom

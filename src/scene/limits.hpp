@@ -29,7 +29,7 @@ inline constexpr double largest_box_in_radii =
     1e6; ///< beyond, the wall band 1e-8 r is less than the rounding of L
 inline constexpr double longest_drag = 4; ///< rate of drag times the time between syncs
 inline constexpr double most_crossings =
-    0x1p40; ///< of the box in a micro-step; beyond, all times of collisions are the same number
+    0x1p40; ///< crossings in a micro-step; beyond, all times of collisions are the same number
 
 bool has_boundary(const Effects& effects, BoundaryKind kind);
 bool are_pairs_lossy(const Effects& effects);

@@ -81,7 +81,7 @@ enum class Transfers { independent, collective };
 struct CheckpointOutput {
     std::string folder; ///< in the run's folder
     std::optional<std::int64_t> every_steps;
-    std::optional<double> every_minutes; ///< of wall time
+    std::optional<double> every_minutes; ///< minutes of wall time
     std::int64_t keep = 2;               ///< older ones are removed
     bool at_end = true;
     Transfers transfers = Transfers::independent;
@@ -114,7 +114,7 @@ struct MeasurementOutput {
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     std::vector<std::string> quantities;                 ///< in the order of the scene
-    std::map<std::string, Number, std::less<>> settings; ///< of the quantities
+    std::map<std::string, Number, std::less<>> settings; ///< the quantities' settings
 
     bool measures(std::string_view quantity) const {
         return std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();

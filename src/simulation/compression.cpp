@@ -21,7 +21,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double first_packing = 0.3; ///< of the random gas
+constexpr double first_packing = 0.3; ///< the random gas has it
 /// Shares by which radii grow in a stretch: at first, at most, and of the room that is left.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
 /// With less room discs have jammed: the pressure is N kT / A over the room.
@@ -115,7 +115,7 @@ private:
     const Scene& scene_;
     const Communicator& communicator_;
     const Tuning& tuning_;
-    double size_;                  ///< of radii, over the wanted ones
+    double size_;                  ///< size of radii, over the wanted ones
     double growth_ = first_growth; ///< in the next stretch, as a share
     std::vector<InputDisc> discs_;
 };

@@ -67,7 +67,7 @@ struct AveragedSystem {
     bool keeps_discs = true; ///< else collisions per disc are NaN
     bool is_periodic_x = false, is_periodic_y = false; ///< a drift along it is no temperature
     bool has_flow = false;      ///< the kinetic part is relative to a flow, and taken from samples
-    bool keeps_energy = true;   ///< of motion; if false samples are close to each other
+    bool keeps_energy = true;   ///< energy of motion; if false samples are close to each other
     std::int64_t last_step = 0; ///< the step that the run is to come to
 };
 

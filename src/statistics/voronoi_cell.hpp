@@ -31,7 +31,7 @@ public:
 private:
     struct Corner {
         double x = 0, y = 0;
-        int point = no_point; ///< of the side from here to the next corner, counterclockwise
+        int point = no_point; ///< the side from here to the next corner, counterclockwise
     };
 
     std::vector<Corner> corners_, before_;

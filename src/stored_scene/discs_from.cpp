@@ -16,7 +16,7 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t block = 1 << 16;
-constexpr std::array columns = {"x", "y", "vx", "vy"}; // of a line of a disc, behind its id
+constexpr std::array columns = {"x", "y", "vx", "vy"}; // a disc's line, behind its id
 
 [[noreturn]] void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});

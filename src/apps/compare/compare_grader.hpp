@@ -71,9 +71,9 @@ private:
     RuleSetting setting_;
     double tolerance_, unit_;
     StudentOutput output_;
-    std::vector<StudentLine> lines_;        ///< of the step, by id
+    std::vector<StudentLine> lines_;        ///< the step's lines, by id
     std::optional<SharedState> before_;     ///< at the written step before, to go on from
-    std::optional<SharedState> own_before_; ///< the same step by the student's lines
+    std::optional<SharedState> own_before_; ///< that step by the student's lines
     std::int64_t written_before_ = 0;
     std::vector<double> digits_before_; ///< StudentLine::last_digit
     std::vector<bool> is_counter_unknown_;

@@ -26,8 +26,8 @@ struct SharedState {
 };
 
 struct Explanation {
-    const char* rule;               ///< of docs/classroom.md
-    const char* mistake;            ///< of a program that gives these lines
+    const char* rule;               ///< a rule in docs/classroom.md
+    const char* mistake;            ///< what a program does that gives these lines
     bool is_of_equal_times = false; ///< a wrong choice between collisions at one time
     std::size_t n_unexplained = 0;  ///< lines that it does not give
 };

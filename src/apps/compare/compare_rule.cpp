@@ -218,7 +218,7 @@ void PlainRule::bounce(Disc& disc, double m, double t) const {
     advance(disc, m + t);
     bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
     bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
-    if (!x_reverses && !y_reverses) { // of every_candidate: another collision came before
+    if (!x_reverses && !y_reverses) { // every_candidate: another collision came before
         const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
             return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;
         };

@@ -21,7 +21,7 @@ struct RunResult {
     std::int64_t first_step = 0, last_step = 0;
     int ranks = 1;
     int threads = 1;         ///< per rank; the largest if ranks differ
-    double wall_seconds = 0; ///< of stepping, on the slowest rank; files have their own phases
+    double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
     Averages averages;       ///< over the run, restarts included
     std::vector<MeasuredTable> tables; ///< the measurements of the scene
     RollbackCounts runs;               ///< in the event-driven method
@@ -65,7 +65,7 @@ std::string doubts_of_averages(const Averages& averages);
 
 /// An estimate of what a time-stepped run misses; docs/understanding/pressure.md has the formula.
 struct LostCollisions {
-    double share = 0;          ///< of the collisions of pairs that the event-driven method finds
+    double share = 0;          ///< share of the pair collisions that the event-driven method finds
     double pressure_error = 0; ///< relative; negative if the pressure is too low
 };
 LostCollisions lost_collisions(const Scene& scene, const RunResult& result);

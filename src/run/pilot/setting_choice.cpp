@@ -16,12 +16,12 @@ namespace {
 
 constexpr double approach = 10;         ///< collisions of a disc before a trial measures
 constexpr double certainty = 2;         ///< standard errors that are added to a measured error
-constexpr double most_collisions = 4e6; ///< of pairs, per trial
+constexpr double most_collisions = 4e6; ///< pairs, per trial
 constexpr double least_accuracy = 4 * certainty /
                                   2000;   ///< four times the error that 4e6 collisions resolve
 constexpr double per_disc = 100;          ///< collisions of a disc per trial at least, because
                                           ///< errors in dense gases show late
-constexpr double fewest_collisions = 2e4; ///< of pairs: fewer are too short to be timed ...
+constexpr double fewest_collisions = 2e4; ///< pairs: fewer are too short to be timed ...
 constexpr double long_enough =
     2e4; ///< ... unless it has this many disc-steps, or this many steps, however few discs meet
 constexpr double long_enough_steps = 1e3;
@@ -64,7 +64,7 @@ std::int64_t sixteenth_of_trial(double n_discs, double pairs_per_step, double ac
 struct Pilot {
     const Scene& scene;
     const TrialStart& start;
-    std::int64_t sixteenth; ///< of a trial, in steps
+    std::int64_t sixteenth; ///< a sixteenth of a trial, in steps
     const Communicator& communicator;
     const Tuning& tuning;
 };

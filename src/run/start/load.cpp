@@ -102,7 +102,7 @@ void check_folder(const Scene& scene, Problems& problems) {
 /// Loads the scene and opens its input. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
                  const Communicator& ranks, SceneSource& source) {
-    PlaceProblems found; // of all ranks together: one rank lists each
+    PlaceProblems found; // all ranks' together: one rank lists each
     Problems& problems = found.problems;
     bool is_readable = true;
     if (ranks.is_root()) {

@@ -25,7 +25,7 @@ struct RunOptions {
     int digits = round_trip_digits;
     std::string output; ///< a file for the lines of text; empty for standard output
     std::string report; ///< empty for none
-    std::string folder; ///< of the command line; also among the overrides
+    std::string folder; ///< by the command line; also among the overrides
     bool quiet = false;
     bool check = false; ///< hold every step to its invariants
 

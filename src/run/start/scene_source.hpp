@@ -22,7 +22,7 @@ inline void append(std::vector<Problem>& problems, const std::vector<Problem>& m
 }
 
 struct SceneSource {
-    SceneText text; ///< the same on all ranks
+    SceneText text; ///< equal on all ranks
     /// On rank 0: the input after the text, at the first line of discs if there are any.
     std::unique_ptr<std::istream> stream{};
 };

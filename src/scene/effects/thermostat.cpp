@@ -154,7 +154,7 @@ public:
     using ThermostatEffect::ThermostatEffect;
 
     void act(const SyncDiscs& at) const override {
-        double largest = 0; // of any velocity, that of a rough disc's surface as well
+        double largest = 0; // the largest velocity, surfaces of rough discs included
         for (std::size_t i = 0; i < at.discs.size(); ++i) {
             const Disc& disc = at.discs[i];
             largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
