@@ -5,6 +5,7 @@ Lengths are in the scene's unit, times in steps, velocities in lengths per step 
 the scene's unit of mass. `docs/reference/python.md` lists all there is.
 """
 
+from carrom import plot
 from carrom.checking import verify
 from carrom.checkpoints import Checkpoint
 from carrom.errors import (
@@ -23,11 +24,18 @@ from carrom.errors import (
 from carrom.frame import Frame
 from carrom.frames import Frames
 from carrom.gsd_file import to_gsd
-from carrom.physics import Measured, average, compressibility, henderson, virial_equation
+from carrom.physics import (
+    Measured,
+    average,
+    compressibility,
+    henderson,
+    quantities,
+    virial_equation,
+)
 from carrom.program import find_program, program_version
 from carrom.running import CarromWarning, resume, run
-from carrom.runs import Checkpoints, Run, read_lines
-from carrom.runs import open_run as open
+from carrom.runs import Checkpoints, Run, open_run, read_lines
+from carrom.runs import open_run as open  # noqa: F401 - see below
 from carrom.scene import read_scene, to_toml
 from carrom.slurm import SlurmError
 from carrom.sweeping import sweep
@@ -36,6 +44,7 @@ from carrom.tables import Table, Tables, read_csv
 
 __version__ = "0.3.0"
 
+# `open` is left out, so that `from carrom import *` does not replace that of Python.
 __all__ = [
     "CarromError",
     "CarromWarning",
@@ -64,8 +73,10 @@ __all__ = [
     "compressibility",
     "find_program",
     "henderson",
-    "open",
+    "open_run",
+    "plot",
     "program_version",
+    "quantities",
     "read_csv",
     "read_lines",
     "read_scene",

@@ -19,9 +19,27 @@ def package(name: str, wanted_by: str, project: str = "") -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
+        if ".so" in str(error):
+            raise MissingPackageError(_of_the_system(wanted_by, name, str(error))) from None
         raise MissingPackageError(
             f"{wanted_by} needs {name} ({error}): pip install {project or name}"
         ) from None
+
+
+def _of_the_system(wanted_by: str, name: str, error: str) -> str:
+    """Say what a package that is installed lacks. OVITO needs libraries for graphics."""
+    text = f"{wanted_by}: {name} is installed, but lacks a library of the system ({error})"
+    if name.startswith("ovito"):
+        text += "; on Debian try: apt-get install libegl1 libgl1 libopengl0 libxkbcommon0"
+    return text
+
+
+def positions_of(frame: Frame, wanted_by: str) -> Array:
+    """Return positions (N, 2), or say which field of the scene is missing."""
+    try:
+        return frame.x
+    except NoDataError as error:
+        raise NoDataError(f"{wanted_by} needs the field position: {error}") from None
 
 
 def in_three_dimensions(vectors: Array, dtype: npt.DTypeLike = np.float64) -> Array:
@@ -39,12 +57,18 @@ def velocities_of(frame: Frame) -> Array | None:
         return None
 
 
+def _room(frame: Frame) -> Array:
+    """Return a periodic box in which no disc has neighbours across a wall, (2,)."""
+    return np.where(frame.periodic, 1.0, 2.0) * frame.box
+
+
 def to_freud(frame: Frame) -> Any:
     """See `Frame.to_freud`."""
     freud = package("freud", "to_freud", "freud-analysis")
-    room = np.where(frame.periodic, 1.0, 2.0) * frame.box
+    centres = positions_of(frame, "to_freud")
+    room = _room(frame)
     box = freud.box.Box(Lx=room[0], Ly=room[1], is2D=True)
-    points = in_three_dimensions(frame.x[frame.present] - frame.box / 2, np.float32)
+    points = in_three_dimensions(centres[frame.present] - frame.box / 2, np.float32)
     return box, points
 
 
@@ -59,12 +83,15 @@ def to_mdanalysis(frames: Sequence[Frame]) -> Any:
     universe.add_TopologyAttr("masses", first.mass)
     universe.add_TopologyAttr("radii", first.radius)
     universe.add_TopologyAttr("types", [str(number + 1) for number in first.species])
-    positions = np.stack([in_three_dimensions(frame.x, np.float32) for frame in frames])
+    positions = np.stack(
+        [in_three_dimensions(positions_of(frame, "to_mdanalysis"), np.float32) for frame in frames]
+    )
     moving = [velocities_of(frame) for frame in frames]
     velocities = None
     if all(v is not None for v in moving):
         velocities = np.stack([in_three_dimensions(v, np.float32) for v in moving if v is not None])
-    dimensions = np.array([[*frame.box, 1, 90, 90, 90] for frame in frames], dtype=np.float32)
+    rooms = [_room(frame) for frame in frames]
+    dimensions = np.array([[*room, room.max(), 90, 90, 90] for room in rooms], dtype=np.float32)
     universe.load_new(
         positions,
         format=memory.MemoryReader,
@@ -99,7 +126,7 @@ def to_ase(frame: Frame) -> Any:
     ase = package("ase", "to_ase")
     atoms = ase.Atoms(
         numbers=np.zeros(frame.n_discs, dtype=int),
-        positions=in_three_dimensions(frame.x),
+        positions=in_three_dimensions(positions_of(frame, "to_ase")),
         masses=frame.mass,
         cell=[*frame.box, 1.0],
         pbc=[*frame.periodic, False],
@@ -109,7 +136,7 @@ def to_ase(frame: Frame) -> Any:
     atoms.set_array("species", np.array(frame.species))
     velocities = velocities_of(frame)
     if velocities is not None:
-        atoms.set_array("velocity", in_three_dimensions(velocities))
+        atoms.set_velocities(in_three_dimensions(velocities))
     return atoms
 
 
@@ -128,7 +155,7 @@ def fill_ovito(data: Any, frame: Frame) -> None:
     data.attributes["Timestep"] = frame.step
     data.attributes["Time"] = frame.time
     particles = data.create_particles(count=frame.n_discs)
-    particles.create_property("Position", data=in_three_dimensions(frame.x))
+    particles.create_property("Position", data=in_three_dimensions(positions_of(frame, "to_ovito")))
     particles.create_property("Particle Identifier", data=np.arange(frame.n_discs))
     particles.create_property("Radius", data=frame.radius)
     particles.create_property("Mass", data=frame.mass)

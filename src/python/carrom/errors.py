@@ -31,7 +31,7 @@ class ProgramError(CarromError):
 
     Attributes:
         returncode: the exit code; negative for a signal, as in `subprocess`
-        lines: what the program printed to standard error, line by line
+        lines: what the program printed to standard error, line by line, in Python's words
         command: the words of the command line
     """
 

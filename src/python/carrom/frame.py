@@ -15,11 +15,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from carrom import display, labelled
 from carrom.errors import NoDataError
 
 if TYPE_CHECKING:
     import ase
     import freud
+    import pandas
+    import xarray
     from MDAnalysis import Universe
     from ovito.data import DataCollection
 
@@ -136,6 +139,20 @@ class Frame(ABC):
         strip[order] = np.arange(self.n_discs) * ranks // max(self.n_discs, 1)
         return strip
 
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return a pandas DataFrame with a row for each disc: `x`, `y`, `vx`, `vy`, `radius` ...
+
+        It has what the frame has; `attrs` has `step` and `box`.
+        """
+        return labelled.frame_to_pandas(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return an xarray Dataset with the dimensions `disc` and `axis`.
+
+        Variables are `position`, `velocity`, `radius`, `mass` and what else the frame has.
+        """
+        return labelled.frame_to_xarray(self)
+
     def to_freud(self) -> tuple[freud.box.Box, npt.NDArray[np.float32]]:
         """Return (box, points) for freud's `compute`. Its boxes are centred on the origin.
 
@@ -159,7 +176,8 @@ class Frame(ABC):
         """Return ASE Atoms in a cell of height 1. Numbers stay in the scene's units.
 
         Symbols are X. `arrays` has `radius` and `species`, `info` has `step` and `time`.
-        Velocities go to `arrays["velocity"]`: ASE's own momenta have a unit of time.
+        `get_velocities` has velocities in lengths per step, so `get_kinetic_energy` is that of the
+        frame. `get_temperature` counts three directions and takes eV, so it is of no use here.
         """
         from carrom import adapters
 
@@ -173,8 +191,25 @@ class Frame(ABC):
         data: DataCollection = adapters.to_ovito(self)
         return data
 
+    def _repr_html_(self) -> str:
+        facts = {
+            "discs": self.n_discs,
+            "box": " x ".join(f"{edge:.9g}" for edge in self.box.tolist()),
+            "packing": f"{self.packing:.6g}" if _has(self, "x") else None,
+            "kinetic energy": f"{self.kinetic_energy:.9g}" if _has(self, "v") else None,
+        }
+        return display.facts(f"frame of step {self.step}", facts) + display.picture(self)
+
     def __len__(self) -> int:
         return self.n_discs
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of step {self.step}: {self.n_discs} discs>"
+
+
+def _has(frame: Frame, name: str) -> bool:
+    try:
+        getattr(frame, name)
+    except NoDataError:
+        return False
+    return True

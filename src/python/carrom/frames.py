@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from carrom import h5
+from carrom import display, h5, labelled
 from carrom.errors import FileError, NoDataError
 from carrom.frame import Array, Frame
 from carrom.trajectory_frame import System, TrajectoryFrame
@@ -20,6 +20,8 @@ from carrom.trajectory_frame import System, TrajectoryFrame
 if TYPE_CHECKING:
     import ase
     import freud
+    import pandas
+    import xarray
     from MDAnalysis import Universe
     from ovito.pipeline import Pipeline
 
@@ -99,12 +101,46 @@ class Frames(Sequence[Frame]):
         """Whether frames have a field of H5MD, for example "velocity"."""
         return self._file is not None and f"particles/discs/{name}" in self._file
 
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields that frames have, as H5MD has them."""
+        discs: Any = {} if self._file is None else self._file["particles/discs"]
+        return [name for name in discs if name != "box" and "value" in discs[name]]
+
+    def close(self) -> None:
+        """Close the file. What frames have read stays; more cannot be read."""
+        if self._file is not None:
+            self._file.close()
+
+    def _is_closed(self) -> bool:
+        return self._file is not None and not self._file
+
+    def __enter__(self) -> Frames:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     def field(self, name: str, index: int) -> Array:
         """Return a field of the file's frame `index`, as it is stored."""
+        if self._is_closed():
+            raise ValueError(f"{self._owner}: the trajectory is closed")
         if not self.has(name):
-            raise NoDataError(f"{self._owner}: frames have no {name}; see output.trajectory.fields")
+            known = ", ".join(self.fields) or "no field"
+            raise NoDataError(
+                f"{self._owner}: frames have no {name}, only {known}; output.trajectory.fields of "
+                "the scene says what frames have"
+            )
         values: Array = h5.read(self._file[f"particles/discs/{name}/value"], index)
         return values
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return one pandas DataFrame, its index being `step` and `disc`. See `Frame.to_pandas`."""
+        return labelled.frames_to_pandas(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return one xarray Dataset with the dimension `step` too. See `Frame.to_xarray`."""
+        return labelled.frames_to_xarray(self)
 
     def to_freud(self) -> list[tuple[freud.box.Box, npt.NDArray[np.float32]]]:
         """Return (box, points) of each frame. See `Frame.to_freud`."""
@@ -114,8 +150,12 @@ class Frames(Sequence[Frame]):
         """Return an MDAnalysis Universe of all frames, in memory, with the right `dt`.
 
         Atoms have `radii`, `masses`, `types` (the species) and, where frames have them,
-        velocities. Numbers stay in the scene's units; MDAnalysis calls them Angstrom and ps. The
-        box has height 1. Departed discs stay in, at rest beyond their open side.
+        velocities. Numbers stay in the scene's units; MDAnalysis calls them Angstrom and ps.
+        Departed discs stay in, at rest beyond their open side.
+
+        MDAnalysis repeats its boxes in all directions. So between walls the box is twice as long,
+        and it is as high as it is long: no disc is near an image that is not there. An RDF of
+        MDAnalysis counts shells of a sphere; times 2 r / (height of the box) it is that of discs.
 
         Raises:
             NoDataError: there are no frames, or they have no positions
@@ -170,6 +210,17 @@ class Frames(Sequence[Frame]):
         if len(self) == 0:
             return f"<no frames of {self._owner}>"
         return f"<{len(self)} frames of {self._owner}, steps {self.steps[0]} to {self.steps[-1]}>"
+
+    def _repr_html_(self) -> str:
+        if len(self) == 0:
+            return display.facts(repr(self).strip("<>"), {})
+        facts = {
+            "frames": len(self),
+            "steps": f"{self.steps[0]} to {self.steps[-1]}",
+            "discs": self.n_discs,
+            "fields": ", ".join(self.fields),
+        }
+        return display.facts(f"frames of {self._owner}", facts) + display.picture(self[-1])
 
     def __getstate__(self) -> dict[str, Any]:
         """Let other processes open the file for themselves."""

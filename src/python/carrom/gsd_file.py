@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from carrom.adapters import in_three_dimensions, package, velocities_of
+from carrom.adapters import in_three_dimensions, package, positions_of, velocities_of
 from carrom.errors import NoDataError
 from carrom.frame import Frame
 from carrom.runs import Run
@@ -43,7 +43,7 @@ def _moment(hoomd: Any, frame: Frame) -> Any:
     moment.configuration.box = [*frame.box, 0, 0, 0, 0]
     discs = moment.particles
     discs.N = frame.n_discs
-    discs.position = in_three_dimensions(frame.x - frame.box / 2, np.float32)
+    discs.position = in_three_dimensions(positions_of(frame, "to_gsd") - frame.box / 2, np.float32)
     velocities = velocities_of(frame)
     if velocities is not None:
         discs.velocity = in_three_dimensions(velocities, np.float32)

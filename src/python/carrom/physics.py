@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+import numpy.typing as npt
 
 from carrom.errors import NoDataError
 from carrom.runs import Run
-
-Number = TypeVar("Number", float, np.ndarray[Any, np.dtype[np.float64]])
 
 # Padé approximant [5/4] in the packing fraction of the virial series with the coefficients B_n /
 # B_2^(n-1), n = 2 to 10 (Clisby and McCoy, J. Stat. Phys. 122, 15 (2006)).
@@ -36,21 +35,39 @@ class Measured(NamedTuple):
     error: float
 
 
-def henderson(packing: Number) -> Number:
+Array = npt.NDArray[np.float64]
+
+
+def _number(packing: npt.ArrayLike) -> Any:
+    """Return a number as it is, and all else as an array."""
+    return packing if isinstance(packing, (int, float)) else np.asarray(packing, dtype=np.float64)
+
+
+@overload
+def henderson(packing: float) -> float: ...
+@overload
+def henderson(packing: npt.ArrayLike) -> Array: ...
+def henderson(packing: npt.ArrayLike) -> float | Array:
     """Return Z = p A / (N kT) of hard discs: Henderson, Mol. Phys. 30, 971 (1975)."""
-    return (1 + packing * packing / 8) / (1 - packing) ** 2
+    eta = _number(packing)
+    z: float | Array = (1 + eta * eta / 8) / (1 - eta) ** 2
+    return z
 
 
-def virial_equation(packing: Number) -> Number:
+@overload
+def virial_equation(packing: float) -> float: ...
+@overload
+def virial_equation(packing: npt.ArrayLike) -> Array: ...
+def virial_equation(packing: npt.ArrayLike) -> float | Array:
     """Return Z = p A / (N kT) of hard discs from ten virial coefficients, in a Padé approximant.
 
     The equations of Liu, arXiv:2010.10624, and of Luding, Phys. Rev. E 63, 042201 (2001), agree to
     0.1 % up to a packing of 0.60.
     """
-    above, below = _pade()
-    return sum(c * packing**k for k, c in enumerate(above)) / sum(  # type: ignore[return-value]
-        c * packing**k for k, c in enumerate(below)
-    )
+    eta = _number(packing)
+    above, below = (sum(c * eta**k for k, c in enumerate(row)) for row in _pade())
+    z: float | Array = above / below
+    return z
 
 
 @cache
@@ -67,14 +84,33 @@ def _pade(n: int = 4) -> tuple[list[float], list[float]]:
 
 
 def _measured(run: Run, entry: Any, name: str) -> Measured:
-    if not isinstance(entry, dict) or entry["value"] is None:
-        raise NoDataError(f"{run.name}: the report has no {name} of this scene")
+    if not _has_value(entry):
+        known = ", ".join(quantities(run)) or "none"
+        raise NoDataError(f"{run.name}: the report has no {name} of this scene; it has {known}")
     error = entry["error"]
     return Measured(float(entry["value"]), math.nan if error is None else float(error))
 
 
+def _has_value(entry: Any) -> bool:
+    return isinstance(entry, dict) and entry.get("value") is not None
+
+
+def quantities(run: Run) -> dict[str, Measured]:
+    """Return all averages that the report of a run has, by the names that `average` takes.
+
+    Raises:
+        NoDataError: the run has no report yet
+    """
+    averages = run.report["averages"]
+    return {
+        name: _measured(run, averages[name], name)
+        for name in averages
+        if _has_value(averages[name])
+    }
+
+
 def average(run: Run, name: str) -> Measured:
-    """Return one of the averages of a report.
+    """Return one of the averages of a report. `carrom.quantities` has their names.
 
     Raises:
         NoDataError: the report has no such average of this scene (null)

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from carrom.errors import ProgramNotFoundError
 from carrom.progress import Show, is_progress
+from carrom.words import in_python
 
 _ERASE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 
@@ -90,7 +91,7 @@ class Process:
         os.close(self._master)
         if interrupts:  # launchers add lines of their own
             told = [line for line in self.lines if line.startswith("stopped on request")]
-            raise KeyboardInterrupt("\n".join((told or self.lines)[-1:]))
+            raise KeyboardInterrupt("\n".join(map(in_python, (told or self.lines)[-1:])))
         return code
 
     def _read_all(self, show: Show) -> None:

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NoReturn
 
@@ -14,6 +15,8 @@ from carrom.errors import ProgramNotFoundError
 
 # Wheels hold the program; a package that was installed from the source does not.
 _BUNDLED = Path(__file__).parent / "bin" / "carrom"
+# pip puts it beside the environment's libraries, where such a program finds its MPI.
+_BUNDLED_LAUNCHER = os.path.normpath(Path(__file__).parent / "../../../../bin/mpiexec")
 _ADVICE = "build it (see docs/start/install.md), put it on PATH, or set CARROM to its path"
 
 
@@ -63,7 +66,7 @@ def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
         ProgramNotFoundError: none of them is there
     """
     named = os.fspath(launcher) if launcher is not None else os.environ.get("CARROM_MPIEXEC", "")
-    own = [str(Path(sys.prefix) / "bin" / "mpiexec")] if _BUNDLED.is_file() else []
+    own = [_BUNDLED_LAUNCHER] if _BUNDLED.is_file() else []
     for name in [named] if named else [*own, "mpiexec", "mpirun"]:
         if (found := shutil.which(name)) is not None:
             return found
@@ -86,6 +89,26 @@ def program_version(program: str | os.PathLike[str] | None = None) -> str:
     return next((word for word in words if word[:1].isdigit()), " ".join(words))
 
 
+def foreign_launcher(environment: Mapping[str, str]) -> str:
+    """Return the launcher that started this process, if the wheel's MPICH cannot work with it.
+
+    MPICH would say "unsupported PMI version PMIx" then.
+    """
+    if "PMI_RANK" in environment:
+        return ""
+    if "OMPI_COMM_WORLD_RANK" in environment:
+        return "the launcher of Open MPI"
+    return "a launcher that speaks PMIx" if "PMIX_RANK" in environment else ""
+
+
 def main() -> NoReturn:
     """Become the program: what the command `carrom` of a wheel does."""
+    if found := foreign_launcher(os.environ):
+        if os.environ.get("PMIX_RANK", "0") == "0":  # one of all says it
+            print(
+                f"carrom: {found} has started this program, which is built with MPICH; use the "
+                f"launcher of that library: {_BUNDLED_LAUNCHER} (with srun: --mpi=pmi2)",
+                file=sys.stderr,
+            )
+        sys.exit(2)
     os.execv(find_program(), ["carrom", *sys.argv[1:]])

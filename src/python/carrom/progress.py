@@ -7,8 +7,10 @@ import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from html import escape
 
 _STEP = re.compile(r"step (\d+) of (\d+) ")
+_SHARE = re.compile(r"(\d+) of (\d+)")
 
 Show = Callable[[str], None]
 
@@ -20,12 +22,20 @@ def is_progress(line: str) -> bool:
 
 def is_interactive() -> bool:
     """Whether somebody sees standard error: on a terminal or in a notebook."""
-    return sys.stderr.isatty() or "ipykernel" in sys.modules
+    return sys.stderr.isatty() or is_notebook()
+
+
+def is_notebook() -> bool:
+    """Whether this process is the kernel of a notebook."""
+    return "ipykernel" in sys.modules
 
 
 @contextmanager
 def progress_display(wanted: bool | Callable[[int, int], None] | None) -> Iterator[Show]:
-    """Give a function that shows a line of progress. The line is wiped at the end."""
+    """Give a function that shows how far a run is, in a line like "step 3 of 10".
+
+    A notebook shows a bar, a terminal a line. Both are wiped at the end.
+    """
     if callable(wanted):
         yield _caller(wanted)
         return
@@ -34,6 +44,15 @@ def progress_display(wanted: bool | Callable[[int, int], None] | None) -> Iterat
     if not wanted:
         yield lambda line: None
         return
+    show, wipe = _bar() if is_notebook() else _line()
+    try:
+        yield show
+    finally:
+        wipe()
+
+
+def _line() -> tuple[Show, Callable[[], None]]:
+    """Show progress in one line of a terminal."""
     longest = 0
 
     def show(line: str) -> None:
@@ -41,11 +60,30 @@ def progress_display(wanted: bool | Callable[[int, int], None] | None) -> Iterat
         longest = max(longest, len(line))
         print("\r" + line.ljust(longest), end="", file=sys.stderr, flush=True)
 
-    try:
-        yield show
-    finally:
+    def wipe() -> None:
         if longest:
             print("\r" + " " * longest + "\r", end="", file=sys.stderr, flush=True)
+
+    return show, wipe
+
+
+def _bar() -> tuple[Show, Callable[[], None]]:
+    """Show progress as a bar below the cell of a notebook."""
+    from IPython.display import HTML, display
+
+    handle = display(HTML(""), display_id=True)
+
+    def show(line: str) -> None:
+        handle.update(HTML(bar_html(line)))
+
+    return show, lambda: handle.update(HTML(""))
+
+
+def bar_html(line: str) -> str:
+    """Return a bar, as far as the line says, and the line beside it."""
+    match = _SHARE.search(line)
+    done, whole = (match[1], match[2]) if match else ("0", "1")
+    return f'<progress value="{done}" max="{whole}"></progress> {escape(line)}'
 
 
 def _caller(function: Callable[[int, int], None]) -> Show:

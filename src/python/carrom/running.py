@@ -28,6 +28,7 @@ from carrom.program import find_launcher, find_program
 from carrom.progress import progress_display
 from carrom.runs import SCENE_FILES, Run
 from carrom.scene import SceneLike, flattened, read_scene, scene_file, set_words
+from carrom.words import in_python
 
 ProgressLike = Union[bool, Callable[[int, int], None], None]
 
@@ -212,7 +213,8 @@ def _execute(
     _raise_for(code, process.lines, command, folder)
     for line in process.lines:
         if line.startswith("warning: "):
-            warnings.warn(line.removeprefix("warning: "), CarromWarning, stacklevel=3)
+            text = in_python(line.removeprefix("warning: "))
+            warnings.warn(text, CarromWarning, stacklevel=3)
     result = Run(folder)
     result.log = process.lines
     return result
@@ -235,11 +237,12 @@ def _raise_for(code: int, lines: list[str], command: list[str], folder: Path) ->
     if code == 0:
         return
     if code in ERROR_OF_CODE:
-        raise ERROR_OF_CODE[code](lines, code, command)
+        raise ERROR_OF_CODE[code]([in_python(line) for line in lines], code, command)
     number = -code if code < 0 else code - 128
     ending = f"exit code {code}"
     if number in set(signal.Signals):
         ending = f"signal {signal.Signals(number).name}"
     kept = any((folder / "checkpoints").glob("checkpoint-*.h5"))
     advice = f"; carrom.resume({str(folder)!r}) goes on from the newest checkpoint" if kept else ""
+    lines = [in_python(line) for line in lines]
     raise ProgramError([*lines, f"carrom ended with {ending}{advice}"], code, command)

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, overload
 
 import h5py
 import numpy as np
 
-from carrom import h5
+from carrom import display, h5
 from carrom.checking import check as check_file
 from carrom.checkpoints import Checkpoint
 from carrom.errors import FileError, NoDataError
@@ -205,9 +205,42 @@ class Run:
             raise NoDataError(f"{self.name}: is one file; only a folder can be gone on with")
         return resume(self.folder, steps=steps, **options)
 
+    def close(self) -> None:
+        """Close the trajectory. The next access to `frames` opens it again."""
+        if self._frames is not None:
+            self._frames[1].close()
+            self._frames = None
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _repr_html_(self) -> str:
+        report = self.report if self.has_report else {}
+        z = report.get("compressibility") or {}
+        facts = {
+            "state": "finished" if self.is_finished else "not finished",
+            "steps": int(report["first_step"]) + int(report["steps"]) if report else None,
+            "discs": report.get("discs"),
+            "packing": report.get("packing"),
+            "Z = P A / (N kT)": _with_error(z) if z.get("value") is not None else None,
+            "state hash": report.get("state_hash"),
+            "frames": len(self.frames) or None,
+            "checkpoints": len(self.checkpoints) or None,
+            "tables": ", ".join(self.tables) or None,
+        }
+        return display.facts(f"run {self.name}", facts)
+
     def __repr__(self) -> str:
         state = "finished" if self.is_finished else "not finished"
         return f"<Run {self.name}, {state}>" if self.folder else f"<Run of the file {self.name}>"
+
+
+def _with_error(entry: Mapping[str, Any]) -> str:
+    error = entry["error"]
+    return f"{entry['value']:.6g}" + ("" if error is None else f" +- {error:.1g}")
 
 
 class Checkpoints(Sequence[Checkpoint]):
@@ -237,6 +270,10 @@ class Checkpoints(Sequence[Checkpoint]):
 
     def __iter__(self) -> Iterator[Checkpoint]:
         return (self[place] for place in range(len(self)))
+
+    def _repr_html_(self) -> str:
+        steps = {path.name: f"step {Checkpoint(path).step}" for path in self.paths}
+        return display.facts(f"checkpoints of {self._owner}", steps)
 
     def __repr__(self) -> str:
         return f"<{len(self)} checkpoints of {self._owner}>"

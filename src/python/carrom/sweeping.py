@@ -6,7 +6,6 @@ from __future__ import annotations
 import concurrent.futures
 import operator
 import os
-import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
@@ -16,7 +15,7 @@ from typing import Any
 from carrom.errors import CarromError, InputError
 from carrom.process import process_watch
 from carrom.program import find_launcher, find_program
-from carrom.progress import is_interactive
+from carrom.progress import progress_display
 from carrom.running import resume, run
 from carrom.scene import SceneLike
 from carrom.slurm import submit
@@ -28,7 +27,7 @@ _SECONDS_BETWEEN_LOOKS = 0.5
 
 def sweep(
     scene: SceneLike,
-    grid: Mapping[str, Sequence[Any]],
+    grid: Mapping[str, Iterable[Any]],
     workers: int | None = None,
     folder: str | os.PathLike[str] = "sweep",
     *,
@@ -97,9 +96,11 @@ def _run_all(
     sweep: Sweep, points: Sequence[Point], workers: int, jobs: dict[str, Any], progress: bool | None
 ) -> None:
     """Run points side by side. Ctrl-C lets all runs store a checkpoint."""
-    is_shown = progress if progress is not None else is_interactive()
     stop = threading.Event()
-    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+    with (
+        progress_display(progress) as show,
+        concurrent.futures.ThreadPoolExecutor(workers) as pool,
+    ):
         futures = {pool.submit(_run_point, point, jobs, stop): point for point in points}
         try:
             for done, future in enumerate(_completed(futures), 1):
@@ -107,16 +108,11 @@ def _run_all(
                     if not isinstance(error, CarromError):
                         raise error
                     sweep.failures.append((futures[future], error))
-                if is_shown:
-                    text = f"\r{done} of {len(points)} runs done, {len(sweep.failures)} failed"
-                    print(text, end="", file=sys.stderr, flush=True)
+                show(f"{done} of {len(points)} runs done, {len(sweep.failures)} failed")
         except BaseException:
             stop.set()
             pool.shutdown(wait=True, cancel_futures=True)
             raise
-        finally:
-            if is_shown and points:
-                print(file=sys.stderr)
 
 
 def _completed(futures: Iterable[Future[None]]) -> Iterator[Future[None]]:

@@ -11,10 +11,11 @@ import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NoReturn, Union
+from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
 
+from carrom import display, labelled
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.physics import average, compressibility
 from carrom.runs import SCENE_FILES, Run
@@ -28,6 +29,10 @@ from carrom.scene import (
     with_absolute_files,
 )
 from carrom.tables import Table
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 Quantity = Callable[[Run], Union[float, tuple[float, float]]]
 
@@ -182,9 +187,9 @@ class Sweep:
         """One row for each point of the grid that has finished runs.
 
         Columns are the keys, `runs` (how many), then `NAME` and `NAME_error` for the averages of
-        the report, `Z` (see `carrom.compressibility`), `packing`, `wall_seconds`, and the
-        quantities. An error is one standard error: over the repeats where there are several, else
-        that of the report. A number that a scene does not have is nan.
+        the report, `compressibility` (also as `Z`), `packing`, `wall_seconds`, and the quantities.
+        An error is one standard error: over the repeats where there are several, else that of the
+        report. A number that a scene does not have is nan.
         """
         rows: list[dict[str, Any]] = []
         for values, points in itertools.groupby(self.points, key=lambda point: point.values):
@@ -195,9 +200,33 @@ class Sweep:
         columns = {name: _column([row[name] for row in rows]) for name in names}
         return Table.from_columns(columns)
 
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return the table as a pandas DataFrame."""
+        return self.table.to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return the table as an xarray Dataset whose dimensions are the grid's keys.
+
+        Points without a finished run are nan.
+        """
+        values = {key: list(dict.fromkeys(p.values[key] for p in self.points)) for key in self.keys}
+        return labelled.grid_to_xarray(self.table, values)
+
+    def _repr_html_(self) -> str:
+        title = repr(self).strip("<>")
+        shown = [
+            *self.keys,
+            "runs",
+            "collision_frequency",
+            "compressibility",
+            "compressibility_error",
+        ]
+        return display.rows(title, shown, self.table[shown].tolist())
+
     def _functions(self) -> dict[str, Quantity]:
         functions: dict[str, Quantity] = {name: _averager(name) for name in AVERAGES}
-        functions |= {"Z": compressibility, "packing": _reporter("packing")}
+        functions |= {"Z": compressibility, "compressibility": compressibility}
+        functions |= {"packing": _reporter("packing")}
         functions |= {"wall_seconds": _reporter("wall_seconds")}
         return functions | dict(self.quantities)
 
@@ -248,7 +277,7 @@ def _column(values: list[Any]) -> Any:
 
 def grid_points(
     scene: SceneLike,
-    grid: Mapping[str, Sequence[Any]],
+    grid: Mapping[str, Iterable[Any]],
     folder: Path,
     repeats: int,
     overrides: Mapping[str, Any],
@@ -281,7 +310,7 @@ def grid_points(
 
 
 def _grid_values(
-    grid: Mapping[str, Sequence[Any]], overrides: Mapping[str, Any]
+    grid: Mapping[str, Iterable[Any]], overrides: Mapping[str, Any]
 ) -> dict[str, list[Any]]:
     """Return the grid by the program's keys, with numbers of Python.
 

@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from carrom.errors import FileError, MissingPackageError, NoDataError
+from carrom import display, labelled
+from carrom.errors import FileError, NoDataError
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
 _WHOLE = ("count", "neighbours", "pairs", "steps", "step", "collisions")
 
@@ -58,13 +60,19 @@ class Table(np.ndarray[Any, np.dtype[np.void]]):
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the table as a pandas DataFrame; remarks go to its `attrs`."""
-        try:
-            import pandas
-        except ImportError:
-            raise MissingPackageError("to_pandas needs pandas: pip install pandas") from None
-        frame = pandas.DataFrame({name: np.asarray(self[name]) for name in self.columns})
-        frame.attrs["remarks"] = list(self.remarks)
-        return frame
+        return labelled.table_to_pandas(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return the table as an xarray Dataset with the dimension `row`."""
+        return labelled.table_to_xarray(self)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.columns)
+
+    def _repr_html_(self) -> str | None:
+        if self.dtype.names is None or self.ndim != 1:
+            return None  # a column is shown as any array
+        return display.rows("table", self.columns, self.tolist())
 
 
 def _is_whole(name: str) -> bool:
@@ -126,6 +134,21 @@ class Tables(Mapping[str, Table]):
 
     def __len__(self) -> int:
         return len(self._paths())
+
+    def to_pandas(self) -> dict[str, pandas.DataFrame]:
+        """Return all tables as pandas DataFrames, by name."""
+        return {name: table.to_pandas() for name, table in self.items()}
+
+    def to_xarray(self) -> dict[str, xarray.Dataset]:
+        """Return all tables as xarray Datasets, by name."""
+        return {name: table.to_xarray() for name, table in self.items()}
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    def _repr_html_(self) -> str:
+        tables = {name: ", ".join(table.columns) for name, table in self.items()}
+        return display.facts(f"tables of {self._owner} and their columns", tables)
 
     def __repr__(self) -> str:
         return f"<tables of {self._owner}: {', '.join(self) or 'none'}>"

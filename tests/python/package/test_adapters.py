@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from pathlib import Path
 
@@ -54,7 +55,7 @@ def test_mdanalysis_has_the_frames(mixture: carrom.Run) -> None:
     for moment, frame in zip(universe.trajectory, frames):
         assert np.array_equal(moment.positions[:, :2], frame.x)
         assert np.array_equal(moment.velocities[:, :2], frame.v)
-        assert moment.dimensions.tolist() == [20, 20, 1, 90, 90, 90]
+        assert moment.dimensions.tolist() == [20, 20, 20, 90, 90, 90]
     assert universe.atoms.radii.tolist() == [1.0] * 10 + [0.5] * 40
     assert universe.atoms.masses.tolist() == [4.0] * 10 + [1.0] * 40
     assert universe.atoms.types.tolist() == ["1"] * 10 + ["2"] * 40
@@ -65,12 +66,32 @@ def test_mdanalysis_has_the_frames(mixture: carrom.Run) -> None:
         carrom.adapters.to_mdanalysis([frames[0], frames[1], frames[3]])
 
 
+@pytest.mark.parametrize("which", ["mixture", "run"])
+def test_mdanalysis_finds_the_neighbours(which: str, request: pytest.FixtureRequest) -> None:
+    """Also between walls, and as many as counting all pairs gives, in its RDF too."""
+    pytest.importorskip("MDAnalysis", reason="MDAnalysis is not installed")
+    from MDAnalysis.analysis.rdf import InterRDF
+    from MDAnalysis.lib.distances import self_capped_distance
+
+    source: carrom.Run = request.getfixturevalue(which)
+    universe = source.frames[-1].to_mdanalysis()
+    wanted = neighbours(source.frames[-1], 3.0)
+    pairs = self_capped_distance(
+        universe.atoms.positions, 3.0, box=universe.dimensions, return_distances=False
+    )
+    assert len(pairs) == wanted
+    discs = universe.atoms
+    rdf = InterRDF(discs, discs, nbins=3, range=(0, 3.0), norm="none", exclusion_block=(1, 1))
+    assert rdf.run().results.count.sum() == 2 * wanted
+
+
 def test_ase_has_the_discs(mixture: carrom.Run) -> None:
     pytest.importorskip("ase", reason="ASE is not installed")
     frame = mixture.checkpoints[-1]
     atoms = frame.to_ase()
     assert np.array_equal(atoms.positions[:, :2], frame.x)
-    assert np.array_equal(atoms.get_array("velocity")[:, :2], frame.v)
+    assert atoms.get_velocities()[:, :2] == pytest.approx(frame.v, rel=1e-15)
+    assert atoms.get_kinetic_energy() == pytest.approx(frame.kinetic_energy, rel=1e-14)
     assert atoms.cell.lengths().tolist() == [20, 20, 1]
     assert atoms.pbc.tolist() == [True, True, False]
     assert np.array_equal(atoms.get_masses(), frame.mass)
@@ -123,3 +144,32 @@ def test_a_missing_package_says_how_to_get_it(
         monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(carrom.MissingPackageError, match=f"pip install {package}"):
         getattr(run.frames[0], f"to_{method}")()
+
+
+def test_a_library_of_the_system_that_ovito_lacks_is_named(
+    run: carrom.Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "ovito").mkdir()
+    lacking = "raise ImportError('libEGL.so.1: cannot open shared object file')\n"
+    (tmp_path / "ovito/__init__.py").write_text("")
+    for name in ("data", "pipeline"):
+        (tmp_path / f"ovito/{name}.py").write_text(lacking)
+    for name in [name for name in sys.modules if name.split(".")[0] == "ovito"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    for source in (run.frames[0], run.frames):
+        with pytest.raises(carrom.MissingPackageError, match=r"libEGL.*apt-get install libegl1"):
+            source.to_ovito()  # type: ignore[attr-defined]
+
+
+def test_a_field_that_is_missing_is_named(program: Path, tmp_path: Path) -> None:
+    scene = gas(steps=2)
+    scene["output"] = {"trajectory": {"every_steps": 1, "fields": ["velocity"]}}
+    frame = carrom.run(scene, folder=tmp_path / "run").frames[0]
+    wanted = "frames have no position, only velocity; output.trajectory.fields"
+    for method, package in (("freud", "freud"), ("mdanalysis", "MDAnalysis"), ("ase", "ase")):
+        if importlib.util.find_spec(package) is not None:
+            with pytest.raises(carrom.NoDataError, match=f"to_{method} needs .*{wanted}"):
+                getattr(frame, f"to_{method}")()
+    with pytest.raises(carrom.NoDataError, match=wanted):
+        frame.x  # noqa: B018

@@ -60,3 +60,27 @@ def test_averages_that_a_scene_does_not_have_are_errors(program: Path, tmp_path:
         carrom.compressibility(start)
     with pytest.raises(carrom.NoDataError, match="the report has no mean_speed"):
         carrom.average(start, "mean_speed")
+
+
+def test_arrays_and_lists_are_taken() -> None:
+    for function in (carrom.henderson, carrom.virial_equation):
+        wanted = [function(0.1), function(0.5)]
+        assert isinstance(wanted[0], float)
+        for packing in ([0.1, 0.5], (0.1, 0.5), np.array([0.1, 0.5])):
+            assert function(packing).tolist() == wanted
+
+
+def test_quantities_are_those_of_the_report(run: carrom.Run) -> None:
+    def has_value(entry: object) -> bool:
+        return isinstance(entry, dict) and entry["value"] is not None
+
+    found = carrom.quantities(run)
+    averages = run.report["averages"]
+    assert set(found) == {name for name, entry in averages.items() if has_value(entry)}
+    for name, (value, _) in found.items():
+        assert value == averages[name]["value"]
+        assert carrom.average(run, name).value == value
+    with pytest.raises(
+        carrom.NoDataError, match=r"no presure of this scene; it has .*wall_pressure"
+    ):
+        carrom.average(run, "presure")

@@ -135,7 +135,15 @@ def test_curves_show_the_tables(run: carrom.Run) -> None:
     assert np.abs(energy.lines[0].get_ydata()).max() < 1e-6
     drawn = sum(float(np.sum(patch.get_data().values)) for patch in collisions.patches)
     assert drawn == len(run.collisions)
-    assert len(plot.measurements(run)) == 4
+    drawn = [ax.get_title() for ax in plot.measurements(run)]
+    assert drawn == [
+        "displacement",
+        "radial distribution",
+        "speeds",
+        "thermo",
+        "velocities",
+        "wall pressure history",
+    ]
 
 
 def test_equation_of_state_shows_z(program: Path, tmp_path: Path) -> None:
@@ -188,3 +196,39 @@ def test_without_matplotlib_the_command_says_so(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert main(["frame", str(run.folder), "-o", "p.png"]) == 2
     assert "pip install carrom[plot]" in capsys.readouterr().err
+
+
+def test_color_is_colour(run: carrom.Run, tmp_path: Path) -> None:
+    shown = [plot.frame(run, **{name: "vx"}) for name in ("colour", "color")]
+    arrays = [ax.collections[-1].get_array() for ax in shown]
+    assert np.array_equal(arrays[0], arrays[1])
+    assert np.array_equal(arrays[0], run.frames[-1].v[:, 0])
+    with pytest.raises(TypeError, match="give one of them"):
+        plot.frame(run, colour="vx", color="vy")
+    assert main(["frame", str(run.folder), "-o", str(tmp_path / "p.png"), "--color", "vy"]) == 0
+
+
+def test_views_and_limits_may_be_arrays(run: carrom.Run) -> None:
+    ax = plot.frame(run, view=np.array([0, 0, 5, 6]), limits=np.array([1, 2]))
+    assert ax.get_xlim() == (0, 5)
+    assert ax.collections[-1].get_clim() == (1, 2)
+    with pytest.raises(ValueError, match="limits are the first and the last"):
+        plot.frame(run, limits=[1])
+
+
+def test_a_table_that_nobody_knows_is_drawn(run: carrom.Run, tmp_path: Path) -> None:
+    """A new quantity needs no line here: its table has names and remarks."""
+    (tmp_path / "scene.toml").write_text("")
+    (tmp_path / "measurements").mkdir()
+    (tmp_path / "measurements/novel.csv").write_text(
+        "# wonders: of the world; speeds in lengths per step\n"
+        "from,to,count,wonders,wonders_error\n0,2,7,5,1\n2,4,8,6,1\n"
+    )
+    (ax,) = plot.measurements(tmp_path)
+    assert ax.get_title() == "novel"
+    assert ax.get_xlabel() == "speeds (lengths per step)"
+    assert ax.get_ylabel() == "wonders"
+    (line,) = ax.lines
+    assert line.get_xydata().tolist() == [[1, 5], [3, 6]]
+    band = ax.collections[0].get_paths()[0].vertices[:, 1]
+    assert (band.min(), band.max()) == (4, 7)

@@ -18,6 +18,7 @@ from conftest import Scene, gas
 
 import carrom
 import carrom.process
+from carrom.words import in_python
 
 LONG = 50_000_000  # steps: no test waits for the end
 
@@ -94,7 +95,7 @@ def test_a_run_is_not_written_over_unless_asked(program: Path, tmp_path: Path) -
     scene = gas(steps=2) | {"output": {"text": "ends"}}
     first = carrom.run(scene, folder=tmp_path / "run")
     lines = (tmp_path / "run/lines.txt").read_bytes()
-    with pytest.raises(carrom.InputError, match="--overwrite"):
+    with pytest.raises(carrom.InputError, match="begin anew by overwrite=True"):
         carrom.run(scene, folder=tmp_path / "run", discs__seed=9)
     assert first.report["steps"] == 2
     assert (tmp_path / "run/lines.txt").read_bytes() == lines
@@ -130,7 +131,7 @@ def test_a_refused_run_leaves_the_lines_of_one_that_goes_on(program: Path, tmp_p
     carrom.run(gas(steps=2), folder=tmp_path)
     lines = tmp_path / "lines.txt"
     lines.touch()  # as another process has opened it
-    with pytest.raises(carrom.InputError, match="--overwrite"):
+    with pytest.raises(carrom.InputError, match="begin anew by overwrite=True"):
         carrom.run(gas(steps=2), folder=tmp_path)
     assert lines.exists()
 
@@ -309,3 +310,56 @@ def test_the_program_goes_on_without_python(program: Path, tmp_path: Path) -> No
 def with_package() -> dict[str, str]:
     path = str(Path(carrom.__file__).parents[1])
     return os.environ | {"PYTHONPATH": path}
+
+
+def test_a_context_closes_the_file(run: carrom.Run) -> None:
+    def is_open(path: Path) -> bool:
+        links = (os.path.realpath(link) for link in Path("/proc/self/fd").iterdir())
+        return any(link.startswith(str(path.parent / "trajectory")) for link in links)
+
+    assert run.folder is not None
+    path = Path(run.folder / "trajectory.h5").resolve()
+    run.close()
+    with carrom.open(run.folder) as opened:
+        frame, other = opened.frames[-1], opened.frames[0]
+        assert frame.x.shape == (60, 2)
+        assert is_open(path)
+    assert not is_open(path)
+    assert frame.x.shape == (60, 2)
+    with pytest.raises(ValueError, match="the trajectory is closed"):
+        other.x  # noqa: B018
+    assert len(opened.frames) == 5
+    with opened.frames as frames:
+        assert frames[0].x.shape == (60, 2)
+    assert not is_open(path)
+
+
+def test_errors_speak_python(program: Path, tmp_path: Path) -> None:
+    with pytest.raises(carrom.InputError) as caught:
+        carrom.run(gas(steps=2), folder=tmp_path / "run", threads=-1)
+    assert "threads" in str(caught.value)
+    assert "--" not in str(caught.value)
+    carrom.run(gas(steps=2), folder=tmp_path / "run")
+    with pytest.raises(carrom.InputError, match=r"go on with it by carrom\.resume\(folder\)"):
+        carrom.run(gas(steps=2), folder=tmp_path / "run")
+    said = in_python("stopped on request; carrom run -o a folder --resume goes on")
+    assert said == 'stopped on request; carrom.resume("a folder") goes on'
+
+
+def test_frames_appear_while_a_run_goes_on(program: Path, tmp_path: Path) -> None:
+    """A second after the start there are some, with nothing committed by a checkpoint."""
+    scene = gas(steps=50_000_000)
+    scene["output"] = {"trajectory": {"every_steps": 1000}}
+    (tmp_path / "scene.toml").write_text(carrom.to_toml(scene))
+    folder = tmp_path / "run"
+    command = [program, "run", tmp_path / "scene.toml", "-o", folder, "--quiet"]
+    child = subprocess.Popen(command)
+    try:
+        wait_for(folder, "trajectory.h5")
+        start = time.monotonic()
+        while len(carrom.open(folder).frames) < 2:
+            time.sleep(0.05)
+            assert time.monotonic() - start < 4
+    finally:
+        child.terminate()
+        child.wait()

@@ -30,9 +30,12 @@ def test_a_grid_becomes_one_table(program: Path, tmp_path: Path) -> None:
         error = averages["collision_frequency"]["error"]
         assert row["collision_frequency_error"] == (np.nan if error is None else error)
         assert (row["Z"], row["Z_error"]) == carrom.compressibility(run)
+        z = run.report["compressibility"]
+        assert (row["compressibility"], row["compressibility_error"]) == (z["value"], z["error"])
     alone = carrom.run(gas(steps=600), folder=tmp_path / "alone", discs__packing=0.2)
     assert sweep.runs[2].state_hash == alone.state_hash
     assert "4 of 4 done" in repr(sweep)
+    assert "4 of 4 done" in sweep._repr_html_()
 
 
 def test_errors_are_over_repeats(program: Path, tmp_path: Path) -> None:

@@ -74,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_look(command: Any) -> None:
-    command.add_argument("--colour", choices=COLOURS, default="speed")
+    command.add_argument("--colour", "--color", choices=COLOURS, default="speed")
     command.add_argument("--ranks", type=int, default=4, help="how many strips; default 4")
     command.add_argument(
         "--view", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the box"

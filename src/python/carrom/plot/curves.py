@@ -12,12 +12,11 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from carrom.errors import NoDataError
-from carrom.frame import Array
 from carrom.physics import compressibility, henderson, virial_equation
+from carrom.plot.panels import draw_table, is_drawable, middles
 from carrom.plot.sources import as_run
 from carrom.runs import Run
 from carrom.sweeps import Sweep
-from carrom.tables import Table
 
 RunLike = Union[Run, str, "os.PathLike[str]"]
 
@@ -88,10 +87,6 @@ def _draw_collisions(ax: Axes, run: Run, most_points: int = 400) -> None:
     ax.legend()
 
 
-def _middles(table: Table) -> Array:
-    return np.asarray(table["from"] + table["to"]) / 2
-
-
 def radial_distribution(
     source: RunLike | Iterable[RunLike],
     *,
@@ -114,7 +109,7 @@ def radial_distribution(
         kinds = [name for name in table.columns if name == "g" or name.startswith("g_")]
         for kind in kinds:
             label = run.name if len(sources) > 1 else kind
-            ax.plot(_middles(table) / unit, table[kind], label=label)
+            ax.plot(middles(table) / unit, table[kind], label=label)
         if len(sources) > 1 or len(kinds) > 1:
             ax.legend()
     ax.axhline(1, color="0.7", linewidth=0.8)
@@ -156,13 +151,14 @@ def equation_of_state(
 
 
 def measurements(source: RunLike) -> list[Axes]:
-    """Draw the tables of `[output.measurements]`, a panel for each kind that is there."""
+    """Draw the tables of `[output.measurements]`, a panel for each that is a curve."""
     run = as_run(source)
-    panels = [draw for name, draw in _PANELS.items() if name in run.tables]
-    if not panels:
-        raise NoDataError(f"{run.name}: has none of the tables {', '.join(_PANELS)}")
-    n_columns = min(2, len(panels))
-    n_rows = -(-len(panels) // n_columns)
+    names = [name for name, table in run.tables.items() if is_drawable(table)]
+    if not names:
+        known = ", ".join(run.tables) or "none"
+        raise NoDataError(f"{run.name}: has no table to draw; it has {known}")
+    n_columns = min(2, len(names))
+    n_rows = -(-len(names) // n_columns)
     _, grid = plt.subplots(
         n_rows,
         n_columns,
@@ -171,65 +167,8 @@ def measurements(source: RunLike) -> list[Axes]:
         layout="constrained",
     )
     axes: list[Axes] = list(grid.flat)
-    for ax in axes[len(panels) :]:
+    for ax in axes[len(names) :]:
         ax.remove()
-    for ax, draw in zip(axes, panels):
-        draw(ax, run)
-    return axes[: len(panels)]
-
-
-def _draw_radial_distribution(ax: Axes, run: Run) -> None:
-    radial_distribution(run, ax=ax)
-
-
-def _draw_velocities(ax: Axes, run: Run) -> None:
-    """Beside the normal distribution of the same variance."""
-    table = run.tables["velocities"]
-    v = _middles(table)
-    for name in ("vx", "vy"):
-        ax.plot(v, table[f"{name}_density"], drawstyle="steps-mid", label=name)
-    counts = table["vx_count"] + table["vy_count"]
-    variance = float(np.sum(counts * v**2) / max(np.sum(counts), 1))
-    if variance > 0:
-        normal = np.exp(-(v**2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
-        ax.plot(v, normal, color="black", linewidth=0.8, label="Maxwell")
-    ax.set(xlabel="velocity", ylabel="density of probability")
-    ax.legend()
-
-
-def _draw_density(ax: Axes, run: Run) -> None:
-    for name in ("x", "y"):
-        table = run.tables[f"density_{name}"]
-        ax.plot(_middles(table), table["density"], drawstyle="steps-mid", label=f"along {name}")
-    ax.set(xlabel="place", ylabel="discs per area", ylim=(0, None))
-    ax.legend()
-
-
-def _draw_wall_pressure(ax: Axes, run: Run) -> None:
-    """Over time, each side's mean in the legend. Periodic sides have none."""
-    past, mean = run.tables["wall_pressure_history"], run.tables["wall_pressure"]
-    middles = (past["from_step"] + past["to_step"]) / 2
-    for side in ("left", "right", "bottom", "top"):
-        if len(mean) and not np.isnan(mean[side][0]):
-            label = f"{side}: {mean[side][0]:.4g} ± {mean[side + '_error'][0]:.1g}"
-            ax.plot(middles, past[side], linewidth=0.8, label=label)
-    ax.set(xlabel="step", ylabel="wall pressure", ylim=(0, None))
-    ax.legend(fontsize="small")
-
-
-def _draw_displacement(ax: Axes, run: Run) -> None:
-    table = run.tables["displacement"]
-    moved = table["steps"] > 0
-    for name in ("x", "y", "sum"):
-        ax.loglog(table["steps"][moved], table[name][moved], label=name)
-    ax.set(xlabel="steps", ylabel="mean square displacement")
-    ax.legend()
-
-
-_PANELS: dict[str, Callable[[Axes, Run], None]] = {
-    "radial_distribution": _draw_radial_distribution,
-    "velocities": _draw_velocities,
-    "density_x": _draw_density,
-    "wall_pressure_history": _draw_wall_pressure,
-    "displacement": _draw_displacement,
-}
+    for ax, name in zip(axes, names):
+        draw_table(ax, run, name)
+    return axes[: len(names)]

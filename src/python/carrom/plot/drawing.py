@@ -47,13 +47,13 @@ class Look:
     """
 
     colour: str | npt.ArrayLike = "speed"
-    view: tuple[float, float, float, float] | None = None
+    view: npt.ArrayLike | None = None
     fastest: float | None = None
     ranks: int = 4
     label: str | None = None
     cmap: str | Colormap | None = None
     bar: bool = True
-    limits: tuple[float, float] | None = None
+    limits: npt.ArrayLike | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.colour, str) and self.colour not in COLOURS:
@@ -64,23 +64,40 @@ class Look:
         if self.fastest is not None and not self.fastest > 0:
             raise ValueError(f"fastest must be above 0, not {self.fastest}")
         if self.view is not None:
-            x0, y0, x1, y1 = self.view if len(self.view) == 4 else (0, 0, 0, 0)
-            if not (x0 < x1 and y0 < y1):
+            view = np.asarray(self.view, dtype=float)
+            if view.shape != (4,) or not np.all(view[:2] < view[2:]):
                 raise ValueError(f"a view is x0, y0, x1, y1 with x0 < x1, y0 < y1, not {self.view}")
+        if self.limits is not None and np.shape(self.limits) != (2,):
+            raise ValueError(f"limits are the first and the last number, not {self.limits}")
+
+
+def colour_of(
+    colour: str | npt.ArrayLike | None, color: str | npt.ArrayLike | None
+) -> str | npt.ArrayLike:
+    """Return what was given, in either spelling.
+
+    Raises:
+        TypeError: both were
+    """
+    if colour is not None and color is not None:
+        raise TypeError("colour and color are one argument; give one of them")
+    given = colour if colour is not None else color
+    return "speed" if given is None else given
 
 
 def frame(
     source: Drawable,
     step: int | None = None,
     *,
-    colour: str | npt.ArrayLike = "speed",
-    view: tuple[float, float, float, float] | None = None,
+    colour: str | npt.ArrayLike | None = None,
+    color: str | npt.ArrayLike | None = None,
+    view: npt.ArrayLike | None = None,
     fastest: float | None = None,
     ranks: int = 4,
     label: str | None = None,
     cmap: str | Colormap | None = None,
     bar: bool = True,
-    limits: tuple[float, float] | None = None,
+    limits: npt.ArrayLike | None = None,
     scene: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
@@ -89,7 +106,8 @@ def frame(
     Args:
         source: a run, frames, a frame, or a path
         step: the step to show; the last one if None
-        colour: "speed", "vx", "vy", "spin", "strip", "species", or an array (N,)
+        colour: "speed" (the default), "vx", "vy", "spin", "strip", "species", or an array (N,)
+        color: the same
         view: x0, y0, x1, y1 of the part to show, lengths
         fastest: the number of the strongest colour; 99 in 100 discs are below it if None
         ranks: how many strips there are, for colour "strip"
@@ -101,7 +119,7 @@ def frame(
         ax: where to draw; a new figure if None
     """
     shown = frame_of(source, step)
-    look = Look(colour, view, fastest, ranks, label, cmap, bar, limits)
+    look = Look(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
     picture = Picture(shown, look, scene_of(source) if scene is None else scene, ax)
     picture.show(shown)
     return picture.axes
@@ -118,7 +136,8 @@ class Picture:
             _, ax = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
         self.axes = ax
         self.look = look
-        x0, y0, x1, y1 = look.view or (0.0, 0.0, float(first.box[0]), float(first.box[1]))
+        whole = (0.0, 0.0, *first.box) if look.view is None else look.view
+        x0, y0, x1, y1 = np.asarray(whole, dtype=float).tolist()
         self.view = (x0, y0, x1, y1)
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
         _add_obstacles(ax, scene, first.box)
@@ -185,7 +204,8 @@ class Picture:
 
     def _limits(self, first: Frame) -> tuple[float, float]:
         if self.look.limits is not None:
-            return self.look.limits
+            first_colour, last_colour = np.asarray(self.look.limits, dtype=float).tolist()
+            return first_colour, last_colour
         if self._is(_NUMBERED):
             return -0.5, self._n_numbers(first) - 0.5
         values = self._values(first)[first.present]

@@ -22,7 +22,7 @@ from PIL import Image
 
 from carrom.errors import FileError, MissingPackageError
 from carrom.frame import Frame
-from carrom.plot.drawing import Look, Picture
+from carrom.plot.drawing import Look, Picture, colour_of
 from carrom.plot.sources import Drawable, frames_of, scene_of
 
 Pixels = npt.NDArray[np.uint8]
@@ -34,14 +34,15 @@ def movie(
     *,
     every: int = 1,
     rate: float = 15,
-    colour: str | npt.ArrayLike = "speed",
-    view: tuple[float, float, float, float] | None = None,
+    colour: str | npt.ArrayLike | None = None,
+    color: str | npt.ArrayLike | None = None,
+    view: npt.ArrayLike | None = None,
     fastest: float | None = None,
     ranks: int = 4,
     label: str | None = None,
     cmap: str | Colormap | None = None,
     bar: bool = True,
-    limits: tuple[float, float] | None = None,
+    limits: npt.ArrayLike | None = None,
     scene: Mapping[str, Any] | None = None,
     dpi: int = 110,
 ) -> Path:
@@ -55,7 +56,8 @@ def movie(
         path: the movie; it appears once it is whole
         every: show every so-many-th frame
         rate: frames per second
-        colour: see `carrom.plot.frame`, as for `view` to `scene`
+        colour: see `carrom.plot.frame`, as for `color` and `view` to `scene`
+        color: the same as `colour`
         view: part of the box to show
         fastest: the number of the strongest colour, in all frames
         ranks: how many strips there are
@@ -73,7 +75,7 @@ def movie(
         raise FileError(f"{path}: there is no folder {path.parent}")
     ffmpeg = "" if path.suffix == ".gif" else find_ffmpeg()
     frames = frames_of(source)[::every]
-    look = Look(colour, view, fastest, ranks, label, cmap, bar, limits)
+    look = Look(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
     film = _Film(frames[0], look, scene_of(source) if scene is None else scene, dpi)
     with tempfile.TemporaryDirectory(prefix=".carrom-", dir=path.parent) as folder:
         part = Path(folder, path.name)
