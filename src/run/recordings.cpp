@@ -15,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_commits = 5; ///< so that readers see a run while it goes on
-constexpr double largest_share = 0.02;        ///< share of the time, for commits
+constexpr double seconds_between_commits = 0.8; ///< so that readers see a run while it goes on
+constexpr double largest_share = 0.02;          ///< share of the time, for commits
 
 /// The total order; q + 1 puts the wall, the largest number there is, before every disc.
 bool comes_before(const Collision& a, const Collision& b) {

@@ -3,7 +3,7 @@
 // their total order, and measurements, whose tables are written with each checkpoint
 // and at the end. The table "thermo" is written as it grows.
 //
-// They are committed before each checkpoint, and every few seconds for readers.
+// They are committed before each checkpoint, and about once a second for readers.
 #pragma once
 
 #include <cstdint>

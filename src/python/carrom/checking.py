@@ -14,6 +14,7 @@ from carrom.program import find_program
 _UNSURE = {5, 6}  # exit codes: no checksums; a log with a gap
 _LAUNCHERS = ("OMPI_", "PMIX_", "PMI_", "SLURM_", "PALS_", "ALPS_", "FLUX_")
 
+
 def verify(path: str | os.PathLike[str], program: str | os.PathLike[str] | None = None) -> None:
     """Check every byte of a checkpoint, a trajectory or a log, and that its discs are possible.
 

@@ -333,7 +333,8 @@ def open_run(path: str | os.PathLike[str], *, check: bool = True) -> Run:
         kind = _kind(file)
     if kind is None:
         raise FileError(f"{path}: holds nothing that carrom writes")
-    run = Run(None, **{kind: path})
+    files: dict[str, Any] = {kind: path}
+    run = Run(None, **files)
     run._checked = checked
     if kind == "trajectory":
         run.frames.steps  # noqa: B018 - says now whether it can be read
