@@ -19,7 +19,8 @@ build_copy_with "$change" "$@"
 for page in "${printed[@]}"; do
     words=(keys)
     [ "$page" = keys ] || words+=("--$page")
-    "$CARROM_PROGRAM" "${words[@]}" | diff "$CARROM_SOURCE_DIR/docs/reference/$page.md" - >"$page.diff"
+    "$CARROM_PROGRAM" "${words[@]}" |
+        diff "$CARROM_SOURCE_DIR/docs/reference/$page.md" - >"$page.diff"
     grep '^>' "$page.diff" | grep -q belt || complain "$page.md has no belt"
     grep '^>' "$page.diff" | grep -qv belt && complain "other lines of $page.md change"
 done
@@ -67,7 +68,8 @@ for method in time-stepped event-driven; do
     run 1 run gas.toml "${options[@]}" --check -o "one_$method"
     expect_code 0 "$method on 1 rank"
     hash=$(json_value "one_$method/report.json" state_hash)
-    grep -q 'bottom belt of speed 0.2' "one_$method/report.json" || complain 'the report has no belt'
+    grep -q 'bottom belt of speed 0.2' "one_$method/report.json" ||
+        complain 'the report has no belt'
     run 3 run gas.toml "${options[@]}" --check -o "three_$method"
     expect_code 0 "$method on 3 ranks"
     run 3 run --restart "one_$method/checkpoints/checkpoint-000000000050.h5" --quiet \
