@@ -56,9 +56,11 @@ public:
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
-        for (const double radius :
-             radii) { // the largest first, because they find no room among smaller ones
-            if (!place_all_of(radius)) return std::nullopt;
+        // The largest come first, because they find no room among smaller ones.
+        for (std::size_t first = 0, end = 0; first < radii.size(); first = end) {
+            while (end < radii.size() && is_placed_with(radii[end], radii[first], radii.size()))
+                ++end;
+            if (!place_all_of(radii[end - 1], radii[first])) return std::nullopt;
         }
         placed_.erase(std::remove_if(placed_.begin(), placed_.end(),
                                      [](const InputDisc& d) { return (d.id & copy_mark) != 0; }),
@@ -73,12 +75,20 @@ private:
         return {x, y};
     }
 
+    /// A few radii are placed one after the other. Many would need a round or more each, so those
+    /// that differ little are placed together.
+    static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
+        constexpr std::size_t few_radii = 8;
+        return radius == largest || (n_radii > few_radii && radius > 0.9 * largest);
+    }
+
     /// Returns false if the discs have jammed. **Collective.**
-    bool place_all_of(double radius) {
+    bool place_all_of(double smallest, double largest) {
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
         for (std::uint64_t id = first; id < last; ++id)
-            if (species_.of(id).radius == radius)
+            if (const double radius = species_.of(id).radius;
+                radius >= smallest && radius <= largest)
                 unplaced_.push_back(static_cast<std::uint32_t>(id));
         std::uint64_t n_left = n_unplaced(), idle_rounds = 0;
         for (std::uint64_t round = 0; n_left > 0 && idle_rounds < most_idle_rounds; ++round) {

@@ -16,8 +16,9 @@ namespace carrom {
 namespace {
 
 /// The keys that can define radii.
-constexpr std::array<std::string_view, 5> size_keys = {
-    "discs.radius", "discs.packing", "discs.species", "discs.list", "discs.columns"};
+constexpr std::array<std::string_view, 6> size_keys = {
+    "discs.radius",   "discs.radius.distribution", "discs.packing", "discs.species",
+    "discs.list",     "discs.columns"};
 
 std::string body_problem(double radius, double mass) {
     std::string text = column_problem(DiscColumn::radius, radius);
@@ -148,6 +149,37 @@ void check_sizes(const Check& check) {
     check_width(check, smallest);
 }
 
+/// Whether radii can follow the distribution: its limits are in order and not too small.
+bool check_distribution(const Check& check) {
+    const SizeDistribution& sizes = *check.scene.sizes;
+    for (const std::string_view part : {"distribution", "polydispersity", "mean", "smallest",
+                                        "largest", "mass"})
+        if (const Setting* one = check.settings.find(fmt::format("discs.radius.{}", part));
+            one && one->is_wrong)
+            return false;
+    bool is_alone = true;
+    for (const std::string_view other : {"discs.radius", "discs.species", "discs.list",
+                                         "discs.columns", "discs.file", "discs.from"}) {
+        if (!check.settings.has(other)) continue;
+        is_alone = false;
+        check.refuse({other}, fmt::format("'{}' has no meaning where radii follow a distribution",
+                                          other));
+    }
+    const bool has_mean = check.settings.has("discs.radius.mean"),
+               has_packing = check.settings.has("discs.packing");
+    if (!has_mean && !has_packing)
+        check.refuse({}, "'discs.radius.mean' is missing, or 'discs.packing', which gives it");
+    if (!is_alone || has_mean == has_packing) return false;
+    const auto [smallest, largest] = size_limits(sizes);
+    if (smallest > 0 && smallest <= largest) return true;
+    check.refuse({"discs.radius.smallest", "discs.radius.largest", "discs.radius.polydispersity"},
+                 fmt::format("radii from {:.4g} to {:.4g} times the mean: the smallest must be "
+                             "positive and not above the largest; set discs.radius.smallest, "
+                             "or a smaller polydispersity",
+                             smallest, largest));
+    return false;
+}
+
 /// Fills in box and radius. Returns true if they are known and the discs may fit.
 bool fill_sizes(const Check& check) {
     Scene& scene = check.scene;
@@ -159,11 +191,20 @@ bool fill_sizes(const Check& check) {
         const bool may_have_wrong_rows = key == "discs.list" && scene.effects.species.empty();
         if (settings.has(key) && !settings.is_right(key) && !may_have_wrong_rows) return false;
     }
-    if (settings.has("discs.packing") && has_radius) return false;
-    if (settings.has("discs.packing"))
+    const bool has_packing = settings.has("discs.packing");
+    if (has_packing && has_radius) return false;
+    const double packing = has_packing
+                               ? std::get<double>(settings.find("discs.packing")->value.data)
+                               : 0;
+    if (scene.sizes) {
+        if (!check_distribution(check)) return false;
+        scene.effects.species = species_of_sizes(*scene.sizes, scene.n_discs,
+                                                 packing * scene.box.area());
+    } else if (has_packing) {
         scene.radius = std::sqrt(scene.box.area()) *
-                       std::sqrt(std::get<double>(settings.find("discs.packing")->value.data) /
+                       std::sqrt(packing /
                                  (static_cast<double>(scene.n_discs) * std::numbers::pi));
+    }
     for (const Species& one : scene.effects.species)
         scene.radius = std::max(scene.radius, one.radius);
     if (scene.radius == 0) return false;

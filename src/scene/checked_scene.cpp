@@ -16,8 +16,8 @@ void take_values(const Check& check) {
     for (const Table& table : tables()) {
         const auto& all = check.settings.all();
         if (std::any_of(all.begin(), all.end(), [&table](const Setting& one) {
-                const Key* key = find_key(one.key);
-                return one.key == table.name || (key && key->table() == table.name);
+                const Key* key = find_key(one.key); // 'discs.radius' is a key and a table
+                return key ? key->table() == table.name : one.key == table.name;
             }))
             table.create(check.scene);
     }

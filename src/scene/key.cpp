@@ -23,6 +23,7 @@ const std::vector<Key>& keys() {
         const auto add = [&list](const std::vector<Key>& part) {
             list.insert(list.end(), part.begin(), part.end());
         };
+        add(keys_of_sizes());
         add(keys_of_effects());
         add(keys_of_output());
         return list;
@@ -35,6 +36,9 @@ const std::vector<Table>& tables() {
         std::vector<Table> list = {
             {"box", "The box that discs move in."},
             {"discs", "How many discs there are, and how they begin."},
+            {"discs.radius", "Radii that follow a distribution, in place of one radius.",
+             [](const Scene& s) { return s.sizes.has_value(); },
+             [](Scene& s) { s.sizes.emplace(); }},
             {"time", "How long, and by which method."},
             {"box.left",
              "One side of the box; likewise `[box.right]`, `[box.bottom]`, `[box.top]`."},

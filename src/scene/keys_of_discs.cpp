@@ -92,7 +92,7 @@ void set_species(Scene& scene, const Value& value) {
 
 Value get_species(const Scene& scene) {
     const auto& species = scene.effects.species;
-    if (species.empty() || has_column(scene, DiscColumn::radius) ||
+    if (species.empty() || scene.sizes || has_column(scene, DiscColumn::radius) ||
         (!scene.listed_discs.empty() && !are_species_listed(scene)))
         return {};
     FirstNumbers numbers;
@@ -299,7 +299,8 @@ std::vector<Key> keys_of_discs() {
             .within(lengths)
             .needs(equal_discs)
             .required()
-            .unless({"discs.packing", "discs.species"}),
+            .unless({"discs.packing", "discs.species", "discs.radius.distribution",
+                     "discs.radius.mean", "discs.radius.polydispersity"}),
         packing_key(),
         species_key(),
         key("discs.generator", "",

@@ -19,6 +19,7 @@
 
 #include "core/disc.hpp"
 #include "dynamics/effects.hpp"
+#include "scene/size_distribution.hpp"
 
 namespace carrom {
 
@@ -137,6 +138,7 @@ struct Scene {
 
     Box box;           ///< the edges; 0 if they are not known
     double radius = 0; ///< r; the largest one of several species
+    std::optional<SizeDistribution> sizes; ///< that radii follow; they are species then
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;

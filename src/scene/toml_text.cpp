@@ -97,12 +97,13 @@ public:
 private:
     void take(const std::string& key, const toml::node& node, std::int64_t line) {
         const Table* table = find_table(key);
-        if (find_key(key)) {
+        const bool is_table = table && node.is_table();
+        if (find_key(key) && !is_table) {
             Value value = to_value(node);
             const Place place{name_, value.line};
             settings_.set({key, place, std::move(value)});
-        } else if (table && node.is_table()) {
-            settings_.set({key, {name_, line}, {}});
+        } else if (is_table) {
+            if (!find_key(key)) settings_.set({key, {name_, line}, {}});
             walk(*node.as_table(), key + '.');
         } else if (table) {
             add_problem(problems_, {name_, line},

@@ -159,7 +159,7 @@ TEST_CASE("Every key says what it takes") {
         CAPTURE(key.name);
         CHECK(names.insert(key.name).second);
         CHECK(find_table(key.table()) != nullptr);
-        CHECK(find_table(key.name) == nullptr);
+        CHECK((find_table(key.name) != nullptr) == (key.name == "discs.radius"));
         CHECK(!key.help.empty());
         CHECK(key.help.back() == '.');
         CHECK((key.get && key.set));
@@ -186,7 +186,13 @@ TEST_CASE("What is written of a scene reads as the same scene, whatever it names
     Draw draw(31);
     std::set<std::string> written;
     int n_read = 0;
-    for (int i = 0; i < 30000; ++i) {
+    const auto is_written = [&written](const Key& key) {
+        return key.name == "box.size" || key.name.starts_with("discs.from") ||
+               written.count(key.name) == 1;
+    };
+    // Some keys have a meaning in few scenes, so there are more scenes until each has been there.
+    for (int i = 0;
+         i < 30000 || (i < 300000 && !std::all_of(keys().begin(), keys().end(), is_written)); ++i) {
         Texts overrides = random_overrides(draw);
         // One wrong key in a scene is left out; the rest may be right.
         std::vector<Problem> problems = problems_in(box, overrides);
@@ -216,8 +222,7 @@ TEST_CASE("What is written of a scene reads as the same scene, whatever it names
     CHECK(n_read > 1500);
     for (const Key& key : keys()) { // each has been there
         CAPTURE(key.name);
-        if (key.name != "box.size" && !key.name.starts_with("discs.from"))
-            CHECK(written.count(key.name) == 1);
+        CHECK(is_written(key));
     }
 }
 
