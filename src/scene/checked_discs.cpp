@@ -16,9 +16,9 @@ namespace carrom {
 namespace {
 
 /// The keys that can define radii.
-constexpr std::array<std::string_view, 6> size_keys = {
-    "discs.radius",   "discs.radius.distribution", "discs.packing", "discs.species",
-    "discs.list",     "discs.columns"};
+constexpr std::array<std::string_view, 6> size_keys = {"discs.radius",  "discs.radius.distribution",
+                                                       "discs.packing", "discs.species",
+                                                       "discs.list",    "discs.columns"};
 
 std::string body_problem(double radius, double mass) {
     std::string text = column_problem(DiscColumn::radius, radius);
@@ -152,8 +152,8 @@ void check_sizes(const Check& check) {
 /// Whether radii can follow the distribution: its limits are in order and not too small.
 bool check_distribution(const Check& check) {
     const SizeDistribution& sizes = *check.scene.sizes;
-    for (const std::string_view part : {"distribution", "polydispersity", "mean", "smallest",
-                                        "largest", "mass"})
+    for (const std::string_view part :
+         {"distribution", "polydispersity", "mean", "smallest", "largest", "mass"})
         if (const Setting* one = check.settings.find(fmt::format("discs.radius.{}", part));
             one && one->is_wrong)
             return false;
@@ -162,8 +162,8 @@ bool check_distribution(const Check& check) {
                                          "discs.columns", "discs.file", "discs.from"}) {
         if (!check.settings.has(other)) continue;
         is_alone = false;
-        check.refuse({other}, fmt::format("'{}' has no meaning where radii follow a distribution",
-                                          other));
+        check.refuse({other},
+                     fmt::format("'{}' has no meaning where radii follow a distribution", other));
     }
     const bool has_mean = check.settings.has("discs.radius.mean"),
                has_packing = check.settings.has("discs.packing");
@@ -202,8 +202,7 @@ bool fill_sizes(const Check& check) {
                                                  packing * scene.box.area());
     } else if (has_packing) {
         scene.radius = std::sqrt(scene.box.area()) *
-                       std::sqrt(packing /
-                                 (static_cast<double>(scene.n_discs) * std::numbers::pi));
+                       std::sqrt(packing / (static_cast<double>(scene.n_discs) * std::numbers::pi));
     }
     for (const Species& one : scene.effects.species)
         scene.radius = std::max(scene.radius, one.radius);

@@ -30,7 +30,7 @@ SizeDistribution& sizes_of(Scene& scene) {
 
 template <class Member>
 Key size_key(std::string_view name, std::string_view unit, std::string_view help,
-             Member SizeDistribution::*member) {
+             Member SizeDistribution::* member) {
     return key("discs.radius." + std::string(name), unit, help,
                [member](auto& scene) -> auto& { return sizes_of(scene).*member; })
         .needs({"without a distribution of radii",

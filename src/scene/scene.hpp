@@ -136,8 +136,8 @@ struct Scene {
     bool discs_follow = false;          ///< legacy text goes on with lines of discs
     std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
 
-    Box box;           ///< the edges; 0 if they are not known
-    double radius = 0; ///< r; the largest one of several species
+    Box box;                               ///< the edges; 0 if they are not known
+    double radius = 0;                     ///< r; the largest one of several species
     std::optional<SizeDistribution> sizes; ///< that radii follow; they are species then
     std::uint64_t n_discs = 0;
 

@@ -14,9 +14,7 @@ namespace {
 constexpr double widest_deviations = 3; ///< from the middle to the limits
 
 /// e to the power of x.
-double exponential(double x) {
-    return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x);
-}
+double exponential(double x) { return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x); }
 
 /// The natural logarithm of `x`, by Newton's steps; they are done when nothing changes any more,
 /// or only the last bit to and fro.
@@ -74,8 +72,7 @@ std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n)
     std::vector<double> up_to(n_cells + 1); // the density's integral, by Simpson's rule
     double left = measure.density(low);
     for (std::size_t i = 0; i < n_cells; ++i) {
-        const double x = low + width * static_cast<double>(i),
-                     right = measure.density(x + width);
+        const double x = low + width * static_cast<double>(i), right = measure.density(x + width);
         up_to[i + 1] = up_to[i] + (left + 4 * measure.density(x + width / 2) + right) / 6;
         left = right;
     }
