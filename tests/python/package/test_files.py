@@ -200,14 +200,6 @@ def test_thermo_has_the_energy_of_the_checkpoints(run: carrom.Run) -> None:
     assert np.all(thermo["collision_rate"][1:] >= 0)
 
 
-def test_tables_go_to_pandas(run: carrom.Run) -> None:
-    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
-    frame = run.tables["displacement"].to_pandas()
-    again = pandas.read_csv(Path(str(run.folder)) / "measurements/displacement.csv", comment="#")
-    pandas.testing.assert_frame_equal(frame, again, check_exact=True, check_dtype=False)
-    assert frame.attrs["remarks"]
-
-
 def test_frames_are_a_sequence(run: carrom.Run) -> None:
     frames = run.frames
     assert len(frames) == 5

@@ -18,6 +18,14 @@ def test_tables_become_data_frames(run: carrom.Run) -> None:
     tables = run.tables.to_pandas()
     assert list(tables) == list(run.tables)
     assert np.array_equal(tables["thermo"]["energy"], run.thermo["energy"])
+    assert tables["thermo"].attrs["remarks"] == list(run.thermo.remarks)
+
+
+def test_data_frames_are_what_pandas_reads(run: carrom.Run) -> None:
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+    again = pandas.read_csv(Path(str(run.folder)) / "measurements/displacement.csv", comment="#")
+    frame = run.tables["displacement"].to_pandas()
+    pandas.testing.assert_frame_equal(frame, again, check_exact=True, check_dtype=False)
 
 
 def test_tables_become_datasets(run: carrom.Run) -> None:
