@@ -27,7 +27,11 @@ FAULTS = {  # of a test: what it does, and how its output counts that
     "checkpoint_failure": ("full disks, short writes, no threads for a checkpoint", RUNS),
     "output_failure": ("outputs that cannot be written", RUNS),
 }
-DAMAGED = ("every_byte_sample", "every_byte_all")
+GROUPS = {  # tests whose names begin so: what they do together
+    "one rank leaves: ": "one rank of three returns, or throws an error",
+    "MPI ends before its session: ": "a program ends MPI before the library's session",
+}
+DAMAGED = ("every_byte_sample", "every_byte_bytes", "every_byte_bits")
 
 
 def outcomes(junit: Path) -> dict[str, tuple[str, str]]:
@@ -61,6 +65,12 @@ def main() -> None:
             trials = re.search(count, output)
             number = trials.group(1) if trials else "unknown"
             rows.append([what, number, outcome, f"ctest -C long -R '^{test}$'"])
+    for begin, what in GROUPS.items():
+        ends = [outcome for test, (outcome, _) in found.items() if test.startswith(begin)]
+        if ends:
+            outcome = "held" if set(ends) == {"held"} else "failed"
+            command = f"ctest -R '^{begin.rstrip(': ')}'"
+            rows.append([what, str(len(ends)), outcome, command])
     for test in DAMAGED:
         if test in found:
             rows += rows_of_damage(build, test, found[test][0])

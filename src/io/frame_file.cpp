@@ -67,6 +67,20 @@ std::vector<double> read_block(hid_t file, const std::string& path, const h5::Ro
     return numbers;
 }
 
+/// Throws FileError where any frame has edges that no box has.
+Box box_of_last_frame(hid_t file, std::size_t n_frames) {
+    const h5::Dataset dataset = h5::open_checked(file, h5md::edges_path, h5::Shape{n_frames, 3});
+    h5::check_storage(dataset, h5md::edges_path);
+    std::vector<double> edges(3 * n_frames);
+    h5::checked(
+        H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, edges.data()),
+        h5md::edges_path);
+    for (const double edge : edges)
+        if (!(std::isfinite(edge) && edge > 0))
+            throw FileError("has a box with an edge that is no finite number above 0");
+    return {edges[3 * n_frames - 3], edges[3 * n_frames - 2]};
+}
+
 /// The words of an attribute, which are equally long, side by side.
 std::string letters_of(hid_t file, const char* object, const char* name, hssize_t n_words) {
     const h5::Attribute attribute(
@@ -195,9 +209,7 @@ void FrameFile::open_trajectory() {
         state_->sources.push_back(source);
     }
     if (summary_.steps.empty()) return;
-    const std::vector<double> edges = read_block(file, h5md::edges_path,
-                                                 {0, 3, summary_.steps.size() - 1});
-    summary_.box = {edges[0], edges[1]};
+    summary_.box = box_of_last_frame(file, summary_.steps.size());
 }
 
 /// Reads the first row of each segment, or of a checkpoint.

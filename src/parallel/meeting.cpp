@@ -71,6 +71,9 @@ std::uint64_t hash_of_argument(std::string_view text) {
 
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument) {
     Communicator::Handle& handle = communicator.handle();
+    if (has_mpi_ended())
+        throw InputError({{std::string(call), 0,
+                           "MPI has ended; end it after the session and its simulations"}});
     if (handle.is_alone() || handle.size == 1) return;
     const std::uint64_t mine = hash_of_argument(call) ^ (argument * 0x9e3779b97f4a7c15u);
     const std::array<std::uint64_t, 2> words = {mine, ~mine};

@@ -17,8 +17,8 @@ namespace carrom {
 std::uint64_t hash_of_argument(std::string_view text);
 
 /// Returns once all ranks have come to the same call. Throws InputError on every rank
-/// if calls or arguments differ. If a rank has departed, all are aborted with a
-/// message (code 70) after ten seconds. **Collective.**
+/// if calls or arguments differ, or if MPI has ended. If a rank has departed, all are aborted with
+/// a message (code 70) after ten seconds. **Collective.**
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
 
 /// Reports to the other ranks that this one leaves, and waits for them at the end.

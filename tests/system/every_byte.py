@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damage each page and each bit of a run's files, and ask everything that reads them.
 
-`every_byte.py PROGRAM ASK_OFTEN SCENE (sample|all) TABLE.csv`, in an empty folder. Damage must be
-found: no reader may call a damaged file whole, go on from it with other numbers, or crash. `sample`
-zeroes all pages, and flips bits beside the names of links and in the headers of groups; `all` flips
-every bit that is not one of a long run of zeros. `verify` judges every trial (ASK_OFTEN asks it
-about bits), the others judge all pages and some of the bits. Python's readers are among them where
-the package `carrom` and h5py can be imported. TABLE.csv gets one line for each kind of damage.
+`every_byte.py PROGRAM ASK_OFTEN SCENE (sample|bytes|bits) TABLE.csv`, in an empty folder.
+
+Damage must be found: no reader may call a damaged file whole, go on from it with other numbers, or
+crash. Each share zeroes all pages. `sample` flips bits beside the names of links and in the headers
+of groups, `bytes` one bit of every byte that is in no long run of zeros, `bits` all bits of these
+bytes. `verify` judges every trial (ASK_OFTEN asks it about bits), the others judge all pages and
+some of the bits. Python's readers are among them where the package `carrom` and h5py can be
+imported. TABLE.csv gets one line for each kind of damage.
 """
 
 from __future__ import annotations
@@ -30,6 +32,7 @@ except ImportError:
 PAGE = 4096
 LONGEST_RUN = 64  # zeros beyond these are room that no structure uses
 MARKS = (b"carrom", b"run\0", b"checksums", b"particles", b"TREE", b"SNOD", b"HEAP", b"OHDR")
+EVERY = {"sample": 31, "bytes": 199, "bits": 997}  # so many bits is one for all readers
 ORIGINAL, WORK = Path("original"), Path("work")
 CHECKPOINT = "checkpoints/checkpoint-000000000004.h5"
 FILES = {
@@ -117,8 +120,11 @@ def sampled(data: bytes) -> list[int]:
     return sorted(places & set(used(data)))
 
 
-def bits(places: list[int]) -> list[tuple[int, int]]:
-    """Each bit of bytes: the byte and the bit."""
+def bits(data: bytes, share: str) -> list[tuple[int, int]]:
+    """The bits to flip: each is a byte and a number from 0 to 7."""
+    if share == "bytes":
+        return [(place, place % 8) for place in used(data)]
+    places = sampled(data) if share == "sample" else used(data)
     return [(place, bit) for place in places for bit in range(8)]
 
 
@@ -184,7 +190,7 @@ def readers(program: Program, kind: str, wanted: str) -> dict[str, str]:
 
 def main() -> int:
     program, ask_often = Program(sys.argv[1], sys.argv[3]), sys.argv[2]
-    is_all = sys.argv[4] == "all"
+    share = sys.argv[4]
     wanted = make_original(program)
     counts: Counter[tuple[str, str, str]] = Counter()
     failures: list[str] = []
@@ -206,8 +212,8 @@ def main() -> int:
         data = (ORIGINAL / name).read_bytes()
         for what, damaged in pages(data):
             take(kind, "page of zeros", what, damage_and_read(kind, damaged))
-        flips = bits(used(data) if is_all else sampled(data))
-        for place, bit in flips[:: 499 if is_all else 31]:
+        flips = bits(data, share)
+        for place, bit in flips[:: EVERY[share]]:
             found = damage_and_read(kind, flipped(data, place, bit))
             del found["verify"]  # it judges all of them below
             take(kind, "bit flipped", f"bit {bit} of byte {place}", found)
@@ -221,7 +227,7 @@ def main() -> int:
             check=True,
         ).stdout.split()
         assert len(codes) == len(flips) and (WORK / name).read_bytes() == data
-        for (place, bit), code in zip(flips, codes, strict=True):
+        for (place, bit), code in zip(flips, codes):
             wrong = "" if code == "2" else f"verify ended with {code}"
             take(kind, "bit flipped", f"bit {bit} of byte {place}", {"verify": wrong})
         print(f"{kind}: {len(flips)} bits", flush=True)

@@ -201,7 +201,7 @@ ExitCode verify(const std::string& path, const Communicator& ranks) {
         if (!summary.has_checksums) {
             code = static_cast<int>(no_checksums);
             verdict = "no checksums, so nobody knows whether it is as it was written; its numbers "
-                      "are possible";
+                      "are finite, and its discs inside the box";
         } else if (!summary.gaps.empty()) {
             code = static_cast<int>(incomplete);
             verdict = "as it was written, and without the collisions of steps " +

@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include "library_runs.hpp"
@@ -251,10 +252,14 @@ TEST_CASE("a checkpoint does not replace what is no plain file") {
     const Folder folder(session);
     Simulation simulation(session, gas("event-driven", 1));
     const std::string pipe = folder.file("pipe"), victim = folder.file("victim");
+    const std::string device = folder.file("device");
+    bool has_device = false; // root alone may make one
     if (session.is_root()) {
         CHECK(::mkfifo(pipe.c_str(), 0600) == 0);
+        has_device = ::mknod(device.c_str(), S_IFCHR | 0600, makedev(1, 3)) == 0;
         std::ofstream(victim) << "mine";
     }
+    MPI_Bcast(&has_device, 1, MPI_CXX_BOOL, 0, MPI_COMM_WORLD);
     const auto code_of = [&](const std::string& path) {
         try {
             simulation.write_checkpoint(path);
@@ -264,9 +269,31 @@ TEST_CASE("a checkpoint does not replace what is no plain file") {
         return 0;
     };
     CHECK(code_of(pipe) == 4);
+    if (has_device) CHECK(code_of(device) == 4);
     CHECK(code_of(victim + '\0' + "more") == 4);
     CHECK(code_of("") == 4);
     if (!session.is_root()) return;
     CHECK(std::filesystem::is_fifo(pipe));
+    CHECK(std::filesystem::is_character_file(device) == has_device);
     CHECK(std::filesystem::file_size(victim) == 4);
+}
+
+TEST_CASE("writers and readers that were moved from say so") {
+    const Session session;
+    const Folder folder(session);
+    Simulation simulation(session, gas("event-driven", 2));
+    TrajectoryWriter first(simulation, folder.file("frames.h5"));
+    TrajectoryWriter second = std::move(first);
+    second.append();
+    const auto is_told = [](const auto& act) {
+        return problems_of(act).find("was moved from") != std::string::npos;
+    };
+    CHECK(is_told([&] { first.append(); }));
+    CHECK(is_told([&] { first.describe(); }));
+    FrameReader reader(session, folder.file("frames.h5"));
+    const FrameReader other = std::move(reader);
+    CHECK(other.steps().size() == 1);
+    CHECK(is_told([&] { static_cast<void>(reader.steps()); }));
+    CHECK(is_told([&] { static_cast<void>(reader.n_discs()); }));
+    CHECK(is_told([&] { static_cast<void>(reader.read(0)); }));
 }

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that somebody has made, or rewritten: the program never calls them whole.
+
+Each is a real file with one thing changed by h5py, so it has no checksums, or wrong ones.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+import carrom
+
+DISCS = "particles/discs"
+Change = Callable[[Any], None]
+
+
+def asked(program: Path, *words: str | Path) -> tuple[int, str, int]:
+    """The program's exit code, what it printed, and the MB of memory that it took at most."""
+    pipe, end = os.pipe()
+    child = subprocess.Popen([program, *words], stdout=end, stderr=end)
+    os.close(end)
+    with os.fdopen(pipe, errors="replace") as text:
+        printed = text.read()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    used = max(usage.ru_maxrss, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+    return child.returncode, printed, (used if used > before else usage.ru_maxrss) // 1024
+
+
+def rewritten(run: carrom.Run, path: Path, change: Change = lambda file: None) -> Path:
+    """The run's trajectory as one file without Carrom's checksums, as h5repack makes it."""
+    with h5py.File(run.frames.path) as old, h5py.File(path, "w") as new:
+
+        def take(name: str, item: Any) -> None:
+            if isinstance(item, h5py.Group):
+                group = new.require_group(name)
+            else:
+                group = new.create_dataset(name, data=item[()], dtype=item.dtype)
+            for key, value in item.attrs.items():
+                group.attrs.create(key, value, dtype=item.attrs.get_id(key).dtype)
+
+        old.visititems(take)
+        new.pop("carrom", None)
+        change(new)
+    return path
+
+
+def put(name: str, place: Any, value: float) -> Change:
+    def change(file: Any) -> None:
+        file[name][place] = value
+
+    return change
+
+
+def no_discs(file: Any) -> None:
+    for name in ("position", "velocity", "collisions"):
+        values = file[f"{DISCS}/{name}/value"][()]
+        del file[f"{DISCS}/{name}/value"]
+        file[f"{DISCS}/{name}/value"] = values[:, :0]
+
+
+def from_scene(path: Path, tmp_path: Path) -> Path:
+    scene = tmp_path / "from.toml"
+    scene.write_text(
+        f'[box]\nsize = 20\n[discs]\nradius = 0.6\nfrom = "{path}"\n'
+        '[time]\nsteps = 1\nmethod = "event-driven"\n'
+    )
+    return scene
+
+
+def test_a_file_without_checksums_is_not_whole(
+    run: carrom.Run, program: Path, tmp_path: Path
+) -> None:
+    code, text, _ = asked(program, "verify", rewritten(run, tmp_path / "plain.h5"))
+    assert code == 5, text
+    assert "no checksums" in text
+    assert "whole" not in text
+    code, text, _ = asked(program, "info", tmp_path / "plain.h5")
+    assert code == 0, text
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [
+        (f"{DISCS}/position/value", (2, 7, 0), np.nan),
+        (f"{DISCS}/position/value", (2, 7, 1), np.inf),
+        (f"{DISCS}/position/value", (2, 7, 0), -3.0),
+        (f"{DISCS}/velocity/value", (1, 0, 0), np.nan),
+        ("parameters/radius", (), np.nan),
+        ("parameters/radius", (), 0.0),
+        (f"{DISCS}/box/edges/value", (0, 0), np.nan),
+        (f"{DISCS}/box/edges/value", (4, 1), np.inf),
+        (f"{DISCS}/box/edges/step", 2, 1),
+    ],
+)
+def test_numbers_that_no_run_has_are_errors(
+    run: carrom.Run, program: Path, tmp_path: Path, name: str, place: Any, value: float
+) -> None:
+    path = rewritten(run, tmp_path / "forged.h5", put(name, place, value))
+    code, text, _ = asked(program, "verify", path)
+    assert code == 2, text
+    assert str(path) in text
+
+
+def test_discs_that_cannot_be_are_no_start(run: carrom.Run, program: Path, tmp_path: Path) -> None:
+    """No discs at all, a place that is no number, and all discs at one point."""
+    x = f"{DISCS}/position/value"
+    changes: list[tuple[Change, str]] = [
+        (no_discs, "no discs"),
+        (put(x, (-1, 3, 0), np.nan), ""),
+        (put(x, (-1, 3, 0), 1e300), ""),
+        (put(x, (-1, slice(None)), 10.0), "overlap"),
+    ]
+    for change, words in changes:
+        path = rewritten(run, tmp_path / "forged.h5", change)
+        code, text, _ = asked(program, "run", from_scene(path, tmp_path), "--quiet")
+        assert code == 2, text
+        assert words in text
+    code, text, _ = asked(program, "verify", rewritten(run, tmp_path / "none.h5", no_discs))
+    assert code == 2, text
+
+
+def test_a_recording_without_its_list_of_segments_is_damaged(
+    run: carrom.Run, program: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "trajectory.h5"
+    path.write_bytes(run.frames.path.read_bytes())
+    (tmp_path / "trajectory").symlink_to(run.frames.path.parent / "trajectory")
+    assert asked(program, "verify", path)[0] == 0
+    with h5py.File(path, "a") as file:
+        del file["carrom/recording"]
+    code, text, _ = asked(program, "verify", path)
+    assert code in (2, 5), text
+    assert "whole" not in text.replace("whole run", "")
+
+
+@pytest.mark.parametrize("name", ["carrom/measurements/sums", "carrom/averages"])
+def test_a_chunk_of_gigabytes_takes_no_memory(
+    run: carrom.Run, program: Path, tmp_path: Path, name: str
+) -> None:
+    path = tmp_path / "forged.h5"
+    path.write_bytes(run.checkpoints[-1].path.read_bytes())
+    with h5py.File(path, "a") as file:
+        values = file[name][()]
+        del file[name]
+        chunks = (2**32 // values.itemsize - 1,)
+        made = file.create_dataset(
+            name, values.shape, values.dtype, maxshape=(None,), chunks=chunks, compression=1
+        )
+        assert made.chunks == chunks
+    for command in ("info", "verify", "convert"):
+        words = ["--to", "csv", "--output", str(tmp_path / "out.csv")]
+        code, text, memory = asked(program, command, path, *(words if command == "convert" else []))
+        assert code == 2, f"{command}: {text}"
+        assert memory < 300, f"{command} took {memory} MB"
+
+
+def test_open_compares_checksums(run: carrom.Run, tmp_path: Path) -> None:
+    """A changed number is seen by no reader of HDF5, and a file without checksums is a warning."""
+    whole = Path(str(run.folder))
+    shutil.copytree(whole, tmp_path / "copy")
+    files = {
+        "frames": Path("trajectory/0001.h5"),
+        "collisions": Path("collisions/0001.h5"),
+        "checkpoints": run.checkpoints[-1].path.relative_to(whole),
+    }
+    numbers = {
+        "frames": "particles/discs/position/value",
+        "collisions": "carrom/collisions/time",
+        "checkpoints": "carrom/discs/x",
+    }
+    readers = {
+        "frames": lambda opened: opened.frames[-1].x,
+        "collisions": lambda opened: opened.collisions,
+        "checkpoints": lambda opened: opened.checkpoints[-1].x,
+    }
+    for name, file in files.items():
+        with h5py.File(whole / file) as stored:
+            place = stored[numbers[name]].id.get_offset()
+        data = bytearray((whole / file).read_bytes())
+        data[place + 1] ^= 1
+        (tmp_path / "copy" / file).write_bytes(data)
+        with pytest.raises(carrom.FileError, match="damaged"):
+            readers[name](carrom.open(tmp_path / "copy"))
+        readers[name](carrom.open(tmp_path / "copy", check=False))
+        readers[name](carrom.open(whole))
+        top = file if name == "checkpoints" else Path(f"{file.parent}.h5")
+        with pytest.raises(carrom.FileError, match="damaged"):
+            carrom.open(tmp_path / "copy" / top)
+    rewritten = tmp_path / "copy/rewritten.h5"  # beside its segments
+    with h5py.File(whole / "trajectory.h5") as old, h5py.File(rewritten, "w") as new:
+        for part in ("h5md", "parameters", "particles"):
+            old.copy(part, new, expand_external=True)
+    with pytest.warns(UserWarning, match="no checksums"):
+        assert len(carrom.open(rewritten).frames) == 5
+
+
+def test_open_without_the_program_warns(run: carrom.Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CARROM", "/nowhere/carrom")
+    with pytest.warns(UserWarning, match="without comparing checksums"):
+        assert len(carrom.open(str(run.folder)).frames) == 5
