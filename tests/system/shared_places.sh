@@ -127,4 +127,31 @@ if [ ${#past_launcher[@]} -eq 0 ]; then
 else
     echo 'skipped: no temporary folder (Open MPI 5 does not start without one)'
 fi
+
+# Two at a time: one makes the replicas, the other one shares them or is refused in one line.
+for name in alone many; do
+    for k in 1 2; do
+        [ $name$k != alone2 ] || continue
+        "$CARROM_PROGRAM" replicas "${scene[@]}" --count 2 -o $name --steps 2000 \
+            >"$test_folder/replicas_$name$k" 2>&1 &
+        replicas[k]=$!
+    done
+    codes=
+    for k in 1 2; do
+        [ $name$k != alone2 ] || continue
+        wait "${replicas[k]}"
+        codes+=" $?"
+    done
+done
+case $codes in
+    ' 0 0') ;;
+    ' 0 2') refused=$test_folder/replicas_many2 ;;
+    ' 2 0') refused=$test_folder/replicas_many1 ;;
+    *) complain "two at a time ended with$codes: $(cat "$test_folder"/replicas_many?)" ;;
+esac
+[ -z "${refused:-}" ] || [ "$(wc -l <"$refused")" -eq 1 ] ||
+    complain "more than a line: $(cat "$refused")"
+for file in alone/*.csv; do
+    expect_same "$file" "many/${file#alone/}" 'two at a time have made other averages'
+done
 finish
