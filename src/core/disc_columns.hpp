@@ -50,7 +50,7 @@ template <auto Field> constexpr StateColumn make(const char* name, const char* u
 
 inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
-/// What stands for the time of a departed disc, which has none.
+/// Stands for the time of a departed disc, which has none.
 inline constexpr double departed_time = -1;
 inline double stored_time(const Disc& disc) {
     return disc.has_departed() ? departed_time : disc.tau;

@@ -6,7 +6,7 @@
 
 namespace carrom {
 
-/// What keeps a file from being written; `text` is empty if nothing does.
+/// The reason why a file cannot be written; `text` is empty if it can.
 struct WriteProblem {
     std::string text;
     bool is_failure =

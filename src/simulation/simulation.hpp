@@ -89,8 +89,8 @@ public:
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     int n_threads() const { return n_threads_; }
-    /// What the averages follow from, now, but for the integrals of stress and energy.
-    /// **Collective.**
+    /// The sums from which averages follow, at present, without the integrals of
+    /// stress and energy. **Collective.**
     Look look() const;
     /// Adds these, where `mine` are this rank's sums of the time that counts. **Collective.**
     void integrate(const StressSums& mine, Look& look) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `discs.from`: the discs of another run's checkpoint or frame, as the lines that a file of discs
-// would have. So they are checked, and come to their ranks, as all listed discs do. Takes some 100
-// bytes a disc on one rank while a run begins.
+// `discs.from`: the discs of another run's checkpoint or frame, as the lines that a
+// file of discs would have. So they are checked, and sent to their ranks, like all
+// listed discs. Takes some 100 bytes a disc on one rank while a run begins.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct FileOfDiscs {
     std::string lines;   ///< `id x y vx vy`, per step, by id
 };
 
-/// The frame of `step`, or the last one. `wanted`: columns beside the states, where the file has
-/// them. Damage is to be looked for before (check_damage). Throws InputError naming the file. Not
-/// collective.
+/// Reads the frame of `step`, or the last one. `wanted` are columns beside the states,
+/// read if the file has them. Call check_damage before. Throws InputError naming the
+/// file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
                             const SideColumnSet& wanted);
 

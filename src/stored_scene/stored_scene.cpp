@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// What does not change with the steps.
+/// The part of the header that does not change with the steps.
 CheckpointHeader run_of(const Scene& scene) {
     CheckpointHeader header;
     header.program_version = version();

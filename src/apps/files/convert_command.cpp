@@ -52,7 +52,7 @@ constexpr std::array<std::string_view, 119> symbols = {
     "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr", "Rf",
     "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
 
-/// What each disc is, disc after disc.
+/// The kind of each disc, disc after disc.
 class Bodies {
 public:
     explicit Bodies(const FileSummary& summary)
