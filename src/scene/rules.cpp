@@ -27,7 +27,7 @@ std::vector<Rule> rules_of_methods() {
     };
 }
 
-std::vector<Rule> rules_of_species() {
+std::vector<Rule> rules_of_contacts() {
     return {
         rule("several species", "effects.contact.kind = \"none\"",
              "this version does not have both", {"effects.contact.kind"},
@@ -90,7 +90,7 @@ const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
         for (const auto& part :
-             {rules_of_species(), rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
+             {rules_of_contacts(), rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
               rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         for (const BoundaryDeclaration& kind : all_boundaries())
