@@ -2,8 +2,8 @@
 // The one declaration of each scene key. The reader of scenes and its checks, `--set`, the
 // comparison at a restart, the writer of scenes and the reference page all work from this table.
 //
-// To add a key: add a member to Scene, and declare the key in one of the keys_of_*.cpp.
-// To say that two features do not go together: add a row to rules.cpp.
+// To add a key: add a member to Scene, and declare the key in the file of its effect or side,
+// or in a keys_of_*.cpp. What it does not go with is a rule there, or a row of rules.cpp.
 #pragma once
 
 #include <functional>
