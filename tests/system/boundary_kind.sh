@@ -26,8 +26,9 @@ for page in "${printed[@]}"; do
 done
 
 # One disc between two belts. A contact with a belt of speed u turns v_x into 2 u - v_x and v_y into
-# -v_y. From (5, 5) with (0.2, -1) the disc meets the bottom at step 4 and the top at step 13, where
-# v_x becomes 0.4 and then -0.6. So at step 20 it is at x = 5 + 0.8 + 3.6 - 4.2 and y = 2.5.
+# -v_y. From (5, 5) with (0.2, -1) the disc, of radius 0.5, meets the bottom after 4.5 steps and the
+# top after 13.5, where v_x becomes 0.4 and then -0.6. So at step 20 it is at x = 5 + 0.2 * 4.5 +
+# 0.4 * 9 - 0.6 * 6.5 = 5.6 and y = 9.5 - 6.5 = 3.
 cat >one.toml <<'END_OF_SCENE'
 [box]
 size = 10
@@ -61,7 +62,7 @@ for method in time-stepped event-driven; do
     "$CARROM_PROGRAM" convert "disc_$method"/checkpoints/*20.h5 --to csv >disc.csv
     awk -F, 'function near(a, b) { return a - b < 1e-12 && b - a < 1e-12 }
         NR == 1 { for (k = 1; k <= NF; ++k) column[$k] = k }
-        NR == 2 { good = near($column["x"], 5.2) && near($column["y"], 2.5) &&
+        NR == 2 { good = near($column["x"], 5.6) && near($column["y"], 3) &&
                          near($column["vx"], -0.6) && near($column["vy"], -1) }
         END { exit !good }' disc.csv || complain "$method: $(tail -n 1 disc.csv)"
 
