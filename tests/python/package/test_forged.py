@@ -7,7 +7,6 @@ Each is a real file with one thing changed by h5py, so it has no checksums, or w
 from __future__ import annotations
 
 import os
-import resource
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -31,11 +30,9 @@ def asked(program: Path, *words: str | Path) -> tuple[int, str, int]:
     os.close(end)
     with os.fdopen(pipe, errors="replace") as text:
         printed = text.read()
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-    _, status, usage = os.wait4(child.pid, 0)
+    _, status, usage = os.wait4(child.pid, 0)  # of the processes that it has started, too
     child.returncode = os.waitstatus_to_exitcode(status)
-    used = max(usage.ru_maxrss, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
-    return child.returncode, printed, (used if used > before else usage.ru_maxrss) // 1024
+    return child.returncode, printed, usage.ru_maxrss // 1024
 
 
 def rewritten(run: carrom.Run, path: Path, change: Change = lambda file: None) -> Path:
