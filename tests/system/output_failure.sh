@@ -10,14 +10,20 @@ run 3 run "$expected/three_discs.in" --output /dev/full
 expect_code 4 'a full disk'
 expect_told 'cannot write to /dev/full: No space left' 'a full disk'
 
+# ended CODE: a run that `run` has not started has ended so.
+ended() {
+    code=$1
+    n_runs=$((n_runs + 1))
+}
+
 # Without mpirun in between, standard output is the program's own.
 "$CARROM_PROGRAM" run "$expected/three_discs.in" >/dev/full 2>"$test_folder/err"
-code=$?
+ended $?
 expect_code 4 'standard output on a full disk'
 expect_told 'cannot write to standard output: No space left' 'standard output on a full disk'
 
 "$CARROM_PROGRAM" keys >/dev/full 2>"$test_folder/err"
-code=$?
+ended $?
 expect_code 4 'text on a full disk'
 expect_told 'standard output: cannot be written to' 'text on a full disk'
 
@@ -31,7 +37,7 @@ exec 3>&-
 read -r line <&4
 exec 4<&-
 wait "$program"
-code=$?
+ended $?
 expect_code 4 'a closed pipe'
 expect_told 'cannot write to standard output: Broken pipe' 'a closed pipe'
 
@@ -44,12 +50,12 @@ for kind in full closed unread; do
     unread) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" 2> \
         >(exec <&-; exec sleep 0) ;;
     esac
-    code=$?
+    ended $?
     expect_code 0 "standard error that is $kind"
     cmp lines.txt "$kind.txt" || complain "other lines where standard error is $kind"
 done
 "$CARROM_PROGRAM" run "$expected/three_discs.in" >&- 2>"$test_folder/err"
-code=$?
+ended $?
 expect_code 4 'standard output that is closed'
 expect_told 'cannot write to standard output: Bad file descriptor' 'standard output that is closed'
 finish
