@@ -3,17 +3,18 @@
 //
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from it
 // by the laws of gravity and drag (core/frame.hpp). So the integral since the last sync is a known
-// function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b.
+// function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b. Where a sync changes
+// no velocity the integral may go on over many of them.
 //
 // The integral over a path with collisions is then a sum over events. A collision at time t that
-// changes v into v' adds the integral up to t with v and takes away the one with v'; a sync adds
-// the whole one.
+// changes v into v' adds the integral up to t with v and takes away the one with v'; where the
+// integral begins anew the whole one is added.
 #pragma once
 
 namespace carrom {
 
-/// Times are micro-steps. Without gravity and drag `weight` is the time since the last sync, and
-/// all else is 0.
+/// Times are micro-steps. Without gravity and drag `weight` is the time since the integral began,
+/// and all else is 0.
 struct FlightIntegral {
     double weight = 0;
     double shift_x = 0, shift_y = 0;

@@ -85,7 +85,7 @@ public:
         no_stress_ = *sums;
         no_stress_.clear();
     }
-    /// The integrals over flights since the last sync, which no sum has yet.
+    /// The integrals over flights that no sum has yet.
     virtual FlightIntegral flight_integral() const { return {}; }
     /// See Simulation::note_crossings_in.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }

@@ -45,7 +45,9 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
              stored_columns<Dynamics>(scene, state)),
       n_micro_done_(state.micro_steps_done), sync_action_(scene, communicator, tuning.threads),
+      flight_length_(flight_length(scene.effects)),
       last_micro_step_(scene.steps * scene.micro_steps) {
+    flown_before_ = static_cast<double>(last_sync() % flight_length_);
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
     if constexpr (Dynamics::is_for_study) {
@@ -55,6 +57,16 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
     for (const Disc& disc : own())
         largest_speed_ = std::max(largest_speed_,
                                   std::sqrt(dynamics_.squared_speed_at(disc, time_)));
+}
+
+/// Where a sync changes velocities flights end there, and so they do in a flow, which they do not
+/// count in.
+template <class Dynamics>
+std::int64_t EngineBase<Dynamics>::flight_length(const Effects& effects) const {
+    const bool sync_changes_velocities = Dynamics::has_moving_images || effects.gravity.is_any() ||
+                                         effects.drag != 0 || sync_action_.has_effects();
+    if (sync_changes_velocities) return sync_every_;
+    return std::max<std::int64_t>(1, longest_flight / sync_every_) * sync_every_;
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
@@ -117,6 +129,8 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     const auto n = static_cast<std::int64_t>(discs.size());
     const bool frame_moves = dynamics_.frame_at(time_).is_moving;
     const FlightIntegral flight = flight_integral();
+    const bool ends_flights = n_micro_done_ % flight_length_ == 0;
+    flown_before_ = ends_flights ? 0 : flown_before_ + time_;
     double fastest = 0;
     const bool is_work_asked = Dynamics::has_moving_images && work_ != nullptr;
     if (is_work_asked) *work_ -= energy_of_own();
@@ -128,7 +142,7 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         for (std::int64_t i = 0; i < n; ++i) {
             Disc& disc = discs[static_cast<std::size_t>(i)];
             if (Dynamics::may_lose_discs && disc.has_departed()) continue;
-            terms.add_flight(dynamics_.mass_of(disc), disc, flight, flights);
+            if (ends_flights) terms.add_flight(dynamics_.mass_of(disc), disc, flight, flights);
             Dynamics::advance(disc, time_);
             if (frame_moves) dynamics_.restart_frame(disc, time_);
             if constexpr (Dynamics::is_periodic) this->wrap(disc);
@@ -139,7 +153,7 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         flights.energy += flights.xx;
         flights.energy += flights.yy;
 #pragma omp critical(stress)
-        if (stress_) *stress_ += flights;
+        if (stress_ && ends_flights) *stress_ += flights;
     }
     if (is_work_asked) *work_ += energy_of_own();
     if (sync_action_.has_effects()) return sync_action_.act(discs_, n_micro_done_ / sync_every_);

@@ -37,7 +37,11 @@ public:
     }
     double clock() const final { return time_; }
     Frame frame() const final;
-    FlightIntegral flight_integral() const final { return dynamics_.flight_integral_at(time_); }
+    FlightIntegral flight_integral() const final {
+        FlightIntegral integral = dynamics_.flight_integral_at(time_);
+        integral.weight += flown_before_;
+        return integral;
+    }
     std::uint64_t n_discs() const final { return discs_.n_with_departed(); }
     double energy_given() const final { return sync_action_.energy_given(); }
     PhaseSeconds phase_seconds() const final { return phases_.seconds(); }
@@ -83,6 +87,7 @@ protected:
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
     double time_ = 0;               ///< on the clock, since the last sync
+    double flown_before_ = 0;       ///< how long flights had gathered stress at the last sync
     double redistributed_time_ = 0; ///< when discs last migrated
     double largest_speed_ = 0;      ///< no own disc is faster
     double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
@@ -93,8 +98,10 @@ private:
     double restart_states();
     void wrap(Disc& disc);
     double energy_of_own() const;
+    std::int64_t flight_length(const Effects& effects) const;
 
     SyncAction sync_action_;
+    std::int64_t flight_length_; ///< micro-steps from one addition of whole flights to the next
     std::int64_t last_micro_step_, n_syncs_ = 0;
 };
 

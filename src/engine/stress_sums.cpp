@@ -28,14 +28,13 @@ StressSums& StressSums::operator-=(const StressSums& other) {
     return *this;
 }
 
-void StressSums::add_flight(double sign, double mass, const Disc& disc,
-                            const FlightIntegral& integral) {
+void StressSums::add_flight(double mass, const Disc& disc, const FlightIntegral& integral) {
     const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y,
-                 weight = integral.weight, factor = sign * mass;
-    const double term_xx = factor * (weight * vx * vx + integral.rest_x * integral.rest_x),
-                 term_yy = factor * (weight * vy * vy + integral.rest_y * integral.rest_y);
+                 weight = integral.weight;
+    const double term_xx = mass * (weight * vx * vx + integral.rest_x * integral.rest_x),
+                 term_yy = mass * (weight * vy * vy + integral.rest_y * integral.rest_y);
     xx.add(term_xx);
-    xy.add(factor * (weight * vx * vy + integral.rest_x * integral.rest_y));
+    xy.add(mass * (weight * vx * vy + integral.rest_x * integral.rest_y));
     yy.add(term_yy);
     energy.add(term_xx + term_yy);
 }

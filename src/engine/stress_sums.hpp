@@ -7,10 +7,14 @@
 // the order of collisions nor the rank that carries them out affects them. A pair's collision
 // adds to one tensor for both parts, which costs a handful of instructions more than impulse
 // times distance alone. The kinetic energy has its own sum; elastic collisions add nothing to it.
+// Whole flights are added at some syncs only, as rarely as the range of the sums allows, because
+// each costs some 60 instructions a disc.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #include "core/disc.hpp"
 #include "core/exact_sum.hpp"
@@ -18,6 +22,10 @@
 #include "dynamics/plain_dynamics.hpp"
 
 namespace carrom {
+
+/// Flights are added to sums when they have gathered for so many micro-steps, or at the first sync
+/// after that.
+constexpr std::int64_t longest_flight = 1024;
 
 struct StressSums {
     /// `bound` exceeds each sum; mass times length squared per micro-step, the same on all ranks.
@@ -32,10 +40,9 @@ struct StressSums {
     StressSums& operator+=(const StressSums& other);
     StressSums& operator-=(const StressSums& other);
 
-    /// Adds `sign` times the integral that a disc of this mass has gathered since the
-    /// last sync at its present velocity. A collision that is not one of a pair adds
-    /// the integral of the disc before it, and subtracts that of the disc after it.
-    void add_flight(double sign, double mass, const Disc& disc, const FlightIntegral& integral);
+    /// Adds the integral that a disc of this mass has gathered at its present velocity. That is
+    /// all of its flight where it leaves the box.
+    void add_flight(double mass, const Disc& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
     ExactSum energy; ///< the integral of the sum of m v^2
@@ -53,7 +60,7 @@ public:
         y_[n_] = to.y;
         if (++n_ == most) add_to(sum);
     }
-    /// Does what StressSums::add_flight does with the sign 1, but not for the energy.
+    /// Does what StressSums::add_flight does, but not for the energy.
     void add_flight(double mass, const Disc& disc, const FlightIntegral& integral, StressSums& sum);
     /// Adds the terms that are left, and forgets them.
     void add_to(StressSums& sum);
@@ -71,27 +78,69 @@ private:
 /// by the weight of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse
 /// that p gets and u the sum of the relative velocities before and after. This has the
 /// form of impulse times distance for another distance, so both parts are one term.
-class PairStress {
+template <class Dynamics> class PairStress {
 public:
-    PairStress(const Disc& p, const Disc& q)
-        : vx_(p.vx), vy_(p.vy), ux_(q.vx - p.vx), uy_(q.vy - p.vy) {}
+    PairStress(const Disc& p, const Disc& q) : vx_(p.vx), vy_(p.vy) {
+        if constexpr (Dynamics::has_species) wx_ = q.vx - p.vx, wy_ = q.vy - p.vy;
+    }
 
-    /// Called after it, at `time`, with the separation from p to q. Returns p's impulse along x.
-    template <class Dynamics>
+    /// Called after it, at `time`, with the separation from p to q. Flights have gathered stress
+    /// for `flown` before the last sync. Returns p's impulse along x.
     [[gnu::always_inline]] double add_to(StressTerms& terms, StressSums& sum,
                                          const Dynamics& dynamics, const Disc& p, const Disc& q,
-                                         const Separation& to, double time) const {
+                                         const Separation& to, double time, double flown) const {
+        const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
+        // Of equal masses q has lost what p has gained, so half of u is known afterwards.
+        double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
+        if constexpr (Dynamics::has_species) {
+            half_ux = 0.5 * (wx_ + (q.vx - p.vx));
+            half_uy = 0.5 * (wy_ + (q.vy - p.vy));
+        }
         const double mass = dynamics.mass_of(p) * dynamics.slowing_at(time),
-                     weight = dynamics.pair_weight_at(time);
-        const double ix = mass * (p.vx - vx_), iy = mass * (p.vy - vy_);
-        const double ux = ux_ + (q.vx - p.vx), uy = uy_ + (q.vy - p.vy);
-        terms.add(ix, iy, {to.x - weight * ux, to.y - weight * uy}, sum);
-        if constexpr (!Dynamics::has_elastic_pairs) sum.energy.add(weight * (ix * ux + iy * uy));
+                     weight = dynamics.pair_weight_at(time) + flown, twice = weight + weight;
+        const double ix = mass * gained_x, iy = mass * gained_y;
+        terms.add(ix, iy, {to.x - twice * half_ux, to.y - twice * half_uy}, sum);
+        if constexpr (!Dynamics::has_elastic_pairs)
+            sum.energy.add(twice * (ix * half_ux + iy * half_uy));
         return ix;
     }
 
 private:
-    double vx_, vy_, ux_, uy_;
+    struct Nothing {};
+    using Relative = std::conditional_t<Dynamics::has_species, double, Nothing>;
+
+    double vx_, vy_;
+    [[no_unique_address]] Relative wx_, wy_; ///< the relative velocity before it
+};
+
+/// A collision of one disc with a wall or an obstacle, noted before it happens: as that of a pair
+/// whose other disc does not move.
+template <class Dynamics> class WallStress {
+public:
+    explicit WallStress(const Disc& disc) : vx_(disc.vx), vy_(disc.vy) {}
+
+    /// After it, as PairStress::add_to.
+    [[gnu::always_inline]] void add_to(StressTerms& terms, StressSums& sum,
+                                       const Dynamics& dynamics, const Disc& disc, double time,
+                                       double flown) const {
+        FlightIntegral integral = dynamics.flight_integral_at(time);
+        integral.weight += flown;
+        const double mass = dynamics.mass_of(disc);
+        if (Dynamics::may_lose_discs && disc.has_departed()) {
+            Disc before = disc;
+            before.vx = vx_, before.vy = vy_;
+            return sum.add_flight(mass, before, integral);
+        }
+        const double ix = mass * (disc.vx - vx_), iy = mass * (disc.vy - vy_);
+        const double ux = integral.weight * (disc.vx + vx_ + 2 * integral.shift_x),
+                     uy = integral.weight * (disc.vy + vy_ + 2 * integral.shift_y);
+        terms.add(ix, iy, {ux, uy}, sum);
+        const double lost = -(ix * ux + iy * uy);
+        if (lost != 0) sum.energy.add(lost); // a mirror at rest takes exactly none
+    }
+
+private:
+    double vx_, vy_;
 };
 
 } // namespace carrom

@@ -279,7 +279,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Event& event) {
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
-    if (is_wall(event.q) && is_own[event.p] != 0) add_flight(1, event);
+    const WallStress<Dynamics> before(p);
     if (event.q == x_wall) {
         dynamics.bounce_x_at(p, event.time);
     } else if (event.q == y_wall) {
@@ -295,7 +295,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
         if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
-    if (is_wall(event.q) && is_own[event.p] != 0) add_flight(-1, event);
+    if (is_wall(event.q) && is_own[event.p] != 0)
+        before.add_to(stress_terms, outcome->stress, dynamics, p, event.time, ground.flown_before);
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
@@ -308,7 +309,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 /// Two discs, the second one where the event's image has it.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     Disc &p = discs[event.p], &q = discs[event.q];
-    const PairStress stress(p, q);
+    const PairStress<Dynamics> stress(p, q);
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
     if constexpr (Dynamics::has_spin)
         dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
@@ -317,7 +318,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
         dynamics.collide_at(p, q, event.time);
     if (is_own[event.p] != 0) {
         [[maybe_unused]] const double impulse = stress.add_to(
-            stress_terms, outcome->stress, dynamics, p, q, dynamics.separation(p, q), event.time);
+            stress_terms, outcome->stress, dynamics, p, q, dynamics.separation(p, q), event.time,
+            ground.flown_before);
         if constexpr (Dynamics::has_moving_images)
             outcome->work += impulse * periods().between(p, q, event.time).vx;
     }

@@ -57,6 +57,7 @@ struct BlockGround {
     bool is_logged = false;
     const SideColumns* columns = nullptr; ///< by disc
     StressSums no_stress{0x1p900};        ///< where sums begin
+    double flown_before = 0;              ///< how long flights had gathered at the last sync
     BoxCells box_cells{};                 ///< for runs of the whole box
     bool is_alone = false; ///< there is one run, of the whole box: nobody compares histories, and
                            ///< the grid says nothing

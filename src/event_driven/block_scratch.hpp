@@ -89,7 +89,6 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_all();
     void happen(const Event& event);
     void carry_out(const Event& event);
-    void add_flight(double sign, const Event& event);
     void collide(const Event& event);
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);

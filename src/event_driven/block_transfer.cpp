@@ -219,18 +219,8 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
-/// Of the disc that meets a wall or an obstacle: see StressSums::add_flight.
-template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::add_flight(double sign, const Event& event) {
-    const Disc& p = discs[event.p];
-    if (Dynamics::may_lose_discs && p.has_departed()) return;
-    outcome->stress.add_flight(sign, dynamics.mass_of(p), p,
-                               dynamics.flight_integral_at(event.time));
-}
-
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void BlockRun<Dynamics>::Scratch::begin(const BlockGround&, BlockOutcome&);           \
-    template void BlockRun<Dynamics>::Scratch::add_flight(double, const Event&);                   \
     template void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock&, int);                  \
     template void BlockRun<Dynamics>::Scratch::list_all_discs();                                   \
     template void BlockRun<Dynamics>::Scratch::gather();                                           \

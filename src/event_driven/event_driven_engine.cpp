@@ -301,9 +301,10 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{
-        discs_.all(),        discs_.n_own(),    &discs_.grid(),   own_cells_, window_,
-        this->is_followed(), &discs_.columns(), this->no_stress_, box_cells_, is_alone_};
+    const BlockGround ground{discs_.all(),      discs_.n_own(),   &discs_.grid(),
+                             own_cells_,        window_,          this->is_followed(),
+                             &discs_.columns(), this->no_stress_, this->flown_before_,
+                             box_cells_,        is_alone_};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;

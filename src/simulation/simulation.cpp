@@ -127,10 +127,10 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
       averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(system_to_average(scene, engine_->n_discs()))) {
-    // Terms are some 2^45 units, and sums come to 2^80 of them. The largest are those of a whole
-    // flight between syncs. Rare longer ones take another path.
+    // Terms are some 2^45 units, and sums come to 2^80 of them. The largest are those of whole
+    // flights. Rare longer ones take another path.
     const double speed = usual_speed(scene, engine_->own(), communicator),
-                 flight = speed * static_cast<double>(std::min<std::int64_t>(scene.sync_every, 64));
+                 flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
 }
 

@@ -278,20 +278,15 @@ template <class Dynamics>
     Disc& p = results[c.p];
     const bool is_summed = this->stress_ && c.p < discs_.n_own();
     if (c.is_wall()) {
-        const auto add_flight = [&](double sign) {
-            if (!is_summed || (Dynamics::may_lose_discs && p.has_departed())) return;
-            stress.add_flight(sign, dynamics_.mass_of(p), p,
-                              dynamics_.flight_integral_at(m + c.time));
-        };
-        add_flight(1);
+        const WallStress<Dynamics> before(p);
         dynamics_.bounce(p, m, c.time);
-        add_flight(-1);
+        if (is_summed) before.add_to(terms, stress, dynamics_, p, m + c.time, this->flown_before_);
         if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
             if (p.has_departed()) discs_.columns()[SideColumn::spin][c.p] = 0;
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
     Disc& q = results[c.q];
-    const PairStress before(p, q);
+    const PairStress<Dynamics> before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
     // A spin does not affect the search, so it need not wait for the end of a cut micro-step.
     if constexpr (Dynamics::has_spin) {
@@ -302,7 +297,7 @@ template <class Dynamics>
     }
     if (is_summed) {
         [[maybe_unused]] const double impulse = before.add_to(terms, stress, dynamics_, p, q, to,
-                                                              m + c.time);
+                                                              m + c.time, this->flown_before_);
         if constexpr (Dynamics::has_moving_images)
             if (const double slip = dynamics_.periods().between(p, q, 0).vx;
                 this->work_ && slip != 0) {

@@ -2,6 +2,7 @@
 #include "apps/run/report.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -80,6 +81,22 @@ nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
     return all;
 }
 
+/// That of the centre of mass of the discs in the box. Where discs of several masses have left, the
+/// mass of the others is not known.
+nlohmann::ordered_json drift_velocity(const Scene& scene, const Totals& end) {
+    const std::uint64_t n_departed = std::accumulate(end.departed.begin(), end.departed.end(),
+                                                     std::uint64_t{0});
+    double mass = static_cast<double>(end.n_discs - n_departed);
+    if (!scene.effects.species.empty()) {
+        if (n_departed > 0) return nullptr;
+        mass = 0;
+        for (const Species& one : scene.effects.species)
+            mass += one.mass * static_cast<double>(one.count);
+    }
+    if (!(mass > 0)) return nullptr;
+    return {end.momentum_x / mass, end.momentum_y / mass};
+}
+
 } // namespace
 
 std::string report_text(const Scene& scene, const RunResult& result) {
@@ -114,6 +131,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"kinetic_energy", result.end.kinetic_energy},
         {"energy_drift", energy_drift(result)},
         {"momentum", {result.end.momentum_x, result.end.momentum_y}},
+        {"drift_velocity", drift_velocity(scene, result.end)},
         {"wall_seconds", result.wall_seconds},
         {"ns_per_disc_step", ns_per_disc_step(result)},
         {"ranks", result.ranks},

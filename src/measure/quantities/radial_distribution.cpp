@@ -2,6 +2,7 @@
 // "radial_distribution": g(r), from the distances of all pairs at each sample.
 #include <fmt/format.h>
 
+#include "measure/kept_blocks.hpp"
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
 #include "statistics/pair_distances.hpp"
@@ -24,7 +25,7 @@ public:
     explicit RadialDistribution(MeasuredRun& run)
         : Measurement(run), largest_distance_(largest_distance_setting.of(run.output)),
           pairs_(n_bins_of(run) * n_pair_kinds(species_apart(run.scene).size()), 0),
-          ideal_pairs_(pairs_.size(), 0) {}
+          ideal_pairs_(pairs_.size(), 0), blocks_(n_bins_of(run) * n_curves(run.scene)) {}
 
     bool moves_discs() const override { return true; }
 
@@ -38,7 +39,9 @@ public:
         for (const Species& one : species)
             species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
         run_.simulation.count_pair_distances(width, species_ends, pairs);
-        add_over(run_.ranks, std::move(pairs), pairs_);
+        std::vector<std::uint64_t> now(pairs.size(), 0);
+        add_over(run_.ranks, std::move(pairs), now);
+        std::vector<double> ideal_now(now.size(), 0);
         const double a = box.x_high - box.x_low - 2 * run_.scene.radius,
                      b = box.y_high - box.y_low - 2 * run_.scene.radius;
         const bool goes_round_x = run_.scene.effects.is_periodic_x(),
@@ -61,56 +64,79 @@ public:
                 for (std::size_t k = 0; k < n; ++k) {
                     const double inner = static_cast<double>(k) * width,
                                  outer = static_cast<double>(k + 1) * width;
-                    ideal_pairs_[pair_kind(first, second) * n + k] += all *
-                                                                      (share(outer) - share(inner));
+                    ideal_now[pair_kind(first, second) * n + k] = all *
+                                                                  (share(outer) - share(inner));
                 }
             }
         }
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            pairs_[k] += now[k];
+            ideal_pairs_[k] += ideal_now[k];
+        }
+        blocks_.add(ratios(with_all(numbers_of(now)), with_all(ideal_now)));
     }
 
     void keep(KeptNumbers& kept) override {
         keep_largest_distance(kept, run_, largest_distance_);
         kept.same(pairs_.size());
         kept(pairs_), kept(ideal_pairs_);
+        keep_blocks(kept, blocks_);
     }
 
     std::vector<MeasuredTable> tables() const override {
         MeasuredTable table{"radial_distribution",
                             {"g: pairs at a distance from `from` to `to`, over those that as many "
                              "discs without size would have, anywhere in the box that centres have",
-                             "distances in the scene's unit of length; pairs: of all samples"},
-                            {"from", "to", "pairs", "g"},
+                             "distances in the scene's unit of length; pairs: of all samples; "
+                             "g_error: one standard error, nan where samples are too few"},
+                            {"from", "to", "pairs", "g", "g_error"},
                             {}};
-        const std::size_t n_species = species_apart(run_.scene).size(),
-                          n_kinds = n_pair_kinds(n_species), n = pairs_.size() / n_kinds;
-        if (n_kinds > 1)
+        const std::size_t n_species = species_apart(run_.scene).size(), n = n_bins_of(run_);
+        if (n_species > 1)
             table.remarks.push_back(
                 "pairs_a_b, g_a_b: of a disc of species a and one of species b, "
                 "species counted from 1 in the order of ids");
-        for (std::size_t b = 1; b <= n_species && n_kinds > 1; ++b)
+        for (std::size_t b = 1; b <= n_species && n_species > 1; ++b)
             for (std::size_t a = 1; a <= b; ++a)
-                for (const char* what : {"pairs", "g"})
-                    table.columns.push_back(fmt::format("{}_{}_{}", what, a, b));
+                for (const char* what : {"pairs_{}_{}", "g_{}_{}", "g_{}_{}_error"})
+                    table.columns.push_back(fmt::format(fmt::runtime(what), a, b));
+        const std::vector<double> pairs = with_all(numbers_of(pairs_)),
+                                  g = ratios(pairs, with_all(ideal_pairs_)),
+                                  errors = errors_of(blocks_, run_.counts.n_samples);
         for (std::size_t k = 0; k < n; ++k) {
             std::vector<double> row = {edge(0, largest_distance_, k, n),
-                                       edge(0, largest_distance_, k + 1, n), 0, 0};
-            std::uint64_t all = 0;
-            double ideal = 0;
-            const auto g = [](std::uint64_t pairs, double ideal_pairs) {
-                return ideal_pairs > 0 ? static_cast<double>(pairs) / ideal_pairs : 0;
-            };
-            for (std::size_t place = k; place < pairs_.size(); place += n) {
-                all += pairs_[place];
-                ideal += ideal_pairs_[place];
-                if (n_kinds > 1)
-                    row.insert(row.end(), {static_cast<double>(pairs_[place]),
-                                           g(pairs_[place], ideal_pairs_[place])});
-            }
-            row[2] = static_cast<double>(all);
-            row[3] = g(all, ideal);
+                                       edge(0, largest_distance_, k + 1, n)};
+            for (std::size_t place = k; place < g.size(); place += n)
+                row.insert(row.end(), {pairs[place], g[place], errors[place]});
             table.rows.push_back(std::move(row));
         }
         return {std::move(table)};
+    }
+
+private:
+    /// Those of all pairs come first where there are several kinds.
+    static std::size_t n_curves(const Scene& scene) {
+        const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
+        return n_kinds > 1 ? n_kinds + 1 : 1;
+    }
+    /// Numbers of each kind, and before them those of all pairs where there are several kinds.
+    std::vector<double> with_all(const std::vector<double>& of_kinds) const {
+        const std::size_t n = n_bins_of(run_);
+        if (of_kinds.size() == n) return of_kinds;
+        std::vector<double> curves(n, 0);
+        for (std::size_t k = 0; k < of_kinds.size(); ++k) curves[k % n] += of_kinds[k];
+        curves.insert(curves.end(), of_kinds.begin(), of_kinds.end());
+        return curves;
+    }
+    static std::vector<double> numbers_of(const std::vector<std::uint64_t>& counts) {
+        return {counts.begin(), counts.end()};
+    }
+    static std::vector<double> ratios(const std::vector<double>& pairs,
+                                      const std::vector<double>& ideal_pairs) {
+        std::vector<double> g(pairs.size(), 0);
+        for (std::size_t k = 0; k < g.size(); ++k)
+            if (ideal_pairs[k] > 0) g[k] = pairs[k] / ideal_pairs[k];
+        return g;
     }
 
 private:
@@ -118,6 +144,7 @@ private:
     std::vector<std::uint64_t> pairs_; ///< by kind (pair_distances.hpp), all bins of
                                        ///< one kind after the other
     std::vector<double> ideal_pairs_;  ///< the pairs that discs without size would have
+    VectorBlocks blocks_;              ///< g, all curves one after the other
 };
 
 } // namespace

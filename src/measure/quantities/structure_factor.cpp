@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "measure/kept_blocks.hpp"
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
 #include "statistics/structure_factor.hpp"
@@ -39,7 +40,7 @@ class StructureFactor : public Measurement {
 public:
     explicit StructureFactor(MeasuredRun& run)
         : Measurement(run), largest_(largest_wavenumber.of(run.output)),
-          sums_(wave_vectors().size(), 0) {}
+          sums_(wave_vectors().size(), 0), blocks_(n_bins_of(run)) {}
 
     void sample(const SampledState& state) override {
         const Extent& box = state.box;
@@ -49,14 +50,19 @@ public:
                                            run_.simulation.n_threads());
         run_.ranks.sum(std::span(modes.real));
         run_.ranks.sum(std::span(modes.imaginary));
-        for (std::size_t k = 0; k < vectors.size(); ++k)
-            sums_[k] += modes.squared_modulus(k) / static_cast<double>(run_.scene.n_discs);
+        std::vector<double> now(vectors.size());
+        for (std::size_t k = 0; k < vectors.size(); ++k) {
+            now[k] = modes.squared_modulus(k) / static_cast<double>(run_.scene.n_discs);
+            sums_[k] += now[k];
+        }
+        blocks_.add(means_of_bins(vectors, now));
     }
 
     void keep(KeptNumbers& kept) override {
         kept.same(largest_);
         kept.same(sums_.size());
         kept(sums_);
+        keep_blocks(kept, blocks_);
     }
 
     std::vector<MeasuredTable> tables() const override {
@@ -65,27 +71,22 @@ public:
         const std::vector<WaveVector> vectors = wave_vectors();
         const std::size_t n = n_bins_of(run_);
         std::vector<MeasuredTable> tables;
-        std::vector<double> sums(n, 0), counts(n, 0);
-        std::size_t highest = 0;
-        for (std::size_t k = 0; k < vectors.size(); ++k) {
-            const double place = wavenumber(vectors[k], lx, ly) / largest_ * static_cast<double>(n);
-            const std::size_t bin = std::min(static_cast<std::size_t>(place), n - 1);
-            sums[bin] += sums_[k];
-            counts[bin] += 1;
-            if (sums_[k] > sums_[highest]) highest = k;
-        }
+        const std::vector<double> sums = means_of_bins(vectors, sums_),
+                                  counts = counts_of_bins(vectors),
+                                  errors = errors_of(blocks_, run_.counts.n_samples);
+        const auto highest = static_cast<std::size_t>(std::ranges::max_element(sums_) -
+                                                      sums_.begin());
         MeasuredTable table{
             "structure_factor",
             {"S: mean square of the sum of exp(i k r) over discs, per disc, over the "
              "box's wave vectors of lengths from `from` to `to`; nan without any",
              "of each two opposite vectors one counts; wavenumbers in radians per "
-             "length"},
-            {"from", "to", "count", "S"},
+             "length; S_error: one standard error, nan where samples are too few"},
+            {"from", "to", "count", "S", "S_error"},
             {}};
         for (std::size_t bin = 0; bin < n; ++bin)
-            table.rows.push_back(
-                {edge(0, largest_, bin, n), edge(0, largest_, bin + 1, n), counts[bin],
-                 counts[bin] > 0 ? sums[bin] / (counts[bin] * n_samples) : std::nan("")});
+            table.rows.push_back({edge(0, largest_, bin, n), edge(0, largest_, bin + 1, n),
+                                  counts[bin], sums[bin] / n_samples, errors[bin]});
         tables.push_back(std::move(table));
         const WaveVector& peak = vectors[highest];
         tables.push_back({"structure_factor_peak",
@@ -101,8 +102,30 @@ private:
         return carrom::wave_vectors(run_.scene.box.x, run_.scene.box.y, largest_);
     }
 
+    std::size_t bin_of(const WaveVector& vector) const {
+        const auto n = static_cast<double>(n_bins_of(run_));
+        const double length = wavenumber(vector, run_.scene.box.x, run_.scene.box.y);
+        return std::min(static_cast<std::size_t>(length / largest_ * n), n_bins_of(run_) - 1);
+    }
+    std::vector<double> counts_of_bins(const std::vector<WaveVector>& vectors) const {
+        std::vector<double> counts(n_bins_of(run_), 0);
+        for (const WaveVector& vector : vectors) counts[bin_of(vector)] += 1;
+        return counts;
+    }
+    /// Of a number of each wave vector; NaN in a bin without any.
+    std::vector<double> means_of_bins(const std::vector<WaveVector>& vectors,
+                                      const std::vector<double>& numbers) const {
+        const std::vector<double> counts = counts_of_bins(vectors);
+        std::vector<double> means(counts.size(), 0);
+        for (std::size_t k = 0; k < vectors.size(); ++k) means[bin_of(vectors[k])] += numbers[k];
+        for (std::size_t bin = 0; bin < means.size(); ++bin)
+            means[bin] = counts[bin] > 0 ? means[bin] / counts[bin] : std::nan("");
+        return means;
+    }
+
     double largest_;
     std::vector<double> sums_; ///< by wave vector, over all samples
+    VectorBlocks blocks_;      ///< S in each bin
 };
 
 } // namespace

@@ -186,7 +186,7 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         CHECK(column_of(tables, "radial_distribution", "pairs") == by_hand.pairs);
         const bool are_distinguished = scene.effects.species.size() == 3;
         CHECK(table_of(tables, "radial_distribution").columns.size() ==
-              (are_distinguished ? 16 : 4));
+              (are_distinguished ? 23 : 5));
         for (const auto& [species, counted] : by_hand.pairs_of) {
             if (!are_distinguished) continue;
             CHECK(column_of(tables, "radial_distribution", "pairs_" + species) == counted);
