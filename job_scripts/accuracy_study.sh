@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Repeats the study of docs/understanding/accuracy.md: tables of CSV in a folder, one for each gas,
-# then the figures. Tables that are there are kept, so a study that was stopped goes on with the
-# same command.
+# then one for each kind of study, and the figures. Tables that are there are kept, so a study that
+# was stopped goes on with the same command. It needs an idle machine, and takes some ten minutes.
 #
 #   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core, into build/accuracy
+#   CORES=2 job_scripts/accuracy_study.sh            on two cores, each of which runs half the trials
+#   PAGE=docs/understanding/accuracy.md job_scripts/accuracy_study.sh
+#                                                    writes the tables of that page, too
 #   SHARE=2/8 job_scripts/accuracy_study.sh FOLDER   the second of eight shares: its own tables and
 #                                                    no figures
 #   PYTHON=build/pictures/bin/python job_scripts/accuracy_study.sh
@@ -18,13 +21,14 @@ unset CDPATH
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 carrom=${CARROM:-$here/build/carrom}
 folder=${1:-$here/build/accuracy}
-share=${SHARE:-1/1}
+share=${SHARE:-1/1} cores=${CORES:-1}
 suffix=
 [ "$share" = 1/1 ] || suffix=-${share/\//-of-}
 mkdir -p "$folder"
 
-# study TABLE N PACKING Z OPTION...
+# study TABLE N PACKING Z OPTION... Where shares have been run, there is nothing left to do.
 study() {
+    [ "$cores" = 1 ] || return 0
     local table=$folder/$1-$2-$3$suffix.csv n=$2 packing=$3 z=$4
     shift 4
     [ ! -e "$table" ] || return 0
@@ -39,6 +43,15 @@ study() {
         --share "$share" --output "$table.unfinished" "$@"
     mv "$table.unfinished" "$table"
 }
+
+if [ "$cores" -gt 1 ]; then
+    shares=()
+    for ((k = 1; k <= cores; ++k)); do
+        CORES=1 SHARE=$k/$cores "$0" "$folder" &
+        shares+=($!)
+    done
+    for one in "${shares[@]}"; do wait "$one"; done
+fi
 
 # Error against cost and against nu dt.
 study error 1024 0.1 1.236 --arithmetic default --starts 8 --collisions 100
@@ -71,8 +84,10 @@ study distances 256 0.3 2.063 --distances --arithmetic stable --starts 4 --colli
 study distances 256 0.5 4.10 --distances --arithmetic stable --starts 4 --collisions 75
 
 [ "$share" = 1/1 ] || exit 0
-"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/large*.csv \
-    "$folder"/long*.csv "$folder"/arithmetic*.csv "$folder"/size*.csv "$folder"/thin*.csv \
-    --output "$folder"
-"${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder"/distances*.csv \
+for kind in error large long arithmetic size thin distances; do
+    awk 'FNR == 1 && NR > 1 { next } { print }' "$folder/$kind"-*.csv >"$folder/$kind.csv"
+done
+"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" \
+    "$folder"/{error,large,long,arithmetic,size,thin}.csv --output "$folder" ${PAGE:+--page "$PAGE"}
+"${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder/distances.csv" \
     --output "$folder"

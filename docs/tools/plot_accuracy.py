@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the tables of `carrom accuracy`: error against cost, error against nu dt, cost against N, and what formulas lose.
+With --page it also writes which method is fastest for a wanted error, and at which speed both cost the same.
 
 Errors are taken start by start, against the event-driven method (double, stable, K = 1) from the same start; bars are one standard
 error over starts. Costs are medians over starts and repetitions, with bars from quartile to quartile, in core-microseconds
@@ -63,6 +64,9 @@ class Point:
         self.deepest = max([float(a["deepest_overlap"]) for a, _ in pairs], default=0)
         self.distance = self.mean([float(a["distance_rms"]) for a, _ in pairs])
         self.collisions = self.mean([int(a["steps"]) * float(b["collision_frequency"]) for a, b in pairs])[0]
+        # Root mean square, in diameters per micro-step.
+        self.speed = self.mean([math.sqrt(2 * float(a["kinetic_energy"]) / int(a["n_discs"])) / (2 * float(a["radius"]) * int(a["micro_steps"]))
+                                for a, _ in pairs])[0]
         self.nu_dt = self.mean([float(b["collision_frequency"]) / int(a["micro_steps"]) for a, b in pairs])[0]
         self.runs = {(a["start"], a["repetition"]): 1e6 * float(a["core_seconds"]) / (int(a["n_discs"]) * int(a["steps"]) * float(b["collision_frequency"]))
                      for a, b in everything}
@@ -149,14 +153,15 @@ def slope_one(axes, x, y, factor, rising):
 
 
 def crossover(points):
-    """The error and K at which the time-stepped method costs as much as the event-driven method; None where no K or every K is dearer."""
+    """Error, K and speed at which the time-stepped method costs as much as the event-driven method; None where no K or every K costs more."""
     curve, exact = default_curve(points), exact_point(points)
     if exact is None or not curve or curve[0][1].cost >= exact.cost:
         return None
     for (k1, a), (k2, b) in zip(curve, curve[1:]):
         if b.cost >= exact.cost:
             share = math.log(exact.cost / a.cost) / math.log(b.cost / a.cost)
-            return (math.exp((1 - share) * math.log(abs(a.rate[0])) + share * math.log(abs(b.rate[0]))), k1, k2)
+            return (math.exp((1 - share) * math.log(abs(a.rate[0])) + share * math.log(abs(b.rate[0]))), k1, k2,
+                    math.exp((1 - share) * math.log(a.speed) + share * math.log(b.speed)))
     return None
 
 
@@ -194,6 +199,25 @@ def figure_error_against_cost(gases, path):
         axes.set_ylabel("relative error")
     figure.legend(*panels.flat[0].get_legend_handles_labels(), fontsize=8.5, loc="outside lower center", ncols=1 + n_columns)
     figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def figure_both_methods(gases, path):
+    """One panel: the time-stepped method's error against its cost, and as a line of the same colour what the event-driven method costs, which has none."""
+    figure, axes = plt.subplots(figsize=(6.8, 4.8), layout="constrained")
+    for index, ((packing, _), points) in enumerate(gases.items()):
+        curve, exact = default_curve(points), exact_point(points)
+        costs, cost_bars = bars([p.costs for _, p in curve])
+        draw_errors(axes, costs, [p.rate for _, p in curve], index, f"time-stepped, packing {packing:.3g}", cost_bars)
+        axes.axvline(exact.cost, color=GREYS[index], linewidth=1.6, linestyle=STYLES[index][1], label=f"event-driven, packing {packing:.3g}: no error")
+    n = next(iter(gases))[1]
+    axes.set(xscale="log", yscale="log", ylim=(1e-3, 1), title=f"{n} discs, one core", ylabel="error of the collision rate",
+             xlabel="cost: core-microseconds per disc and mean free time")
+    plain_ticks(axes.xaxis)
+    axes.grid(True, which="major", color="0.92")
+    axes.legend(fontsize=8)
+    with plt.rc_context({"svg.hashsalt": "carrom"}):
+        figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
 
 
@@ -298,8 +322,8 @@ def as_table(heading, rows):
 def crossover_text(points):
     crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
     if crossing:
-        return f"{100 * crossing[0]:.2g} %, K = {crossing[1]} to {crossing[2]}"
-    return "always slower" if first.cost >= exact.cost else "always faster"
+        return f"{100 * crossing[0]:.2g} %, K = {crossing[1]} to {crossing[2]}", f"{crossing[3]:.2g}"
+    return "always slower" if first.cost >= exact.cost else "always faster", ""
 
 
 def crossover_table(errors, large):
@@ -307,8 +331,32 @@ def crossover_table(errors, large):
     for gases in (errors, large):
         for (packing, n), points in gases.items():
             exact, first = exact_point(points), default_curve(points)[0][1]
-            rows.append([f"{packing:.3g}", str(n), str(exact.n_starts), f"{exact.cost:.3f}", f"{first.cost:.3f}", percent(first.rate), crossover_text(points)])
-    return as_table(["packing", "discs", "starts", "event-driven, µs", "time-stepped K = 1, µs", "its error of the rate, %", "equal cost at"], rows)
+            rows.append([f"{packing:.3g}", str(n), str(exact.n_starts), f"{exact.cost:.3f}", f"{first.cost:.3f}", percent(first.rate), *crossover_text(points)])
+    return as_table(["packing", "discs", "starts", "event-driven, µs", "time-stepped K = 1, µs", "its error of the rate, %", "equal cost at",
+                     "speed there"], rows)
+
+
+WANTED = (0.1, 0.01, 0.001)
+
+
+def answer(points, wanted):
+    """The fastest setting whose error of the collision rate, two standard errors included, is at most the wanted one."""
+    exact, last = exact_point(points), default_curve(points)[-1]
+    good = [(p.cost, k) for k, p in default_curve(points) if abs(p.rate[0]) + 2 * p.rate[1] <= wanted]
+    if not good:
+        return f"event-driven; K = {last[0]} costs {last[1].cost / exact.cost:.1f} times as much and is not enough"
+    cost, k = min(good)
+    if cost < exact.cost:
+        return f"time-stepped, K = {k}: {cost:.3f} µs"
+    return f"event-driven; K = {k} costs {cost / exact.cost:.1f} times as much"
+
+
+def answers_table(errors, large):
+    rows = []
+    for gases in (errors, large):
+        for (packing, n), points in gases.items():
+            rows.append([f"{packing:.3g}", str(n), f"{exact_point(points).cost:.3f}", *(answer(points, wanted) for wanted in WANTED)])
+    return as_table(["packing", "discs", "event-driven, µs", *(f"error {100 * wanted:g} %" for wanted in WANTED)], rows)
 
 
 def put(text, name, part):
@@ -332,6 +380,7 @@ def main():
         figure_error_against_nu_dt(errors, options.output / "error_against_nu_dt.png")
     if named["large"]:
         figure_error_against_cost(named["large"], options.output / "error_against_cost_large.png")
+        figure_both_methods({gas: points for gas, points in named["large"].items() if gas[0] > 0.2}, options.output / "both_methods.svg")
     if named["size"]:
         figure_cost_against_size(named["size"], options.output / "cost_against_size.png")
     if named["thin"]:
@@ -339,6 +388,7 @@ def main():
     write_points({"error": errors, **named}, options.output / "points.csv")
     if options.page:
         text = put(options.page.read_text(encoding="utf-8"), "crossover", crossover_table(errors, named["large"]))
+        text = put(text, "answers", answers_table(errors, named["large"]))
         options.page.write_text(text, encoding="utf-8")
 
 

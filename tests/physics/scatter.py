@@ -22,10 +22,11 @@ import subprocess
 import sys
 import tempfile
 
-# Packing: discs, steps before averages begin, averaged steps, each of about a collision per disc.
-LONG = {0.3: (400, 400, 8000), 0.5: (400, 400, 8000), 0.65: (400, 4000, 16000),
-        0.7: (400, 20000, 200000)}
-SHORT = {0.5: (100, 100, 2000)}
+# Packing: discs, steps before averages begin, averaged steps, each of about a collision per disc,
+# and steps from sample to sample.
+LONG = {0.3: (400, 400, 8000, 4), 0.5: (400, 400, 8000, 4), 0.65: (400, 4000, 16000, 4),
+        0.7: (400, 20000, 200000, 20)}
+SHORT = {0.5: (100, 100, 2000, 4)}
 
 SCENE = """[box]
 size = {size!r}
@@ -44,10 +45,13 @@ steps = {steps}
 [output]
 averages_from_step = {early}
 [output.measurements]
-quantities = ["psi6", "diffusion"]
+quantities = ["psi6", "diffusion", "radial_distribution", "structure_factor"]
 from_step = {early}
-every_steps = 4
-correlation_steps = 40
+every_steps = {every}
+correlation_steps = {window}
+bins = 24
+largest_distance = 6
+largest_wavenumber = 3
 """
 
 
@@ -60,11 +64,11 @@ def average(*path):
     return of
 
 
-def measured(table, name):
-    """The same of a table with one row."""
+def measured(table, name, row=0):
+    """The same of a row of a table."""
     def of(report):
         columns = report["measurements"][table]
-        return columns[name][0], columns[f"{name}_error"][0]
+        return columns[name][row], columns[f"{name}_error"][row]
     return of
 
 
@@ -76,6 +80,15 @@ QUANTITIES = {
     "kurtosis": average("averages", "speed_kurtosis"),
     "psi6": measured("psi6", "psi6"),
     "D": measured("diffusion", "D"),
+    # g at contact, between the first two shells and in the second one; S of long and of short waves;
+    # velocities a sample later, and squares of displacements after five samples.
+    "g(2.0)": measured("radial_distribution", "g", 8),
+    "g(3.0)": measured("radial_distribution", "g", 12),
+    "g(4.0)": measured("radial_distribution", "g", 16),
+    "S(0.3)": measured("structure_factor", "S", 2),
+    "S(1.3)": measured("structure_factor", "S", 10),
+    "VACF": measured("velocity_autocorrelation", "velocities", 1),
+    "MSD": measured("velocity_autocorrelation", "squares", 5),
 }
 
 
@@ -119,15 +132,22 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--short", action="store_true")
+    parser.add_argument("--packing", type=float, action="append",
+                        help="one of the long study's packings alone; may be repeated")
+    parser.add_argument("--seeds", type=int, help="other than 16 and 32")
     options = parser.parse_args()
-    n_seeds = 16 if options.short else 32
+    n_seeds = options.seeds or (16 if options.short else 32)
+    gases = SHORT if options.short else LONG
     # The scatter of n runs is itself uncertain by 1 / sqrt(2 (n - 1)).
     wider = 1 + 3 / math.sqrt(2 * (n_seeds - 1)) if options.short else 1
     failed = False
     print("packing,average,mean,scatter,claimed,scatter_over_claimed,without_error")
-    for packing, (discs, early, steps) in (SHORT if options.short else LONG).items():
+    for packing, (discs, early, steps, every) in gases.items():
+        if options.packing and packing not in options.packing:
+            continue
         size = math.sqrt(discs * math.pi / packing)
-        scene = SCENE.format(size=size, discs=discs, early=early, steps=early + steps)
+        scene = SCENE.format(size=size, discs=discs, early=early, steps=early + steps, every=every,
+                              window=10 * every)
         reports = [report_of(options.program, scene,
                              discs_text(discs, size, speed_of(packing), seed))
                    for seed in range(1, n_seeds + 1)]

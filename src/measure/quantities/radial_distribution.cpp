@@ -139,7 +139,6 @@ private:
         return g;
     }
 
-private:
     double largest_distance_;
     std::vector<std::uint64_t> pairs_; ///< by kind (pair_distances.hpp), all bins of
                                        ///< one kind after the other
