@@ -90,8 +90,9 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
     energy_ = energy_of(own);
 }
 
-void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log log,
-                      std::span<const double> spins, double work_of_images, double energy_given) {
+void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Log log,
+                         std::span<const double> spins, double work_of_images,
+                         double energy_given) {
     work_of_images_ = work_of_images;
     energy_given_before_ = std::exchange(energy_given_, energy_given);
     before_ = known_;

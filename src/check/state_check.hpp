@@ -50,9 +50,9 @@ public:
     /// look. If an invariant is broken every rank throws the same CheckFailure. `work_of_images` is
     /// what Engine::add_work_to has found since then on this rank, `energy_given` is
     /// Engine::energy_given, then and now. **Collective.**
-    void look(const LocalView& now, std::int64_t micro_steps_done, std::span<const Collision> log,
-              std::span<const double> spins = {}, double work_of_images = 0,
-              double energy_given = 0);
+    void inspect(const LocalView& now, std::int64_t micro_steps_done,
+                 std::span<const Collision> log, std::span<const double> spins = {},
+                 double work_of_images = 0, double energy_given = 0);
 
 private:
     struct Known {

@@ -20,8 +20,5 @@ StateHash hash_of(std::span<const Disc> discs);
 
 /// What a disc's number in a side column adds to the hash, if the run has that column.
 StateHash hash_of(SideColumn column, DiscId id, double number);
-inline StateHash hash_of_spin(DiscId id, double spin) {
-    return hash_of(SideColumn::spin, id, spin);
-}
 
 } // namespace carrom

@@ -47,8 +47,6 @@ public:
     /// For discs of at most `largest_radius`; `effects` are per micro-step.
     Obstacles(const Box& box, double largest_radius, const Effects& effects);
 
-    bool are_none() const { return bodies_.empty(); }
-
     /// The first body that a disc of that radius meets at such a time; the one of the
     /// lower number if it meets two at once.
     ObstacleContact first_contact(const Disc& disc, double radius, const ContactTimes& times) const;

@@ -173,7 +173,7 @@ public:
         : path_(path), communicator_(communicator) {
         on_root(communicator_, path_, ExitCode::bad_input, [&] {
             refuse_old_format(path_);
-            look_in_child_first([&] { contents = looked_through(path_); });
+            inspect_in_child_first([&] { contents = looked_through(path_); });
         });
         broadcast(contents, communicator_);
         on_all(communicator_, path_, ExitCode::bad_input,
@@ -285,7 +285,7 @@ std::optional<CheckpointHeader> check_damage(const std::string& path,
     std::uint64_t is_checkpoint = 0;
     on_root(communicator, path, ExitCode::bad_input, [&] {
         refuse_old_format(path);
-        look_in_child_first([&] {
+        inspect_in_child_first([&] {
             is_checkpoint = h5::has(h5::open_file(path, h5::Access::read).id(), run_path) ? 1 : 0;
         });
     });

@@ -45,10 +45,10 @@ void take_limits() {
 }
 
 /// Writes the problem, if there is one, to `answers`.
-[[noreturn]] void look_and_exit(const std::function<void()>& look, int answers) {
+[[noreturn]] void inspect_and_exit(const std::function<void()>& inspect, int answers) {
     take_limits();
     try {
-        look();
+        inspect();
     } catch (const FileError& error) {
         const std::string text = std::string(error.what()).substr(0, longest_text);
         ::_exit(::write(answers, text.data(), text.size()) > 0 ? 1 : 2);
@@ -60,11 +60,11 @@ void take_limits() {
 
 } // namespace
 
-void look_in_child_first(const std::function<void()>& look) {
+void inspect_in_child_first(const std::function<void()>& inspect) {
     int ends[2];
-    if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that looks at it");
+    if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that inspects it");
     const pid_t child = ::fork();
-    if (child == 0) look_and_exit(look, ends[1]);
+    if (child == 0) inspect_and_exit(inspect, ends[1]);
     ::close(ends[1]);
     int status = 0;
     while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -72,11 +72,11 @@ void look_in_child_first(const std::function<void()>& look) {
     std::string answer(longest_text, 0);
     const ssize_t length = ::read(ends[0], answer.data(), answer.size());
     ::close(ends[0]);
-    if (child < 0) throw FileError("no process that looks at it can be started");
+    if (child < 0) throw FileError("no process that inspects it can be started");
     if (length > 0) throw FileError(answer.substr(0, static_cast<std::size_t>(length)));
     if (status != 0)
         throw FileError("is damaged: HDF5 crashes on it, or takes too much time or memory");
-    look();
+    inspect();
 }
 
 } // namespace carrom

@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Calls `look` in a child process, and then here. Throws FileError with what it throws,
+/// Calls `inspect` in a child process, and then here. Throws FileError with what it throws,
 /// or if it does not end there within ten seconds of processor time and 4 GiB more memory.
-void look_in_child_first(const std::function<void()>& look);
+void inspect_in_child_first(const std::function<void()>& inspect);
 
 } // namespace carrom

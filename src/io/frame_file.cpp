@@ -138,7 +138,7 @@ struct FrameFile::State {
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
     with_path(path_, [&] {
-        look_in_child_first([&] {
+        inspect_in_child_first([&] {
             open();
             try_all_parts();
         });

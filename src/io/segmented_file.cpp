@@ -81,7 +81,7 @@ bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
 void SegmentedFile::take_over(const std::string& step, std::int64_t last,
                               const std::function<void(hid_t file)>& check) {
     std::uint64_t n_rows = 0;
-    look_in_child_first([&] {
+    inspect_in_child_first([&] {
         const Index index = index_of(path_, false);
         const h5::File file = h5::open_file(path_, h5::Access::read);
         check(file.id());

@@ -76,7 +76,7 @@ std::uint64_t memory_of_node() {
 /// 1) and of the groups that contain it.
 std::uint64_t memory_of_control_group() {
     std::uint64_t least = without_limit;
-    const auto look = [&least](const std::filesystem::path& path) {
+    const auto read_limit = [&least](const std::filesystem::path& path) {
         std::ifstream file(path);
         if (std::uint64_t bytes = 0; file >> bytes)
             least = std::min(least, bytes); // "max" is no number
@@ -88,8 +88,8 @@ std::uint64_t memory_of_control_group() {
         const std::filesystem::path root = is_second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
         std::filesystem::path group = line.substr(line.rfind(':') + 1);
         for (;; group = group.parent_path()) {
-            look(root / group.relative_path() /
-                 (is_second ? "memory.max" : "memory.limit_in_bytes"));
+            read_limit(root / group.relative_path() /
+                       (is_second ? "memory.max" : "memory.limit_in_bytes"));
             if (!group.has_relative_path()) break;
         }
     }

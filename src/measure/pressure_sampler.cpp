@@ -12,14 +12,14 @@ namespace {
 constexpr std::size_t n_words = 2 * 4; ///< words of StressSums
 constexpr std::size_t n_numbers = 13;
 
-std::vector<double> numbers_of(const Look& l) {
+std::vector<double> numbers_of(const MotionSample& l) {
     return {l.motion.xx, l.motion.xy,  l.motion.yy, l.momentum_x, l.momentum_y,
             l.mass,      l.speed_unit, l.n_discs,   l.area,       l.stress.xx,
             l.stress.xy, l.stress.yy,  l.energy};
 }
 
-Look look_of(const std::vector<double>& numbers) {
-    Look l;
+MotionSample sample_of(const std::vector<double>& numbers) {
+    MotionSample l;
     l.motion = {numbers[0], numbers[1], numbers[2]};
     l.momentum_x = numbers[3];
     l.momentum_y = numbers[4];
@@ -41,7 +41,7 @@ PressureSampler::PressureSampler(Simulation& simulation, const Communicator& ran
                                  PressureSums& sums)
     : PressureSampler(simulation, ranks) {
     sums.virial_bound = simulation.stress_bound();
-    begin_interval(simulation.look());
+    begin_interval(simulation.motion_sample());
 }
 
 PressureSampler PressureSampler::going_on(Simulation& simulation, const Communicator& ranks,
@@ -52,7 +52,7 @@ PressureSampler PressureSampler::going_on(Simulation& simulation, const Communic
         throw InputError({{"[output.measurements]", 0,
                            "the checkpoint's measurements of "
                            "\"pressure\" are not whole"}});
-    sampler.last_ = look_of(sums.last_motion);
+    sampler.last_ = sample_of(sums.last_motion);
     if (ranks.is_root()) {
         StressSums pending(sums.virial_bound);
         std::size_t next = 0;
@@ -68,7 +68,7 @@ PressureSampler PressureSampler::going_on(Simulation& simulation, const Communic
 }
 
 /// The last sample is at `now`, and sums before it do not count. **Collective.**
-void PressureSampler::begin_interval(const Look& now) {
+void PressureSampler::begin_interval(const MotionSample& now) {
     last_sums_ = simulation_->stress_sums();
     last_ = now;
     simulation_->integrate(since_last(), last_);
@@ -82,7 +82,7 @@ StressSums PressureSampler::since_last() const {
 }
 
 void PressureSampler::sample(PressureSums& sums, double steps) {
-    Look now = simulation_->look();
+    MotionSample now = simulation_->motion_sample();
     simulation_->integrate(since_last(), now);
     const MotionIntegrals mean = integrals_between(simulation_->averaged_system(), last_, now,
                                                    steps);

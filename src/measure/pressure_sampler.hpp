@@ -33,7 +33,7 @@ public:
     /// Adds an interval of `steps` steps to `sums`. **Collective.**
     void sample(PressureSums& sums, double steps);
     /// The last sample. Its speeds and counts are unknown after a restart.
-    const Look& last() const { return last_; }
+    const MotionSample& last() const { return last_; }
     double temperature() const; ///< at the last sample
     /// Adds the data since the last sample. **Collective.**
     void store(PressureSums& sums) const;
@@ -42,12 +42,12 @@ private:
     PressureSampler(Simulation& simulation, const Communicator& ranks);
 
     StressSums since_last() const;
-    void begin_interval(const Look& now);
+    void begin_interval(const MotionSample& now);
 
     Simulation* simulation_;
     const Communicator* ranks_;
     StressSums last_sums_; ///< on this rank, at the last sample
-    Look last_;            ///< its integrals are those of flights since the sync before
+    MotionSample last_;    ///< its integrals are those of flights since the sync before
 };
 
 /// Stores the sums with the data of `sampler`, or restores both. **Collective.**

@@ -76,7 +76,7 @@ std::int64_t Sampler::next_due(std::int64_t step) const {
     return first + ((step - first) / every + 1) * every;
 }
 
-void Sampler::look() {
+void Sampler::sample_if_due() {
     const std::int64_t step = run_.simulation.step();
     if (!has_begun_ && step >= run_.output.from_step) {
         run_.counts.first_step = step;

@@ -34,7 +34,7 @@ public:
     /// The first step after `step` at which a sample is due.
     std::int64_t next_due(std::int64_t step) const;
     /// Takes a sample if one is due at the present step and has not been taken. **Collective.**
-    void look();
+    void sample_if_due();
 
     /// **Collective.**
     StoredSamples stored() const;

@@ -64,14 +64,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One exchange with fresh buffers, for rare use; see NeighbourExchange::exchange for what is
-/// required. **Collective.**
-template <Message T>
-Received<T> exchange_with(const Communicator& communicator, std::span<const int> neighbours,
-                          const std::vector<std::vector<T>>& out) {
-    Received<T> in;
-    NeighbourExchange(communicator).exchange(neighbours, out, in);
-    return in;
-}
-
 } // namespace carrom

@@ -45,12 +45,12 @@ Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& t
     if (!scene_.measurements) return;
     sampler_.emplace(scene_, simulation_, ranks_);
     if (is_restart_) sampler_->go_on(start.samples);
-    sampler_->look();
+    sampler_->sample_if_due();
     add(sampling_);
 }
 
 bool Run::Sampling::act() {
-    run_.sampler_->look();
+    run_.sampler_->sample_if_due();
     return true;
 }
 

@@ -108,7 +108,8 @@ AveragedSystem system_to_average(const Scene& scene, std::uint64_t n_discs) {
     system.is_periodic_x = scene.effects.is_periodic_x();
     system.is_periodic_y = scene.effects.is_periodic_y();
     system.has_flow = scene.effects.are_sheared();
-    system.keeps_energy = !scene.effects.are_any(); // others keep it, too: a look more is no harm
+    system.keeps_energy =
+        !scene.effects.are_any(); // some others keep it, too: more samples are no harm
     system.last_step = scene.steps;
     return system;
 }
@@ -138,7 +139,7 @@ Simulation::~Simulation() = default;
 
 void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun() && step() >= averages_from_) average_anew();
-    const std::int64_t next = averages_->has_begun() ? averages_->next_look() : averages_from_;
+    const std::int64_t next = averages_->has_begun() ? averages_->next_sample() : averages_from_;
     if (check_ && step() < last_step)
         advance_checked();
     else // at most to the first step after a sync
@@ -146,7 +147,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun() && step() >= averages_from_)
         average_anew();
     else if (averages_->has_begun() && averages_->is_due(step()))
-        averages_->add(step(), integrated_look());
+        averages_->add(step(), integrated_sample());
 }
 
 void Simulation::begin_stress_sums(double bound) {
@@ -160,22 +161,22 @@ const StressSums& Simulation::stress_sums() const { return *stress_; }
 
 const AveragedSystem& Simulation::averaged_system() const { return averages_->system(); }
 
-Look Simulation::look() const {
+MotionSample Simulation::motion_sample() const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();
-    Look look = look_at(in_flow(), species_table, heaviest_, engine_->n_discs(), n_threads_,
-                        communicator_);
+    MotionSample sample = sample_motion(in_flow(), species_table, heaviest_, engine_->n_discs(),
+                                        n_threads_, communicator_);
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
-    look.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
-    return look;
+    sample.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
+    return sample;
 }
 
-void Simulation::integrate(const StressSums& mine, Look& look) const {
-    add_integrals(mine, engine_->flight_integral(), frame(), communicator_, look);
+void Simulation::integrate(const StressSums& mine, MotionSample& sample) const {
+    add_integrals(mine, engine_->flight_integral(), frame(), communicator_, sample);
 }
 
-Look Simulation::integrated_look() const {
-    Look now = look();
+MotionSample Simulation::integrated_sample() const {
+    MotionSample now = motion_sample();
     integrate(*stress_, now);
     return now;
 }
@@ -194,13 +195,13 @@ void Simulation::advance_checked() {
     engine_->log_to(log_);
     engine_->add_work_to(nullptr);
     const LocalView now = engine_->local_view();
-    check_->look(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin],
-                 work, engine_->energy_given());
+    check_->inspect(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin],
+                    work, engine_->energy_given());
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
-void Simulation::average_anew() { averages_->begin(step(), integrated_look()); }
+void Simulation::average_anew() { averages_->begin(step(), integrated_sample()); }
 
 std::vector<std::int64_t> Simulation::stored_averages() const {
     if (!averages_->has_begun()) return {};
@@ -235,7 +236,7 @@ void Simulation::go_on_averaging(std::span<const std::int64_t> words) {
 
 Averages Simulation::averages() const {
     if (!averages_->has_begun()) return {};
-    return averages_->averages(step(), integrated_look());
+    return averages_->averages(step(), integrated_sample());
 }
 
 std::int64_t Simulation::step() const {

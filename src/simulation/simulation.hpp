@@ -31,7 +31,7 @@ class StateCheck;
 struct BondOrder;
 struct HexaticSums;
 struct LocalView;
-struct Look;
+struct MotionSample;
 struct StressSums;
 struct WallImpulses;
 
@@ -48,7 +48,7 @@ public:
                const Tuning& tuning);
     ~Simulation();
 
-    /// Runs until `last_step`, or until an earlier step that is a good place to look up from (at
+    /// Runs until `last_step`, or until an earlier step that is a good one to read the state at (at
     /// least one step on). Steps are the scene's. **Collective.**
     void advance_towards(std::int64_t last_step);
 
@@ -91,9 +91,9 @@ public:
     int n_threads() const { return n_threads_; }
     /// The sums from which averages follow, at present, without the integrals of
     /// stress and energy. **Collective.**
-    Look look() const;
+    MotionSample motion_sample() const;
     /// Adds these, where `mine` are this rank's sums of the time that counts. **Collective.**
-    void integrate(const StressSums& mine, Look& look) const;
+    void integrate(const StressSums& mine, MotionSample& sample) const;
     const AveragedSystem& averaged_system() const;
     /// Begins the sums anew in another unit, as a checkpoint's measurements need it; before any
     /// step.
@@ -142,7 +142,7 @@ public:
 private:
     void advance_checked();
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
-    Look integrated_look() const;
+    MotionSample integrated_sample() const;
     /// Like `shown()`, but only the velocities are right.
     std::span<const Disc> in_motion() const;
     /// Like in_motion, without the mean flow between sheared sides, which is no temperature.

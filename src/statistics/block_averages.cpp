@@ -13,7 +13,7 @@ namespace carrom {
 namespace {
 
 /// Samples are at least this many micro-steps apart in long runs.
-constexpr std::int64_t usual_look = 64;
+constexpr std::int64_t usual_interval = 64;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
@@ -27,25 +27,25 @@ BlockAverages::Block& BlockAverages::Block::operator+=(const Block& other) {
     return *this;
 }
 
-void BlockAverages::begin(std::int64_t step, const Look& look) {
+void BlockAverages::begin(std::int64_t step, const MotionSample& sample) {
     has_begun_ = true;
-    first_step_ = block_step_ = look_step_ = step;
-    last_ = look;
+    first_step_ = block_step_ = sample_step_ = step;
+    last_ = sample;
     present_ = {};
     // Each sample costs some nanoseconds a disc, and another window of the event-driven
     // method if it is between syncs. A run whose energy changes needs more of them.
     const auto wanted = static_cast<std::int64_t>(system_.keeps_energy ? fewest_blocks
                                                                        : most_blocks / 2);
-    steps_per_look_ = std::clamp<std::int64_t>((system_.last_step - step) / wanted, 1,
-                                               most_steps_per_look());
-    steps_per_block_ = steps_per_look_;
+    steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - step) / wanted, 1,
+                                                 most_steps_per_sample());
+    steps_per_block_ = steps_per_sample_;
     blocks_.clear();
 }
 
-void BlockAverages::add(std::int64_t step, const Look& look) {
-    present_ += block_between(look_step_, last_, step, look);
-    last_ = look;
-    look_step_ = step;
+void BlockAverages::add(std::int64_t step, const MotionSample& sample) {
+    present_ += block_between(sample_step_, last_, step, sample);
+    last_ = sample;
+    sample_step_ = step;
     if (step < block_step_ + steps_per_block_) return;
     blocks_.push_back(present_);
     present_ = {};
@@ -58,12 +58,12 @@ void BlockAverages::add(std::int64_t step, const Look& look) {
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
     // A run may be longer than was announced.
-    if (2 * steps_per_look_ <= most_steps_per_look()) steps_per_look_ *= 2;
+    if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 
 /// Samples need not be closer than syncs. If syncs are frequent, samples do not depend on them.
-std::int64_t BlockAverages::most_steps_per_look() const {
-    const std::int64_t apart = std::max(system_.sync_every, usual_look);
+std::int64_t BlockAverages::most_steps_per_sample() const {
+    const std::int64_t apart = std::max(system_.sync_every, usual_interval);
     return (apart + system_.micro_steps - 1) / system_.micro_steps;
 }
 
@@ -87,7 +87,7 @@ template <class Record> Record take_words(std::span<const std::int64_t>& words) 
 } // namespace
 
 std::vector<std::int64_t> BlockAverages::words() const {
-    std::vector<std::int64_t> words = {first_step_, block_step_, look_step_, steps_per_look_,
+    std::vector<std::int64_t> words = {first_step_, block_step_, sample_step_, steps_per_sample_,
                                        steps_per_block_};
     append_words(words, last_);
     append_words(words, present_);
@@ -97,16 +97,16 @@ std::vector<std::int64_t> BlockAverages::words() const {
 
 bool BlockAverages::set_words(std::span<const std::int64_t> words) {
     constexpr std::size_t n_steps = 5;
-    constexpr std::size_t n_fixed = n_steps + n_words_of<Look> + n_words_of<Block>;
+    constexpr std::size_t n_fixed = n_steps + n_words_of<MotionSample> + n_words_of<Block>;
     if (words.size() < n_fixed || (words.size() - n_fixed) % n_words_of<Block> != 0) return false;
     const std::size_t n_blocks = (words.size() - n_fixed) / n_words_of<Block>;
     if (n_blocks >= most_blocks || words[3] < 1 || words[4] < words[3] || words[1] < words[0] ||
         words[2] < words[1])
         return false;
-    first_step_ = words[0], block_step_ = words[1], look_step_ = words[2];
-    steps_per_look_ = words[3], steps_per_block_ = words[4];
+    first_step_ = words[0], block_step_ = words[1], sample_step_ = words[2];
+    steps_per_sample_ = words[3], steps_per_block_ = words[4];
     words = words.subspan(n_steps);
-    last_ = take_words<Look>(words);
+    last_ = take_words<MotionSample>(words);
     present_ = take_words<Block>(words);
     blocks_.clear();
     for (std::size_t k = 0; k < n_blocks; ++k) blocks_.push_back(take_words<Block>(words));
@@ -114,17 +114,18 @@ bool BlockAverages::set_words(std::span<const std::int64_t> words) {
     return true;
 }
 
-BlockAverages::Block BlockAverages::block_between(std::int64_t step, const Look& before,
-                                                  std::int64_t now, const Look& look) const {
-    const auto kurtosis_of = [](const Look& l) {
+BlockAverages::Block BlockAverages::block_between(std::int64_t step, const MotionSample& before,
+                                                  std::int64_t now,
+                                                  const MotionSample& sample) const {
+    const auto kurtosis_of = [](const MotionSample& l) {
         return l.mean_square > 0 ? l.mean_fourth / (l.mean_square * l.mean_square) : 0;
     };
     Block block;
-    block.walls = static_cast<double>(look.wall_collisions - before.wall_collisions);
-    block.pairs = static_cast<double>(look.pair_collisions - before.pair_collisions);
+    block.walls = static_cast<double>(sample.wall_collisions - before.wall_collisions);
+    block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(now - step);
-    block.motion = integrals_between(system_, before, look, steps);
-    for (const Look* one : {&before, &look}) { // these change evenly between two samples
+    block.motion = integrals_between(system_, before, sample, steps);
+    for (const MotionSample* one : {&before, &sample}) { // these change evenly between two samples
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);
     }
@@ -165,9 +166,10 @@ void BlockAverages::fill_pressures(Averages& result, const Block& whole) const {
 /// Equations (13c) and (19a) of Li et al. 2022: beta P from collisions and time; R^2
 /// is the sum of the squares of all velocities, and kT = R^2 / (2 N).
 void BlockAverages::fill_counted_pressures(Averages& result, const Block& whole,
-                                           const Look& look) const {
+                                           const MotionSample& sample) const {
     const double n = system_.n_discs, area = system_.box.area();
-    const double square = look.mean_square * std::pow(look.speed_unit * system_.velocity_unit, 2);
+    const double square = sample.mean_square *
+                          std::pow(sample.speed_unit * system_.velocity_unit, 2);
     const double sqrt_pi_g_over_r = square > 0 ? std::sqrt(std::numbers::pi / (n * square)) *
                                                      gamma_ratio(n)
                                                : 0;
@@ -194,12 +196,12 @@ Estimate inverse_of(const Estimate& rate) {
 
 } // namespace
 
-Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
+Averages BlockAverages::averages(std::int64_t step, const MotionSample& sample) const {
     Averages result;
     result.first_step = first_step_;
     result.steps = step - first_step_;
     if (result.steps == 0) return result;
-    Block whole = block_between(look_step_, last_, step, look);
+    Block whole = block_between(sample_step_, last_, step, sample);
     whole += present_;
     for (const Block& block : blocks_) whole += block;
     result.n_blocks = static_cast<std::int64_t>(blocks_.size());
@@ -209,7 +211,7 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
         whole, [n](const Block& block) { return 2 * block.pairs / (n * block.steps()); });
     result.mean_free_time = inverse_of(result.collision_frequency);
     if (!system_.keeps_discs) result.collision_frequency = result.mean_free_time = {};
-    if (system_.is_plain) fill_counted_pressures(result, whole, look);
+    if (system_.is_plain) fill_counted_pressures(result, whole, sample);
     result.mean_speed = estimate(whole, [](const Block& b) { return b.speed / b.steps(); });
     result.speed_kurtosis = estimate(whole, [](const Block& b) { return b.kurtosis / b.steps(); });
     fill_pressures(result, whole);

@@ -26,13 +26,13 @@ public:
     explicit BlockAverages(const AveragedSystem& system) : system_(system) {}
 
     /// Begins anew at `step`.
-    void begin(std::int64_t step, const Look& look);
+    void begin(std::int64_t step, const MotionSample& sample);
     bool has_begun() const { return has_begun_; }
 
     /// The step of the next sample.
-    std::int64_t next_look() const { return look_step_ + steps_per_look_; }
-    bool is_due(std::int64_t step) const { return step >= next_look(); }
-    void add(std::int64_t step, const Look& look);
+    std::int64_t next_sample() const { return sample_step_ + steps_per_sample_; }
+    bool is_due(std::int64_t step) const { return step >= next_sample(); }
+    void add(std::int64_t step, const MotionSample& sample);
 
     const AveragedSystem& system() const { return system_; }
 
@@ -42,7 +42,7 @@ public:
     bool set_words(std::span<const std::int64_t> words);
 
     /// Averages up to `step`.
-    Averages averages(std::int64_t step, const Look& look) const;
+    Averages averages(std::int64_t step, const MotionSample& sample) const;
 
 private:
     /// Integrals over time.
@@ -55,21 +55,22 @@ private:
         Block& operator+=(const Block& other);
     };
 
-    std::int64_t most_steps_per_look() const;
-    Block block_between(std::int64_t step, const Look& before, std::int64_t now,
-                        const Look& look) const;
+    std::int64_t most_steps_per_sample() const;
+    Block block_between(std::int64_t step, const MotionSample& before, std::int64_t now,
+                        const MotionSample& sample) const;
     template <class Value> Estimate estimate(const Block& whole, const Value& value) const;
     void fill_pressures(Averages& result, const Block& whole) const;
-    void fill_counted_pressures(Averages& result, const Block& whole, const Look& look) const;
+    void fill_counted_pressures(Averages& result, const Block& whole,
+                                const MotionSample& sample) const;
 
     AveragedSystem system_;
     bool has_begun_ = false;
-    std::int64_t first_step_ = 0, block_step_ = 0, look_step_ = 0; ///< the beginning, the
-                                                                   ///< beginning of the present
-                                                                   ///< block, and the last sample
-    Look last_;
+    std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0; ///< the beginning, the
+                                                                     ///< beginning of the present
+                                                                     ///< block, and the last sample
+    MotionSample last_;
     Block present_;
-    std::int64_t steps_per_look_ = 1, steps_per_block_ = 1;
+    std::int64_t steps_per_sample_ = 1, steps_per_block_ = 1;
     std::vector<Block> blocks_;
 };
 

@@ -59,7 +59,6 @@ public:
 
     std::size_t n_values() const { return n_values_; }
     std::int64_t n_samples() const;
-    std::int64_t samples_per_block() const { return samples_per_block_; }
     std::size_t n_blocks() const { return n_values_ == 0 ? 0 : blocks_.size() / n_values_; }
 
     /// Adds one sample, of `n_values()` numbers. Samples are taken at equal intervals.

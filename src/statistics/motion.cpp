@@ -31,12 +31,13 @@ double terms_per_unit_of(std::uint64_t n_discs) {
     return std::ldexp(1.0, 62 - static_cast<int>(bits));
 }
 
-Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, double heaviest,
-             std::uint64_t n_discs, int n_threads, const Communicator& communicator) {
-    Look look;
-    look.speed_unit = speed_unit_of(own, n_threads, communicator);
+MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+                           double heaviest, std::uint64_t n_discs, int n_threads,
+                           const Communicator& communicator) {
+    MotionSample sample;
+    sample.speed_unit = speed_unit_of(own, n_threads, communicator);
     const double terms_per_unit = terms_per_unit_of(n_discs);
-    const double per_unit = 1 / look.speed_unit;
+    const double per_unit = 1 / sample.speed_unit;
     std::uint64_t walls = 0, pairs = 0, speeds = 0, squares = 0, fourths = 0, departed = 0;
     std::uint64_t masses = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
     const auto n = static_cast<std::int64_t>(own.size());
@@ -75,21 +76,21 @@ Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, doubl
                             masses, x,     y,      xx,      xy,      yy};
     communicator.sum(sums);
     const double per_term = 1 / terms_per_unit;
-    look.n_discs = static_cast<double>(n_discs - sums[5]);
-    const double per_disc = per_term / std::max(1.0, look.n_discs);
-    look.wall_collisions = sums[0];
-    look.pair_collisions = sums[1] / 2;
-    look.mean_speed = static_cast<double>(sums[2]) * per_disc;
-    look.mean_square = static_cast<double>(sums[3]) * per_disc;
-    look.mean_fourth = static_cast<double>(sums[4]) * per_disc;
+    sample.n_discs = static_cast<double>(n_discs - sums[5]);
+    const double per_disc = per_term / std::max(1.0, sample.n_discs);
+    sample.wall_collisions = sums[0];
+    sample.pair_collisions = sums[1] / 2;
+    sample.mean_speed = static_cast<double>(sums[2]) * per_disc;
+    sample.mean_square = static_cast<double>(sums[3]) * per_disc;
+    sample.mean_fourth = static_cast<double>(sums[4]) * per_disc;
     const auto signed_sum = [&](std::size_t k) {
         return static_cast<double>(static_cast<std::int64_t>(sums[k])) * (per_term * heaviest);
     };
-    look.mass = species_table ? signed_sum(6) : look.n_discs;
-    look.momentum_x = signed_sum(7);
-    look.momentum_y = signed_sum(8);
-    look.motion = {signed_sum(9), signed_sum(10), signed_sum(11)};
-    return look;
+    sample.mass = species_table ? signed_sum(6) : sample.n_discs;
+    sample.momentum_x = signed_sum(7);
+    sample.momentum_y = signed_sum(8);
+    sample.motion = {signed_sum(9), signed_sum(10), signed_sum(11)};
+    return sample;
 }
 
 namespace {
@@ -104,23 +105,23 @@ Tensor shifted(const Tensor& squares, double px, double py, double mass, double 
 } // namespace
 
 void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
-                   const Communicator& communicator, Look& look) {
+                   const Communicator& communicator, MotionSample& sample) {
     StressSums all = mine;
     for (ExactSum* sum : all.parts()) communicator.sum(*sum);
-    look.stress = {all.xx.value(), all.xy.value(), all.yy.value()};
-    look.energy = all.energy.value();
+    sample.stress = {all.xx.value(), all.xy.value(), all.yy.value()};
+    sample.energy = all.energy.value();
     if (flights.weight == 0) return; // a sync has just been
     // A stored velocity is (v - frame's) / slowing.
-    const double unit = look.speed_unit, slowing = frame.slowing;
+    const double unit = sample.speed_unit, slowing = frame.slowing;
     const double ax = flights.shift_x * slowing - frame.vx,
                  ay = flights.shift_y * slowing - frame.vy;
-    const double px = unit * look.momentum_x, py = unit * look.momentum_y;
-    const Tensor squares = shifted((unit * unit) * look.motion, px, py, look.mass, ax, ay);
+    const double px = unit * sample.momentum_x, py = unit * sample.momentum_y;
+    const Tensor squares = shifted((unit * unit) * sample.motion, px, py, sample.mass, ax, ay);
     Tensor flown = (flights.weight / (slowing * slowing)) * squares;
     const double rx = flights.rest_x, ry = flights.rest_y;
-    flown += look.mass * Tensor{rx * rx, rx * ry, ry * ry};
-    look.stress += flown;
-    look.energy += flown.xx + flown.yy;
+    flown += sample.mass * Tensor{rx * rx, rx * ry, ry * ry};
+    sample.stress += flown;
+    sample.energy += flown.xx + flown.yy;
 }
 
 Tensor& Tensor::operator+=(const Tensor& other) {
@@ -147,11 +148,11 @@ double integral_of_product(const double (&a)[2], const double (&b)[2], double st
 }
 
 /// The integral of the squared momentum over the mass: the share of a drift in the sum of m v v.
-Tensor drift_between(const AveragedSystem& system, const Look& before, const Look& after,
-                     double steps) {
-    const auto drift = [&system](bool is_periodic, const Look& look, double momentum) {
-        if (!is_periodic || !(look.mass > 0)) return 0.0;
-        return momentum / look.mass * look.speed_unit * system.velocity_unit;
+Tensor drift_between(const AveragedSystem& system, const MotionSample& before,
+                     const MotionSample& after, double steps) {
+    const auto drift = [&system](bool is_periodic, const MotionSample& sample, double momentum) {
+        if (!is_periodic || !(sample.mass > 0)) return 0.0;
+        return momentum / sample.mass * sample.speed_unit * system.velocity_unit;
     };
     const double vx[2] = {drift(system.is_periodic_x, before, before.momentum_x),
                           drift(system.is_periodic_x, after, after.momentum_x)},
@@ -166,15 +167,15 @@ Tensor drift_between(const AveragedSystem& system, const Look& before, const Loo
 
 /// Two numbers are not exact: how the kinetic energy is shared between the axes, and a drift
 /// that changes between samples. Both count with the weight 1 / N only, along periodic sides.
-MotionIntegrals integrals_between(const AveragedSystem& system, const Look& before,
-                                  const Look& after, double steps) {
+MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSample& before,
+                                  const MotionSample& after, double steps) {
     MotionIntegrals result;
     result.steps = steps;
     result.area = steps * (before.area + after.area) / 2;
     result.n_discs = steps * (before.n_discs + after.n_discs) / 2;
     const double unit = system.velocity_unit, energy = unit * (after.energy - before.energy);
     Tensor sampled;
-    for (const Look* one : {&before, &after})
+    for (const MotionSample* one : {&before, &after})
         sampled += (steps / 2 * unit * unit * one->speed_unit * one->speed_unit) * one->motion;
     const double difference = (sampled.xx - sampled.yy) / 2;
     const Tensor all = system.has_flow
@@ -196,11 +197,11 @@ MotionIntegrals integrals_between(const AveragedSystem& system, const Look& befo
     return result;
 }
 
-double temperature_at(const AveragedSystem& system, const Look& look) {
-    Look before = look, after = look; // a step further, as if nothing changed
+double temperature_at(const AveragedSystem& system, const MotionSample& sample) {
+    MotionSample before = sample, after = sample; // a step further, as if nothing changed
     before.energy = 0;
-    after.energy = system.velocity_unit * look.speed_unit * look.speed_unit *
-                   (look.motion.xx + look.motion.yy);
+    after.energy = system.velocity_unit * sample.speed_unit * sample.speed_unit *
+                   (sample.motion.xx + sample.motion.yy);
     return integrals_between(system, before, after, 1).temperature();
 }
 

@@ -32,7 +32,7 @@ struct Tensor {
 
 /// Sums over all discs at one time; speeds count only discs in the box. Speeds are in
 /// units of `speed_unit`, a power of two, per micro-step.
-struct Look {
+struct MotionSample {
     std::uint64_t wall_collisions = 0,
                   pair_collisions = 0; ///< since the scene's start; a pair counts once
     double speed_unit = 1;
@@ -48,13 +48,14 @@ struct Look {
 
 /// Samples all but stress, energy and area. Each term is rounded to 2^-62 of N times the largest
 /// speed, for the same bits on all machine shapes. No table: masses of 1. **Collective.**
-Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, double heaviest,
-             std::uint64_t n_discs, int n_threads, const Communicator& communicator);
+MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+                           double heaviest, std::uint64_t n_discs, int n_threads,
+                           const Communicator& communicator);
 
-/// Adds the integrals up to now to `look`: the sums of all ranks, and those over
+/// Adds the integrals up to now to `sample`: the sums of all ranks, and those over
 /// flights in `frame` since the last sync. **Collective.**
 void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
-                   const Communicator& communicator, Look& look);
+                   const Communicator& communicator, MotionSample& sample);
 
 /// Constants of the scene that averages need.
 struct AveragedSystem {
@@ -85,9 +86,9 @@ struct MotionIntegrals {
     double energy() const { return (kinetic.xx + kinetic.yy) / 2; } ///< N kT times steps
     double temperature() const { return energy() / n_discs; }
 };
-MotionIntegrals integrals_between(const AveragedSystem& system, const Look& before,
-                                  const Look& after, double steps);
+MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSample& before,
+                                  const MotionSample& after, double steps);
 /// kT at one time.
-double temperature_at(const AveragedSystem& system, const Look& look);
+double temperature_at(const AveragedSystem& system, const MotionSample& sample);
 
 } // namespace carrom

@@ -108,7 +108,7 @@ void check(const Checkpoint& checkpoint) {
     demand(checkpoint.columns.present() == header.columns);
     StateHash hash = hash_of(checkpoint.discs);
     const std::vector<double>& spins = checkpoint.columns[SideColumn::spin];
-    for (std::size_t i = 0; i < spins.size(); ++i) hash += hash_of_spin(i, spins[i]);
+    for (std::size_t i = 0; i < spins.size(); ++i) hash += hash_of(SideColumn::spin, i, spins[i]);
     demand(to_string(hash) == header.state_hash);
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) demand(checkpoint.discs[i].id == i);
 }

@@ -129,10 +129,10 @@ Tensor flown(double mass, const Disc& disc, double time) {
     return (mass * time) * Tensor{disc.vx * disc.vx, disc.vx * disc.vy, disc.vy * disc.vy};
 }
 
-Look integrated(const Simulation& simulation) {
-    Look look = simulation.look();
-    simulation.integrate(simulation.stress_sums(), look);
-    return look;
+MotionSample integrated(const Simulation& simulation) {
+    MotionSample sample = simulation.motion_sample();
+    simulation.integrate(simulation.stress_sums(), sample);
+    return sample;
 }
 
 double mass_of(const TestScene& scene, DiscId id) {
@@ -217,7 +217,7 @@ void check_against_log(const TestScene& scene, Method method) {
     while (simulation.step() < scene.steps) {
         Step step;
         step.before = state_of(simulation, world);
-        const Look look_before = integrated(simulation);
+        const MotionSample sample_before = integrated(simulation);
         log.clear();
         simulation.advance_towards(simulation.step() + 1);
         step.after = state_of(simulation, world);
@@ -226,11 +226,11 @@ void check_against_log(const TestScene& scene, Method method) {
         add_flights(scene, log, step);
         add_pairs(scene, log, step);
         n_pairs += step.n_pairs;
-        const Look look = integrated(simulation);
+        const MotionSample sample = integrated(simulation);
         for (double Tensor::* part : {&Tensor::xx, &Tensor::xy, &Tensor::yy})
-            CHECK(std::fabs(look.stress.*part - look_before.stress.*part - step.stress.*part) <=
+            CHECK(std::fabs(sample.stress.*part - sample_before.stress.*part - step.stress.*part) <=
                   1e-10 * step.size);
-        CHECK(std::fabs(look.energy - look_before.energy - step.kinetic.xx - step.kinetic.yy) <=
+        CHECK(std::fabs(sample.energy - sample_before.energy - step.kinetic.xx - step.kinetic.yy) <=
               1e-10 * step.size);
     }
     CHECK(n_pairs > 15);

@@ -46,7 +46,8 @@ struct State {
 
     StateHash hash() const {
         StateHash sum = hash_of(discs);
-        for (std::size_t id = 0; id < spins.size(); ++id) sum += hash_of_spin(id, spins[id]);
+        for (std::size_t id = 0; id < spins.size(); ++id)
+            sum += hash_of(SideColumn::spin, id, spins[id]);
         return sum;
     }
 };

@@ -37,9 +37,10 @@ private:
             "pressure_history",
             {"pressure tensor between two steps: impulse times distance of pairs, and "
              "the kinetic part at both; docs/understanding/pressure.md",
-             "pressure: half the trace; compressibility: P A / (N kT); kT of "
-             "translation; times in steps"},
-            {"from_step", "to_step", "xx", "xy", "yy", "pressure", "kT", "compressibility"},
+             "pressure: half the trace; compressibility: P A / (N kT); "
+             "temperature: kT of translation; times in steps"},
+            {"from_step", "to_step", "xx", "xy", "yy", "pressure", "temperature",
+             "compressibility"},
             {}};
         for (std::size_t k = 0; k < sums_.pressures.size() / 5; ++k) {
             const double* const one = sums_.pressures.data() + 5 * k;

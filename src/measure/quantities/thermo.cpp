@@ -21,7 +21,7 @@ public:
     void sample(const SampledState& state) override {
         if (!state.is_first) sampler_->sample(sums_, static_cast<double>(run_.output.every_steps));
         const Totals totals = run_.simulation.energies();
-        const Look& now = sampler_->last();
+        const MotionSample& now = sampler_->last();
         rows_.insert(rows_.end(),
                      {totals.kinetic_energy + totals.rotational_energy + totals.potential_energy,
                       sampler_->temperature(), now.n_discs,

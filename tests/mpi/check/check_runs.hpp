@@ -185,10 +185,10 @@ public:
     }
 
     /// The failure, after a check that all ranks have met the same one.
-    std::optional<CheckFailure> look() {
+    std::optional<CheckFailure> inspect() {
         std::optional<CheckFailure> met;
         try {
-            check_.look(local_view.view(), engine_->micro_steps_done(), log, spins);
+            check_.inspect(local_view.view(), engine_->micro_steps_done(), log, spins);
         } catch (const CheckFailure& failure) {
             met = failure;
         }
@@ -218,7 +218,7 @@ inline void expect(Invariant invariant,
         INFO("rule " << (method == Method::time_stepped ? "time-stepped" : "event-driven"));
         OneStep step(method);
         const std::optional<DiscId> disc = spoil(step);
-        const auto failure = step.look();
+        const auto failure = step.inspect();
         CHECK(failure.has_value());
         if (!failure) continue;
         INFO(failure->what());

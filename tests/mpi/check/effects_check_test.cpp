@@ -42,7 +42,7 @@ std::optional<Invariant> found_in(const Effects& effects,
                                   const std::function<void(OneStep&)>& spoil) {
     OneStep step(Method::event_driven, effects);
     spoil(step);
-    const auto failure = step.look();
+    const auto failure = step.inspect();
     return failure ? std::optional(failure->invariant) : std::nullopt;
 }
 

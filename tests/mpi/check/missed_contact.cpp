@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
         try {
             for (const std::int64_t step : {1, 2}) {
                 const LocalDiscs now = at(static_cast<double>(step));
-                check.look(now.view(), step, {}, spins_of(now));
+                check.inspect(now.view(), step, {}, spins_of(now));
             }
         } catch (const CheckFailure& failure) {
             throw reported(failure, scene, world);

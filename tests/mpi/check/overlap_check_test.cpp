@@ -54,7 +54,7 @@ struct Passing {
         if (world.is_root()) log.assign(walls, {step, 0.5, 0, 0, Collision::wall, 0});
         ++step;
         try {
-            check->look(at(static_cast<double>(step)).view(), step, log);
+            check->inspect(at(static_cast<double>(step)).view(), step, log);
         } catch (const CheckFailure& failure) {
             CHECK(failure.invariant == Invariant::overlap);
             CHECK(failure.disc == 0);

@@ -65,7 +65,7 @@ std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Commu
     StateCheck check(scene, before, 0, world);
     const std::unique_ptr<Engine> engine = make_time_stepped_engine(scene, {now, 1}, world, {});
     try {
-        check.look(engine->local_view(), 1, {});
+        check.inspect(engine->local_view(), 1, {});
     } catch (const CheckFailure& found) {
         return found;
     }

@@ -30,7 +30,7 @@ TEST_CASE("check: nothing is wrong in the scenes of the tests") {
 }
 
 TEST_CASE("check: nothing is wrong in a step that is not spoilt") {
-    for (const Method method : both) CHECK(!OneStep(method).look().has_value());
+    for (const Method method : both) CHECK(!OneStep(method).inspect().has_value());
 }
 
 TEST_CASE("check: a number that is not finite") {

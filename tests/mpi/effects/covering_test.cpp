@@ -292,7 +292,7 @@ StateHash reference_hash(const Plan& plan, const Communicator& world) {
         reference.run_steps(plan.scene.steps);
         hash = hash_of(reference.discs());
         for (std::size_t i = 0; i < reference.spins().size(); ++i)
-            hash += hash_of_spin(i, reference.spins()[i]);
+            hash += hash_of(SideColumn::spin, i, reference.spins()[i]);
     };
     if (world.is_root()) {
         if (plan.method == Method::time_stepped)

@@ -21,7 +21,7 @@ StateHash reference_hash(const TestScene& scene, const Communicator& world) {
         reference.run_steps(scene.steps);
         hash = hash_of(reference.discs());
         for (DiscId id = 0; id < reference.spins().size(); ++id)
-            hash += hash_of_spin(id, reference.spins()[id]);
+            hash += hash_of(SideColumn::spin, id, reference.spins()[id]);
     }
     world.broadcast(hash);
     return hash;

@@ -48,7 +48,7 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
         StateHash hash;
         for (DiscId id = 0; id < n; ++id) hash += hash_of(odd_disc(id));
         const std::string still = to_string(hash);
-        for (DiscId id = 0; id < n; ++id) hash += hash_of_spin(id, odd_spin(id));
+        for (DiscId id = 0; id < n; ++id) hash += hash_of(SideColumn::spin, id, odd_spin(id));
         for (unsigned method = 0; method < 3; ++method) {
             const std::vector<Disc> mine = share(n, world, method);
             const SideColumns columns = spins_of(mine);

@@ -45,10 +45,10 @@ inline Simulation simulation_of(const Scene& scene, const TestScene& test,
 
 /// To that step, sampling on the way.
 inline void advance_to(Simulation& simulation, Sampler& sampler, std::int64_t step) {
-    sampler.look();
+    sampler.sample_if_due();
     while (simulation.step() < step) {
         simulation.advance_towards(std::min(step, sampler.next_due(simulation.step())));
-        sampler.look();
+        sampler.sample_if_due();
     }
 }
 

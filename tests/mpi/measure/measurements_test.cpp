@@ -261,6 +261,6 @@ TEST_CASE(
     CHECK_THROWS_AS(finer.go_on(sampler.stored()), InputError);
     other.measurements->from_step = 6;
     finer.go_on(sampler.stored());
-    finer.look();
+    finer.sample_if_due();
     CHECK(finer.tables().front().remarks.front() == "1 samples, steps 6 to 6, one every 3");
 }

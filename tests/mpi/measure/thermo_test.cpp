@@ -85,7 +85,7 @@ TEST_CASE("measurements: thermo has the run's energy, collisions and pressure at
         // kT of an interval is an integral over time (simulation/sync_every_test.cpp holds it to
         // samples of every step). It is about between that at both ends, and is it if kT is kept.
         const std::vector<double> kt = column_of(tables, "thermo", "temperature"),
-                                  means = column_of(tables, "pressure_history", "kT");
+                                  means = column_of(tables, "pressure_history", "temperature");
         for (std::size_t k = 0; k < means.size(); ++k) {
             const auto [least, most] = std::minmax(kt[k], kt[k + 1]);
             const double share = each.effects.are_any() ? 0.02 : 1e-12;

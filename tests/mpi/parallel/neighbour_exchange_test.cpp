@@ -110,7 +110,8 @@ TEST_CASE("a small parcel is one message") {
     for (int rank = 0; rank < world.size(); ++rank)
         if (rank != world.rank()) others.push_back(rank);
     const std::vector<std::vector<double>> out(others.size(), {1.5, 2.5});
-    const Received<double> in = carrom::exchange_with(world, others, out);
+    Received<double> in;
+    carrom::NeighbourExchange(world).exchange(others, out, in);
     CHECK(in.items.size() == 2 * others.size());
     CHECK(world.traffic().messages == others.size());
     CHECK(world.traffic().collectives == 0);

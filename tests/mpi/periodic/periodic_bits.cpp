@@ -27,7 +27,7 @@ Expected expected_of(const TestScene& scene, Method method, const Communicator& 
     const auto add_states_of = [&expected](const auto& reference) {
         expected.hash = hash_of(reference.discs());
         for (DiscId id = 0; id < reference.spins().size(); ++id)
-            expected.hash += hash_of_spin(id, reference.spins()[id]);
+            expected.hash += hash_of(SideColumn::spin, id, reference.spins()[id]);
     };
     if (world.is_root() && method == Method::time_stepped) {
         reference::TimeSteppedReference reference(scene.setting, scene.discs);

@@ -86,7 +86,7 @@ void check_pressures(const Averages& averages, const test::TestScene& test, cons
 
 /// The integral of stress so far; tests/physics/virial_test.cpp has it from logged collisions.
 Tensor stress_of(const Simulation& simulation) {
-    Look look = simulation.look();
+    MotionSample look = simulation.motion_sample();
     simulation.integrate(simulation.stress_sums(), look);
     return look.stress;
 }
