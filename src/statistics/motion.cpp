@@ -51,8 +51,7 @@ MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* specie
         const Disc& disc = own[static_cast<std::size_t>(i)];
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
-        const bool has_departed = disc.has_departed(); // such a disc is at rest
-        departed += has_departed;
+        departed += disc.has_departed(); // such a disc is at rest
         const double vx = disc.vx * per_unit, vy = disc.vy * per_unit;
         const double square = vx * vx + vy * vy;
         speeds += fixed(std::sqrt(square));
@@ -63,7 +62,7 @@ MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* specie
             px = mass * vx;
             py = mass * vy;
             squares += fixed(square);
-            masses += has_departed ? 0 : fixed(mass);
+            masses += disc.has_departed() ? 0 : fixed(mass);
         }
         x += fixed(px);
         y += fixed(py);
