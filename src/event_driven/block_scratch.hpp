@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block run works with: copies of the discs of a block and its halo, their events so far,
-// and those to come.
+// The working data of a block run: copies of the discs of a block and its halo, their
+// events so far, and those to come.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace carrom {
 
-/// What has happened to a disc in this window.
+/// The events of a disc in this window.
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    std::uint64_t history = 0;      ///< 0: nothing
-    std::uint32_t generation = 0;   ///< of the last collision
-    std::uint32_t partner = nobody; ///< of the last collision
+    std::uint64_t history = 0;      ///< 0: none
+    std::uint32_t generation = 0;   ///< that of the last collision
+    std::uint32_t partner = nobody; ///< that in the last collision
 
-    /// Of a collision: its time, the other's id and the velocities after it; the place follows from
-    /// them and the state before.
+    /// Adds a collision: its time, the other's id and the velocities after it. The
+    /// place follows from these and the state before.
     template <bool has_spin>
     void add(double time, const Disc& disc, std::uint64_t partner_id, double spin) {
         const auto mixed = [](double value, std::uint64_t factor) {
@@ -41,7 +41,7 @@ struct EventHistory {
 };
 static_assert(sizeof(EventHistory) == 16);
 
-/// Where the partners of a flight can have been at the window's start, in cells.
+/// The box in which the partners of a flight can have been at the window's start, in cells.
 struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
@@ -56,7 +56,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void set_scales();
     void mark_own(const CellBlock& own);
     void mark_own_of_all(const CellBlock& own);
-    /// Takes over a disc's flight: where it would have been at the window's start, in cells.
+    /// Stores a disc's flight: where it would have been at the window's start, in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const Disc& disc = discs[slot];
         const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
@@ -66,7 +66,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         vx[slot] = static_cast<float>(v_along * cells_per_speed);
         vy[slot] = static_cast<float>(v_across * cells_per_speed);
     }
-    /// Takes over the flight of a ghost's disc.
+    /// Stores the flight of a ghost's disc.
     void place_ghost(const Ghost& ghost) {
         x[ghost.slot] = x[ghost.disc] + ghost.x_shift;
         y[ghost.slot] = y[ghost.disc] + ghost.y_shift;
@@ -75,7 +75,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         if constexpr (Dynamics::has_moving_images)
             vx[ghost.slot] += static_cast<float>(ghost.image.y * periods().speed * cells_per_speed);
     }
-    /// Of the disc's fastest image near by, in cells per window.
+    /// The squared speed of the disc's fastest image near by, in cells per window.
     float lane_speed_squared(std::uint32_t slot) const {
         if constexpr (Dynamics::has_moving_images) {
             const auto [along, across] = turned(axis, vx[slot], vy[slot]);
@@ -118,7 +118,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     const Ghost* ghost_at(std::uint32_t slot) const {
         return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
-    /// With each other, at this time, and with nobody since; perhaps as other images.
+    /// With each other at this time, and with no other disc since; perhaps as other images.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
@@ -152,19 +152,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     int owning_column(int column) const {
         return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);
     }
-    /// Slots of cells (column, first_row .. last_row) of our own, counted from `cells`' corner.
+    /// Slots of own cells (column, first_row .. last_row), counted from the corner of `cells`.
     SlotRange cell_run(int column, int first_row, int last_row) const {
         const std::uint32_t* const starts = cell_starts.data() +
                                             static_cast<std::size_t>(column) * cell_rows;
         return {starts[first_row], starts[last_row + 1]};
     }
-    /// The same for cells of the grid.
+    /// Slots of cells of the grid.
     SlotRange grid_run(int column, int first_row, int last_row) const {
         return cell_run(column - cells.first_column, first_row - cells.first_row,
                         last_row - cells.first_row);
     }
 
-    /// Whether the disc's owner reports what happens to it: it is own or of the ring.
+    /// Whether the disc's owner reports its events: it is own or in the ring.
     bool is_compared(std::uint32_t slot) const {
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
         const auto cell = static_cast<std::size_t>(behind - cell_starts.begin()) - 1;
@@ -193,44 +193,44 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    bool is_whole = false; ///< every disc is there once
-    CellBlock cells;       ///< own ones and the halo
-    CellBlock ring;        ///< own ones and those within one reach of them
-    CellBlock firsts;      ///< where a pair's first disc is looked for, from the corner of `cells`
+    bool is_whole = false; ///< true if every disc is there once
+    CellBlock cells;       ///< own cells and the halo
+    CellBlock ring;        ///< own cells and those within one reach of them
+    CellBlock firsts;      ///< cells of a pair's first disc, from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the grid's: corners, lanes and walls in cells have it as x
+    Axis axis = Axis::x; ///< the grid's axis: corners, lanes and walls in cells have it as x
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
     float rows_per_cell = 1; ///< rows may be higher than columns are wide
     float touching_squared = 0,
-          farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
+          farthest = 0; ///< farthest: the error of a partner's place at the start, in cells
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
-          y_inner_high = 0;                 ///< no wall near in between, in cells
-    std::size_t cell_rows = 0;              ///< entries of `cell_starts` to a column
-    std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
-    std::vector<LocalIndex> indices;        ///< by slot, as all that follows
+          y_inner_high = 0;                 ///< in between no wall is near, in cells
+    std::size_t cell_rows = 0;              ///< entries of `cell_starts` for a column
+    std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
+    std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
     std::vector<Disc> discs;
     SideColumns columns = side_columns_of<Dynamics>();
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::size_t n_hit = 0; ///< own discs that have collided
-    BoxLayout layout;      ///< in a run of the whole box
+    BoxLayout layout;      ///< for a run of the whole box
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
-    std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
+    std::vector<SlotRange> runs; ///< only the first n_runs count; room for all columns
     std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners,
-        others_partners; ///< of one disc, and of the one that it has met
+        others_partners; ///< partners of one disc, and of the one that it has met
     std::vector<std::uint32_t> later,
-        later_ends;           ///< of a column: partners behind its discs, and where each one's end
-    double cascade_begin = 0; ///< when the present collision cascade began, if it is one
+        later_ends;           ///< for a column: partners behind its discs, and where each one's end
+    double cascade_begin = 0; ///< the begin of the present collision cascade, if there is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
-    StressTerms stress_terms;     ///< of the outcome, to be added to its sums
-    double bound_squared = 0;     ///< of the speed
-    float bound_lane_squared = 0; ///< the same in cells per window, somewhat less
+    StressTerms stress_terms;     ///< waiting to be added to the outcome's sums
+    double bound_squared = 0;     ///< square of the speed bound
+    float bound_lane_squared = 0; ///< this square in cells per window, somewhat less
     double too_fast = 0;          ///< see BlockOutcome
 };
 

@@ -13,23 +13,23 @@ namespace carrom {
 namespace {
 
 // Measured on one core, in nanoseconds (docs/log/performance.md).
-constexpr double cost_per_disc = 40; ///< to sort, copy and give back, once a window
-constexpr double cost_per_copy = 40; ///< of each disc in a block or its halo
+constexpr double cost_per_disc = 40; ///< of a disc: to sort, copy and return it, once a window
+constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
 constexpr double cost_per_event = 160;
-constexpr double cost_per_partner = 1.0; ///< of each disc that a prediction looks at
+constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tries
 constexpr double discs_in_cache =
-    24000; ///< of a block with its halo; most of them are looked at once only
-constexpr double densest_gas = 0.7; ///< of which a gas's collision rate is guessed
-/// Changes spread by collisions. Where discs fly far compared with their size few go two reaches in
-/// a window.
+    24000; ///< in a block with its halo, because most of them are compared once only
+constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision rate is estimated
+/// Changes spread by collisions. If discs fly far compared with their size, few
+/// changes go further than two reaches in a window.
 constexpr double thin_gas = 0.2; ///< diameter to reach
 
-// To repeat a block's run with twice the halo costs two or three of it, a reach more of halo a
-// tenth: docs/log/performance.md.
+// Repeating a block's run with twice the halo costs two or three runs, a reach more of
+// halo a tenth: docs/log/performance.md.
 constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of the windows before the last one
 constexpr int most_more = 2;   ///< reaches
-constexpr int long_calm = 200; ///< windows after which less is tried
+constexpr int long_calm = 200; ///< after so many windows a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
 /// The mean distance of discs.
@@ -62,7 +62,7 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
 
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double halo = choice.halo * choice.reach;
-    // Of discs in the run, halo included, to own ones, along one axis.
+    // Discs in the run, halo included, over own ones, along one axis.
     const auto share_along = [&](double length, bool goes_round) {
         const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
         return (goes_round ? seen : std::min(seen, length)) / own;

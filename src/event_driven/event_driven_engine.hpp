@@ -10,8 +10,8 @@
 //                 twice the halo, in the end with the whole box
 //   commit        new states for the discs that were hit
 //
-// A rollback costs nothing but the run: states are rewritten at the commit only. Few discs on one
-// rank and thread have a single run of the whole box. It needs no halo and no histories.
+// A rollback costs only the repeated run, because states are rewritten at the commit. Few
+// discs on one rank and thread have a single run of the whole box, without halo and histories.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@
 
 namespace carrom {
 
-/// What tests vary. Only the validation affects the bits.
+/// Settings that tests vary. Only the validation affects the bits.
 struct BlockTuning {
-    std::optional<int> halo;          ///< reaches that blocks look beyond their own cells at first
+    std::optional<int> halo;          ///< reaches that a block's first run sees beyond its cells
     std::optional<double> block_side; ///< in reaches
     double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
     bool is_validated = true;         ///< false gives wrong results
@@ -51,8 +51,8 @@ private:
     struct Block {
         CellBlock cells;
         int halo = 0;               ///< in reaches
-        std::uint8_t is_marked = 0; ///< has to run
-        bool has_run = false;       ///< in this window, before
+        std::uint8_t is_marked = 0; ///< the block has to run
+        bool has_run = false;       ///< it has run before in this window
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };
@@ -87,8 +87,8 @@ private:
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
 
-    /// Blocks at the strip's ends can look further at once: to fetch more makes all ranks run all
-    /// blocks again.
+    /// Fetch the double halo now for blocks at the strip's ends, because fetching it
+    /// later makes all ranks run all blocks again.
     int first_halo_depth() const { return 2 * choice_.halo; }
     double reach() const {
         return block_reach(window_, dynamics_.search_diameter() * dynamics_.growth_at(window_.end),
@@ -97,19 +97,19 @@ private:
 
     BlockTuning block_tuning_;
     double jumped_ = 0; ///< the frame's motion along the strips' axis since the last migration
-    double collision_rate_ = 0; ///< per disc and time, of the last window, on all ranks
-    double last_duration_ = 1;  ///< of the last window
+    double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
+    double last_duration_ = 1;  ///< duration of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
                           ///< its blocks; equal on all ranks
-    double first_speed_ = 0; ///< of growing discs, when this interval or the engine began
+    double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
     Caution caution_;
-    std::uint64_t n_events_ = 0; ///< of this rank in the last window
-    RollbackCounts counts_;      ///< blocks: of this rank
+    std::uint64_t n_events_ = 0; ///< on this rank in the last window
+    RollbackCounts counts_;      ///< blocks: on this rank
 
     BlockChoice choice_;
     BlockWindow window_;
     bool is_alone_ = false; ///< one run of the whole box, for lack of threads and ranks
-    BoxCells box_cells_;    ///< of runs that see the whole box
+    BoxCells box_cells_;    ///< for runs that see the whole box
     int halo_depth_ = 0;    ///< reaches that the halo covers
     CellBlock own_cells_{0, 1, 0, 1};
     int block_columns_ = 1, block_rows_ = 1; ///< cells to a block

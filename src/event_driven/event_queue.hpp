@@ -2,10 +2,10 @@
 // Predicted collisions of one block run in their total order: time, generation, id of P, wall
 // before pair, id of Q.
 //
-// Predictions are not taken back. One whose discs have collided since is known by their versions,
-// which only grow, and passed over. Such predictions pile up where discs without room collide
-// millions of times in a window. So they are swept out whenever there are twice as many as there
-// were good ones.
+// Predictions are not removed when they become void. A prediction whose discs have
+// collided since has other versions than these, which only grow, and is skipped. Void
+// predictions pile up if discs without room collide millions of times in a window, so
+// they are swept out whenever there are twice as many events as there were good ones.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace carrom {
 
-/// Stand for what is fixed in the place of a second disc: obstacles by their numbers, then the
-/// walls, x before y.
+/// Values for a fixed body in the place of a second disc: obstacles by their numbers,
+/// then the walls, x before y.
 inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe,
                                y_wall = 0xffffffff;
 inline bool is_wall(std::uint32_t partner) { return partner >= first_obstacle; }
@@ -32,8 +32,8 @@ struct Event {
     double time = 0;
     std::uint32_t generation = 0;
     std::uint32_t p = 0, q = x_wall;       ///< slots; p has the lower id
-    std::int16_t image_x = 0, image_y = 0; ///< of q, in box lengths from where its slot has it
-    std::uint32_t versions = 0;            ///< sum of those of the states it was predicted from
+    std::int16_t image_x = 0, image_y = 0; ///< q's image: box lengths from where its slot has q
+    std::uint32_t versions = 0;            ///< sum of the versions of the states that predict it
     std::uint32_t next = 0;                ///< for the queue
 
     bool has_image() const { return image_x != 0 || image_y != 0; }
@@ -59,7 +59,7 @@ private:
     bool before_at_equal_times(const Event& a, const Event& b) const {
         if (a.generation != b.generation) return a.generation < b.generation;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
-            return discs_[a.p].id < discs_[b.p].id; // or two images of one
+            return discs_[a.p].id < discs_[b.p].id; // equal for two images of one disc
         if (is_wall(a.q) || is_wall(b.q)) return is_wall(a.q) && (!is_wall(b.q) || a.q < b.q);
         return discs_[a.q].id < discs_[b.q].id;
     }
@@ -67,17 +67,17 @@ private:
     std::span<const Disc> discs_;
 };
 
-/// The same order backwards, for heaps with the first event on top.
+/// The reverse order, for heaps with the first event on top.
 inline auto after(const EventOrder& before) {
     return [&before](const Event& a, const Event& b) { return before(b, a); };
 }
 
-/// Buckets of equal length in time, some one event to a bucket: nearly all of a queue's work is to
-/// append to a list. The bucket that is being emptied is a heap, so that thousands of events at one
-/// time cost no more than the logarithm.
+/// Buckets of equal length in time, with about one event each, so nearly all of a
+/// queue's work is to append to a list. The bucket that is being emptied is a heap, so
+/// that thousands of events at one time cost only the logarithm.
 class EventQueue {
 public:
-    /// Forgets all events; those to come lie in [begin, end], about `n_expected` of them at a time.
+    /// Forgets all events. New ones lie in [begin, end], about `n_expected` of them at a time.
     void restart(double begin, double end, std::size_t n_expected) {
         pool_.clear();
         first_free_ = none;
@@ -105,8 +105,8 @@ public:
         heads_[bucket] = entry;
     }
 
-    /// Takes out the first event for which `is_current(event)` holds and forgets those before it;
-    /// false if there is none.
+    /// Takes out the first event for which `is_current(event)` holds and forgets those
+    /// before it; false if there is none.
     template <class IsCurrent>
     bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
         if (has_outgrown()) [[unlikely]]
@@ -139,8 +139,8 @@ private:
         return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
     }
 
-    /// Forgets all events that are not current. Costs a look at each, for at least as many pushes
-    /// before the next sweep.
+    /// Forgets all events that are not current. Costs a check of each, after at least
+    /// as many pushes since the last sweep.
     template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
         std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
         std::make_heap(now_.begin(), now_.end(), after(before));
@@ -185,7 +185,7 @@ private:
     std::uint32_t first_free_ = none;
     std::size_t most_now_ = least_to_sweep,
                 most_waiting_ =
-                    least_to_sweep; ///< sizes of `now_` and `pool_` that ask for a sweep
+                    least_to_sweep; ///< a sweep is due at these sizes of `now_` and `pool_`
 };
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of partners in a block run, many lanes at a time. It finds which flights in some
-// runs of slots might touch a given one before the window ends. It may keep pairs that never touch;
-// it never loses one that does.
+// First rejection of partners in a block run, many lanes at a time: which flights in
+// some runs of slots might touch a given one before the window ends. It may keep pairs
+// that never touch, but loses none that do.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +21,10 @@ struct Flight {
     std::uint32_t slot = 0;
 };
 
-/// Writes the slots of `runs`, other than the flight's own, that might come within the square root
-/// of `touching_squared` of `flight`; returns how many. Lanes hold positions extrapolated to the
-/// window's start. `out` has room for all slots of the runs and `filter_padding` more; lanes can be
-/// read as far beyond the last slot.
+/// Writes the slots of `runs`, other than the flight's own, that might come within the
+/// square root of `touching_squared` of `flight`; returns their number. Lanes hold
+/// positions extrapolated to the window's start. `out` has room for all slots of the
+/// runs and `filter_padding` more, and lanes can be read as far beyond the last slot.
 std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
                            const Flight& flight, float touching_squared, std::uint32_t* out);
 
@@ -32,30 +32,30 @@ struct PartnerCounts {
     std::size_t p = 0, q = 0;
 };
 
-/// The same for two flights with the same `now` at once, into a list each: all slots but those of
-/// the two.
+/// Filters for two flights with the same `now` at once, into a list each: all slots
+/// but those of the two.
 PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
                                  const Flight& p, const Flight& q, float touching_squared,
                                  std::uint32_t* p_out, std::uint32_t* q_out);
 
-/// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length + r]
-/// and end where the next cell's begin. There is one entry more to a column than rows.
+/// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length
+/// + r] and end where the next cell's begin. Each column has one more entry than rows.
 struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
     int n_columns = 0, n_rows = 0;
-    int n_reach_columns = 1, n_reach_rows = 1; ///< in which a disc's partners can be
+    int n_reach_columns = 1, n_reach_rows = 1; ///< a disc's partners can be in these
 };
 
-/// Rows first .. end - 1 of a column of cells.
+/// The rows first .. end - 1 of a column of cells.
 struct CellRows {
     int first = 0, end = 0;
 };
 
-/// Finds every pair that might touch in the window, of a disc in `rows` of a column and one that
-/// comes after it. That one is later in its own column, or in a column to the right, within the
-/// table's reach. Puts the second ones into `partners`, which only grows. For each disc of the rows
-/// it appends to `ends` where its partners end there.
+/// Finds every pair that might touch in the window, of a disc in `rows` of a column
+/// and one that comes after it: later in its own column, or in a column to the right,
+/// within the table's reach. Appends the second discs to `partners`, which only grows,
+/// and to `ends` where the partners of each disc of the rows end there.
 void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
                    float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The layout of a box whose rows of images slide along x: ghosts do not lie in their cells as their
-// discs do in theirs, so each is sorted by its own place.
+// The layout of a box whose rows of images slide along x. Ghosts do not lie in their
+// cells as their discs do in theirs, so each ghost is sorted by its own place.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    /// All images in one row of cells, from the first column of the layout on.
+    /// Lists all images in one row of cells, from the first column of the layout on.
     void list_row(double place, Image image, int row, std::size_t listed,
                   std::vector<Entry>& entries) const {
         auto column = static_cast<int>(std::floor(place / cells_.width));
@@ -83,7 +83,7 @@ void BoxLayout::lay_sliding(std::span<const Disc> discs, std::size_t n_own, cons
         if (entry.cell + 1 < starts_.size()) ++starts_[entry.cell + 1];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     indices_.resize(entries.size());
-    std::vector<std::uint32_t> slot_of(listed_.size()); // of the disc itself
+    std::vector<std::uint32_t> slot_of(listed_.size()); // slots of the discs themselves
     for (std::uint32_t slot = 0; slot < entries.size(); ++slot) {
         indices_[slot] = listed_[entries[slot].listed];
         if (entries[slot].image == Image{}) slot_of[entries[slot].listed] = slot;
