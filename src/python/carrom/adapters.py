@@ -13,6 +13,9 @@ import numpy.typing as npt
 from carrom.errors import MissingPackageError, NoDataError
 from carrom.frame import Array, Frame
 
+# What the wheel of OVITO 3 links and Debian's smallest system lacks, by ldd.
+_OVITO_PACKAGES = "libegl1 libgl1 libopengl0 libxkbcommon0 libfontconfig1 libdbus-1-3 libglib2.0-0"
+
 
 def package(name: str, wanted_by: str, project: str = "") -> Any:
     """Import a package, or say how to install it."""
@@ -30,7 +33,7 @@ def _of_the_system(wanted_by: str, name: str, error: str) -> str:
     """Say what a package that is installed lacks. OVITO needs libraries for graphics."""
     text = f"{wanted_by}: {name} is installed, but lacks a library of the system ({error})"
     if name.startswith("ovito"):
-        text += "; on Debian try: apt-get install libegl1 libgl1 libopengl0 libxkbcommon0"
+        text += f"; on Debian try: apt-get install {_OVITO_PACKAGES}"
     return text
 
 
