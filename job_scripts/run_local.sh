@@ -26,7 +26,7 @@ done
 install_packages
 # The program alone. A build folder that has the tests keeps them: test_local.sh uses the same.
 if [ -e "$build/CMakeCache.txt" ]; then configure; else configure -DCARROM_TESTS=OFF; fi
-build_targets carrom
+build_targets carrom libcarrom # all that `cmake --install` installs
 
 use_mpi_settings $((RANKS * OMP_NUM_THREADS))
 exec "$(mpi_launcher "$build")" -n "$RANKS" "$build/carrom" run "$@"

@@ -64,6 +64,14 @@ grep -q "^Carrom_DIR:PATH=$prefix/" "$test_folder/embed/CMakeCache.txt" ||
     complain 'the package was found elsewhere'
 step build "$cmake" --build "$test_folder/embed"
 
+# The same example by pkg-config, for projects without CMake.
+flags() { PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name carrom.pc)") pkg-config "$@" carrom; }
+read -ra words <<<"$(flags --cflags) $(flags --static --libs)"
+step by_pkg_config "$compiler" -std=c++20 "$CARROM_SOURCE_DIR/docs/examples/embed/embed.cpp" \
+    -o "$test_folder/embed/by_pkg_config" "${words[@]}"
+[ "$(flags --modversion)" = "$("$CARROM_PROGRAM" --version | sed -n '1s/carrom //p')" ] ||
+    complain "carrom.pc has another version: $(flags --modversion)"
+
 # expect_hash RANKS HASH SCENE...: the example's last line.
 expect_hash() {
     local ranks=$1 hash=$2 launch=()

@@ -16,6 +16,8 @@ class Carrom(CMakePackage):
 
     version("0.3.0")
 
+    variant("shared", default=True, description="Install libcarrom.so, not libcarrom.a")
+
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
@@ -37,5 +39,6 @@ class Carrom(CMakePackage):
     def cmake_args(self):
         return [
             self.define("CARROM_TESTS", False),
+            self.define_from_variant("CARROM_SHARED", "shared"),
             self.define("RANDOM123_INCLUDE_DIR", self.spec["random123"].prefix.include),
         ]

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What CMake says before anything is compiled: systems without a chance are refused in one line, a
+# project that adds Carrom as a folder keeps its build type, and --version shows changes.
+#
+# usage: builds.sh CMAKE CXX
+. "$CARROM_SOURCE_DIR/tests/system/common.sh"
+cmake=$1 compiler=$2
+
+# configured FOLDER WORD...: false if cmake stops; what it says is in `log`
+configured() {
+    rm -rf "$test_folder/build"
+    timeout 200 "$cmake" -S "$1" -B "$test_folder/build" -DCARROM_TESTS=OFF \
+        -DCMAKE_CXX_COMPILER="$compiler" "${@:2}" >log 2>&1
+}
+# expect_refusal WHAT WORD...
+expect_refusal() {
+    configured "$CARROM_SOURCE_DIR" "${@:2}" && complain "no word of $1"
+    tr -s '\n ' ' ' <log >line
+    grep -qF "Carrom needs Linux on a 64-bit little-endian processor, not $1" line ||
+        { complain "not refused in one line: $1"; tail -n 5 log; }
+    [ "$(grep -c 'CMake Error' log)" -eq 1 ] || complain "several errors for $1"
+}
+expect_refusal FreeBSD -DCMAKE_SYSTEM_NAME=FreeBSD
+echo 'int main() {}' >main.cpp
+if "$compiler" -m32 main.cpp -o small 2>err; then
+    expect_refusal 'Linux with 32 bits' -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
+else
+    printf 'skipped: the compiler makes no programs of 32 bits\n'
+fi
+
+mkdir parent
+cat >parent/CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.25)
+project(parent LANGUAGES C CXX)
+add_subdirectory("$CARROM_SOURCE_DIR" carrom)
+END
+unset CMAKE_BUILD_TYPE
+configured parent || { complain 'a parent project'; tail -n 5 log; }
+grep -qx 'CMAKE_BUILD_TYPE:STRING=' "$test_folder/build/CMakeCache.txt" ||
+    complain "the parent's build type: $(grep BUILD_TYPE: "$test_folder/build/CMakeCache.txt")"
+
+# The commit of a tree that was changed is marked.
+if command -v git >/dev/null && git -C "$CARROM_SOURCE_DIR" rev-parse HEAD >/dev/null 2>&1; then
+    git clone -q --no-hardlinks "$CARROM_SOURCE_DIR" clone 2>err || complain 'git clone'
+    commit=$(git -C clone rev-parse --short=12 HEAD)
+    for mark in '' -modified; do
+        [ -z "$mark" ] || echo '# changed' >>clone/README.md
+        configured clone -G Ninja || { complain 'the clone'; tail -n 5 log; }
+        grep -q "CARROM_COMMIT=.*$commit$mark[\\\\\"]" "$test_folder/build/build.ninja" ||
+            complain "not $commit$mark: $(grep -o 'CARROM_COMMIT=[^ ]*' "$test_folder/build/build.ninja")"
+    done
+fi
+rm -rf "$test_folder/build" clone
+finish
