@@ -11,7 +11,7 @@ for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
     has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
 for wanted in 'matplotlib matplotlib' 'PIL pillow' 'scipy.spatial scipy' \
-    'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' \
+    'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' 'xarray xarray' \
     'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
     read -r module name <<<"$wanted"
     has "$module" "$name" ||
