@@ -200,6 +200,7 @@ TEST_CASE("averages: any number of blocks ends as 64 to 127, and stops on the wa
     CHECK(often.collision_frequency.error == once.collision_frequency.error);
     CHECK(often.pressure.value == once.pressure.value);
     CHECK(often.pressure_tensor.xy.error == once.pressure_tensor.xy.error);
+    CHECK(once.temperature.is_conserved); // over many whole flights
 }
 
 TEST_CASE("averages: discs at rest, or none that collide, give numbers and no error") {
