@@ -125,9 +125,12 @@ def test_a_movie_to_nowhere_is_an_error(run: carrom.Run, tmp_path: Path) -> None
 
 
 def test_curves_show_the_tables(run: carrom.Run) -> None:
-    line = plot.radial_distribution(run).lines[0]
+    axes = plot.radial_distribution(run)
+    line = axes.lines[0]
     table = run.tables["radial_distribution"]
     assert np.array_equal(line.get_ydata(), table["g"])
+    assert len(axes.lines) == 2  # g and the line at 1: errors are a band
+    assert len(axes.collections) == 1
     scaled = plot.radial_distribution(run, in_diameters=True).lines[0]
     diameter = 2 * run.frames[0].radius[0]
     assert scaled.get_xdata() == pytest.approx(line.get_xdata() / diameter)

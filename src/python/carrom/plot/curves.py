@@ -95,6 +95,8 @@ def radial_distribution(
 ) -> Axes:
     """Draw g(r) of one or more runs, of `"radial_distribution"` of `[output.measurements]`.
 
+    A band around each curve shows one standard error, where the run has enough samples for it.
+
     Args:
         source: a run, a path, or several of them
         in_diameters: show distances over the diameter of the largest disc
@@ -106,10 +108,15 @@ def radial_distribution(
         run = as_run(item)
         table = run.tables["radial_distribution"]
         unit = _diameter(run) if in_diameters else 1.0
-        kinds = [name for name in table.columns if name == "g" or name.startswith("g_")]
+        curves = [name for name in table.columns if name == "g" or name.startswith("g_")]
+        kinds = [name for name in curves if not name.endswith("_error")]
         for kind in kinds:
             label = run.name if len(sources) > 1 else kind
-            ax.plot(middles(table) / unit, table[kind], label=label)
+            distances, g = middles(table) / unit, table[kind]
+            (line,) = ax.plot(distances, g, label=label)
+            if f"{kind}_error" in curves:  # tables of version 0.2 have none
+                error = table[f"{kind}_error"]
+                ax.fill_between(distances, g - error, g + error, color=line.get_color(), alpha=0.3)
         if len(sources) > 1 or len(kinds) > 1:
             ax.legend()
     ax.axhline(1, color="0.7", linewidth=0.8)
