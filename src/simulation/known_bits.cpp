@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t side = 8;
+constexpr std::uint64_t lattice_side = 8;
 
 const char* name_of(Method method) {
     return method == Method::time_stepped ? "time-stepped" : "event-driven";
@@ -30,9 +30,9 @@ const char* known_hash(Method method) {
 /// Discs on a square lattice at a packing fraction of 0.4, with velocities without a pattern.
 std::string hash_of(Method method) {
     Scene scene;
-    scene.box = {side, side};
+    scene.box = {lattice_side, lattice_side};
     scene.radius = 0.36;
-    scene.n_discs = side * side;
+    scene.n_discs = lattice_side * lattice_side;
     scene.method = method;
     scene.steps = 20;
     scene.effects.gravity.y = -0.01;
@@ -41,8 +41,8 @@ std::string hash_of(Method method) {
         const auto odd = [id](std::uint64_t factor, std::uint64_t n) {
             return (static_cast<double>(id * factor % n) + 0.5) / static_cast<double>(n) - 0.5;
         };
-        discs.push_back({id, static_cast<double>(id % side) + 0.5,
-                         static_cast<double>(id / side) + 0.5, 0.3 * odd(37, 101),
+        discs.push_back({id, static_cast<double>(id % lattice_side) + 0.5,
+                         static_cast<double>(id / lattice_side) + 0.5, 0.3 * odd(37, 101),
                          0.3 * odd(59, 103)});
     }
     Simulation simulation(scene, discs, Communicator::of_this_rank(), {});

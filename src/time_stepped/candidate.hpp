@@ -15,13 +15,13 @@
 namespace carrom {
 
 /// Stands for the wall where a candidate has no second disc.
-inline constexpr LocalIndex wall = std::numeric_limits<LocalIndex>::max();
+inline constexpr LocalIndex wall_index = std::numeric_limits<LocalIndex>::max();
 
 struct Candidate {
     double time = 0;            ///< in-step time of its micro-step, in [0, 1]
-    LocalIndex p = 0, q = wall; ///< p has the lower id
+    LocalIndex p = 0, q = wall_index; ///< p has the lower id
 
-    bool is_wall() const { return q == wall; }
+    bool is_wall() const { return q == wall_index; }
 };
 static_assert(sizeof(Candidate) == 16);
 

@@ -76,7 +76,7 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
     const std::size_t old_kept = verdicts.kept.size();
     for (std::size_t k = 0; k < live.size(); ++k) {
         for (const LocalIndex index : {live[k].p, live[k].q})
-            if (index != wall &&
+            if (index != wall_index &&
                 (first_[index] == free_disc || before(live[k], live[first_[index]])))
                 first_[index] = static_cast<std::uint32_t>(k);
     }
@@ -100,7 +100,7 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
     std::erase_if(live, is_struck);
     for (std::size_t k = old_kept; k < verdicts.kept.size(); ++k) {
         for (const LocalIndex index : {verdicts.kept[k].p, verdicts.kept[k].q})
-            if (index != wall) first_[index] = free_disc;
+            if (index != wall_index) first_[index] = free_disc;
     }
     return verdicts.kept.size() - old_kept;
 }
@@ -183,7 +183,7 @@ void LocalResolution::walk(const Population& population, std::vector<Candidate>&
     touched_.clear();
     const auto mark_both = [&](const Candidate& candidate, std::uint32_t mark) {
         for (const LocalIndex index : {candidate.p, candidate.q}) {
-            if (index == wall || first_[index] == taken_disc) continue;
+            if (index == wall_index || first_[index] == taken_disc) continue;
             first_[index] = mark;
             touched_.push_back(index);
         }

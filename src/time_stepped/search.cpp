@@ -222,7 +222,7 @@ void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, f
         // in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
-        if (hit[k] != wall)
+        if (hit[k] != wall_index)
             lists.n_pairs = filter_around(grid, hit[k], from, half_reach, bounds.touching_squared,
                                           lists.pairs, lists.n_pairs);
     }
@@ -253,7 +253,7 @@ void Search<Dynamics>::predict_wall(const Population& population, const Window& 
     for (int m = from; m < window.end_micro(); ++m) {
         const double t = dynamics_.wall_time(disc, m);
         if (t == Dynamics::never) continue;
-        if (window.holds(t)) add(lists, window, from, m, {t, index, wall});
+        if (window.holds(t)) add(lists, window, from, m, {t, index, wall_index});
         return;
     }
 }

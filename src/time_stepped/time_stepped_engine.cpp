@@ -264,7 +264,7 @@ template <class Dynamics>
 [[gnu::always_inline]] inline void TimeSteppedEngine<Dynamics>::prefetch(
     const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const {
     for (const LocalIndex index : {candidate.p, candidate.q}) {
-        if (index == wall) continue;
+        if (index == wall_index) continue;
         __builtin_prefetch(&results[index], 1);
         if (!is_last) discs_.grid().prefetch_flight(index);
     }
@@ -338,7 +338,7 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
             hits_[place] = c.p;
             hits_[place + 1] = c.q;
             for (const LocalIndex index : {c.p, c.q}) {
-                if (index == wall) continue;
+                if (index == wall_index) continue;
                 states_[index] = window.state_after(m);
                 update_flight(index, results[index]);
             }
@@ -356,7 +356,7 @@ template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;
     const PhaseClock::Scope scope(phases_, Phase::exchange);
-    std::erase(hits_, wall);
+    std::erase(hits_, wall_index);
     updates_.clear();
     discs_.send_updates(hits_, updates_);
     for (const LocalIndex index : updates_) {
