@@ -25,7 +25,8 @@
 
 namespace carrom {
 
-/// The discs of a rank at a sync, with velocities and spins per micro-step.
+/// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
+/// they are taken about the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
     std::span<Disc> discs;   ///< some may have departed: effects leave those alone
     std::span<double> spins; ///< along the discs; empty unless discs are rough

@@ -156,7 +156,11 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         if (stress_ && ends_flights) *stress_ += flights;
     }
     if (is_work_asked) *work_ += energy_of_own();
-    if (sync_action_.has_effects()) return sync_action_.act(discs_, n_micro_done_ / sync_every_);
+    if (sync_action_.has_effects()) {
+        sync_action_.act(discs_, n_micro_done_ / sync_every_);
+        fastest = 0;
+        for (const Disc& disc : own()) fastest = std::max(fastest, dynamics_.squared_speed(disc));
+    }
     return std::sqrt(fastest);
 }
 

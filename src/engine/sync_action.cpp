@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/sync_action.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <omp.h>
 
 #include "scene/effects/effect.hpp"
@@ -12,9 +9,13 @@ namespace carrom {
 
 SyncAction::SyncAction(const Scene& scene, const Communicator& communicator, int n_threads)
     : effects_(sync_effects_of(scene)), species_(scene.effects.species, scene.radius),
-      inertia_(scene.effects.contact.inertia), communicator_(communicator), n_threads_(n_threads) {}
+      inertia_(scene.effects.contact.inertia), box_(scene.box),
+      shear_(scene.effects.are_sheared()
+                 ? scene.effects.shear / static_cast<double>(scene.micro_steps)
+                 : 0),
+      communicator_(communicator), n_threads_(n_threads) {}
 
-double SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
+void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
     SyncDiscs at;
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
@@ -34,11 +35,17 @@ double SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
     at.largest_over_ranks = [this](double value) { return communicator_.max(value); };
 
     energy_given_ -= energy_of(at);
+    if (shear_ != 0) add_flow(at, -1);
     for (const auto& effect : effects_) effect->act(at);
+    if (shear_ != 0) add_flow(at, 1);
     energy_given_ += energy_of(at);
-    double fastest = 0;
-    for (const Disc& disc : at.discs) fastest = std::max(fastest, squared_speed_of(disc));
-    return std::sqrt(fastest);
+}
+
+/// vx = rate (y - Ly / 2) turns clockwise at half the rate.
+void SyncAction::add_flow(const SyncDiscs& at, double times) const {
+    const double rate = times * shear_;
+    for (Disc& disc : at.discs) disc.vx += rate * (disc.y - box_.y / 2);
+    for (double& spin : at.spins) spin -= rate / 2;
 }
 
 double SyncAction::energy_of(const SyncDiscs& at) const {

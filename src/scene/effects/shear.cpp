@@ -62,13 +62,6 @@ std::vector<Rule> rules_of_shear() {
              [](const Scene& s) {
                  return s.trajectory && s.trajectory->has_image && s.effects.are_sheared();
              }),
-        rule("sheared sides", "a thermostat",
-             "thermostats of this version act on velocities in the box, not about the flow",
-             {"effects.thermostat.kind"},
-             [](const Scene& s) {
-                 return s.effects.are_sheared() &&
-                        s.effects.thermostat.kind != ThermostatKind::none;
-             }),
     };
 }
 

@@ -11,7 +11,8 @@
 //             dv = -rate v dt + sqrt(2 rate kT / m) dW, the process of Ornstein and Uhlenbeck.
 //   rescale   velocities relative to the centre of mass, and spins, are multiplied by the factor
 //             that makes their energy kT for each disc, and kT / 2 more where discs have spins.
-// Spins count with the moment of inertia in place of the mass.
+// Spins count with the moment of inertia in place of the mass. Between sheared sides all velocities
+// are those about the flow.
 //
 // The operations are + - * / and sqrt, so the bits are the same on every machine.
 #include <cmath>
@@ -215,7 +216,8 @@ std::vector<Key> keys_of_thermostat() {
     return {
         key("effects.thermostat.kind", "",
             "What is done to velocities at syncs. Kicks: white noise. Andersen: some discs get new "
-            "ones. Langevin: friction and noise. Rescale: all are multiplied.",
+            "ones. Langevin: friction and noise. Rescale: all are multiplied. Between sheared "
+            "sides velocities about the flow are meant.",
             [](auto& s) -> auto& { return s.effects.thermostat.kind; })
             .advises({{"nose-hoover", "\"langevin\" or \"andersen\", which have the same "
                                       "equilibrium"},

@@ -23,16 +23,16 @@ std::vector<Thermostat> thermostats() {
 }
 
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
+constexpr Boundary sheared{BoundaryKind::sheared, 1, 0, 0};
 
-/// Plain discs, rough ones, and those of two species, between walls or periodic sides; they lose
-/// energy in collisions.
+/// Plain discs, rough ones, and those of two species, between walls, periodic or sheared sides;
+/// they lose energy in collisions.
 std::vector<TestScene> driven_scenes() {
     std::vector<TestScene> scenes;
-    for (const bool is_periodic : {false, true}) {
+    for (const char* sides : {"walls", "periodic", "sheared"}) {
         for (const int kind : {0, 1, 2}) {
             TestScene scene = gas(200, 0.2, 0.1, 640 + static_cast<std::uint64_t>(kind));
-            scene.name += std::string(is_periodic ? ", periodic, " : ", walls, ") +
-                          std::to_string(kind);
+            scene.name += std::string(", ") + sides + ", " + std::to_string(kind);
             scene.setting.sync_every = 6;
             scene.setting.micro_steps = 2;
             scene.steps = 40;
@@ -43,7 +43,11 @@ std::vector<TestScene> driven_scenes() {
                 effects.contact.tangential_restitution = 0.5;
             }
             if (kind == 2) effects.species = {{80, 1, 1}, {120, 0.7, 0.4}};
-            if (is_periodic) effects.boundaries.fill(periodic);
+            if (sides != std::string("walls")) effects.boundaries.fill(periodic);
+            if (sides == std::string("sheared")) {
+                effects.boundaries[2] = effects.boundaries[3] = sheared;
+                effects.shear = 0.004; // over a height of 56: twice the speed of discs
+            }
             scenes.push_back(scene);
         }
     }
@@ -98,7 +102,7 @@ TEST_CASE("effects: a check finds out what a thermostat has not given") {
 TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
     const Communicator world = Communicator::world();
     for (TestScene scene : driven_scenes()) {
-        if (!scene.setting.effects.are_periodic()) continue;
+        if (!scene.setting.effects.are_periodic() || scene.setting.effects.are_sheared()) continue;
         scene.setting.micro_steps = 1;
         scene.setting.sync_every = 5;
         const bool is_rough = scene.setting.effects.contact.kind == ContactKind::rough;

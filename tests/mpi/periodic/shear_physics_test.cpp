@@ -137,6 +137,30 @@ TEST_CASE("shear: the viscosity is Enskog's") {
     CHECK(viscosity / unit == Approx(enskog).epsilon(0.08));
 }
 
+// The same without losses: a thermostat that rescales velocities about the flow takes what the flow
+// gives. It keeps kT about the flow at its own, but for the mean velocity, a share of 1 / n.
+TEST_CASE("shear: elastic discs whose velocities are rescaled have Enskog's viscosity") {
+    const Communicator world = Communicator::world();
+    if (is_left_to_small_shapes(world)) return;
+    TestScene scene = flowing_gas(1000, 0.3, 0.1, 1);
+    const double kt = 0.01;
+    scene.setting.effects.shear = 0.1 * std::sqrt(kt) / (2 * scene.setting.radius);
+    scene.setting.effects.thermostat = {ThermostatKind::rescale, 0, 0, kt, 0};
+    scene.setting.sync_every = 8;
+    scene.steps = 4000;
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    advance_to(simulation, scene.steps);
+    const Averages averages = simulation.averages();
+    const double packing = 0.3, bn = 2 * packing,
+                 chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
+    const double enskog = 1.022 / (2 * std::sqrt(std::numbers::pi)) *
+                          (1 / chi + bn + 0.8729 * chi * bn * bn);
+    CHECK(averages.temperature.value == Approx(kt).epsilon(0.005));
+    const double viscosity = -averages.pressure_tensor.xy.value / scene.setting.effects.shear,
+                 unit = std::sqrt(kt) / (2 * scene.setting.radius);
+    CHECK(viscosity / unit == Approx(enskog).epsilon(0.08));
+}
+
 // Grad's moments of a thin gas (Vega Reyes, Santos and Garzo, J. Fluid Mech. 719, 431 (2013)): with
 // the cooling rate zeta and beta in units of that of viscous relaxation, -Pxy / Pyy is the root of
 // zeta / beta. The density changes that by some per cent, and errors are as large.
