@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the scenes of docs/lessons/effects.md and of README, and draw a picture of each.
+"""Run the scenes of docs/lessons/effects.md, docs/how-to and README, and draw a picture of each.
 
   build/python/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
 
@@ -21,12 +21,15 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 # The step that is shown, and words for `carrom-plot frame`.
 PICTURES = {
     "atmosphere": (20_000, "--view 0 0 200 200"),
+    "belt": (2_000, "--colour spin --fastest 0.2"),
+    "channel": (10_000, "--colour vx --fastest 0.3"),
     "conduction": (4_000, ""),
     "cooling": (3_000, "--dpi 54"),
     "crossing": (100, "--view 20 60 140 160"),
     "drag": (200, ""),
     "effusion": (150, "--scene --view 60 60 140 140"),
     "galton": (400, "--scene"),
+    "heated": (2_000, "--view 0 0 200 200"),
     "hopper": (140, "--scene"),
     "jet": (700, "--view 150 380 700 870 --dpi 52"),
     "lorentz": (25, "--scene --colour vx"),
@@ -35,6 +38,7 @@ PICTURES = {
     "rain": (600, ""),
     "rough": (40, "--colour spin --fastest 0.08"),
     "shear": (600, "--colour vx --view 0 50 200 250"),
+    "sheared": (10_000, "--colour vx"),
 }
 
 

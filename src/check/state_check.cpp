@@ -65,7 +65,9 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
     for (const Boundary& side : effects_.boundaries) {
         const double turning = 2 * std::numbers::pi / side.period;
         wall_pull_ = std::max(wall_pull_, side.amplitude * turning * turning);
+        surfaces_rub_ = surfaces_rub_ || side.surface.rubs();
     }
+    surfaces_rub_ = surfaces_rub_ || effects_.obstacles.surface.rubs();
     if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box, scene.radius, effects_);
     known_.resize(slab_of_rank(communicator.rank(), scene.n_discs, communicator.size()).size());
     for (Known& known : known_) known.free_from = micro_steps_done;

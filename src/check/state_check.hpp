@@ -104,6 +104,7 @@ private:
     }
     double work_of(const Collision& collision) const;
     double resting_gain(const Known& known) const;
+    double energy_of_rounds(std::size_t i) const;
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
@@ -131,7 +132,8 @@ private:
     double work_of_images_ = 0;             ///< on this rank, since the last look
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last look
     bool may_lose_energy_ = false, walls_give_energy_ = false;
-    bool acts_at_syncs_ = false;                        ///< an effect does so: see CheckAllowance
+    bool surfaces_rub_ = false;  ///< of walls or obstacles: spins change there
+    bool acts_at_syncs_ = false; ///< an effect does so: see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

@@ -45,7 +45,8 @@ Finding StateCheck::first_other_motion() const {
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
         const Disc &disc = now.disc, &then = before_[i].disc;
-        if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` shows that it is the spin
+        if (now.pairs == 0 && !(surfaces_rub_ && now.walls > 0) &&
+            now.spin != before_[i].spin) // `partner` says that it is the spin
             return {Invariant::motion,
                     now.owner,
                     first_id_ + i,
@@ -117,6 +118,9 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
         expected = energy_ * energy_left();
+        double of_rounds = 0;
+        for (std::size_t i = 0; i < known_.size(); ++i) of_rounds += energy_of_rounds(i);
+        for (const double part : communicator_.all_gather(of_rounds)) expected += k * k * part;
         if (effects_.are_sheared())
             for (const double work : communicator_.all_gather(work_of_images_))
                 expected += k * k * work;
@@ -132,8 +136,8 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         energy_ = energy;
     }
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
-    if (!(scale > 0) || drift <= allowed || known_.empty()) return {};
-    // No disc in particular is at fault: report the lowest one that collided.
+    if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
+    // Nobody in particular: the lowest disc that collided.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }
@@ -144,11 +148,12 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
                            twice_energy(known)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
-    if (effects_.growth != 0) { // surfaces are where they should be, to within rounding
+    energy.before += 2 * energy_of_rounds(i);
+    if (effects_.growth != 0) { // surfaces are where they should be but for rounding
         energy.before += 2 * known.work;
         energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
     }
-    if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
+    if (obstacles_ || surfaces_rub_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
     if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i) || were_rewritten())
         energy.allowance = std::numeric_limits<double>::infinity();
@@ -206,8 +211,28 @@ double StateCheck::twice_energy(const Known& known) const {
                  std::fabs(effects_.gravity.y) * height(seen.y_at(clock), effects_.gravity.y)));
 }
 
-/// Allows for the guard of discs at rest: a disc that is pulled to a wall leaves it
-/// with at least half the speed that gravity gives in a contact time.
+/// Under gravity along periodic sides: what a disc's height, counted in the box, has gained where
+/// it went round. That a disc flies less than a quarter of the box between two looks tells how
+/// often it did; otherwise nothing is known, and the number is infinite.
+double StateCheck::energy_of_rounds(std::size_t i) const {
+    const Disc &then = before_[i].disc, &now = known_[i].disc;
+    const Periods periods = effects_.periods(scene_.box);
+    double energy = 0;
+    const auto add = [&](double g, double period, double from, double to, double v, double w) {
+        if (g == 0 || period == 0) return;
+        const double gone = (v + w) / 2 * stretch();
+        if (std::max(std::fabs(v), std::fabs(w)) * stretch() > period / 4)
+            energy = std::numeric_limits<double>::infinity();
+        else
+            energy += g * period * std::round((from + gone - to) / period);
+    };
+    add(effects_.gravity.x, periods.x, then.x, now.x, then.vx, now.vx);
+    add(effects_.gravity.y, periods.y, then.y, now.y, then.vy, now.vy);
+    return mass_of(now.id) * energy;
+}
+
+/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity
+/// gives in a contact time, at least.
 double StateCheck::resting_gain(const Known& known) const {
     const double pull = std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y));
     const double leaving = 0.5 * (pull + wall_pull_) * effects_.contact.contact_time;

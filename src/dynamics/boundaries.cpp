@@ -18,6 +18,7 @@ Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
         if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;
         oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side),
                                           gravity_[side / 2], 8 * 0x1p-52 * box.longest());
+        rubbing_[side] = Rubbing(effects.boundaries[side].surface, effects.contact);
     }
     moved_ = away_;
 }
@@ -116,7 +117,7 @@ bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
     return false;
 }
 
-void Boundaries::bounce_at(Disc& disc, Axis axis, double time) const {
+void Boundaries::bounce_at(Disc& disc, Axis axis, double time, double* spin) const {
     const std::size_t side = meeting(disc, axis).side;
     const double restitution = time - disc.tau < effects_.contact.contact_time
                                    ? 1
@@ -124,25 +125,27 @@ void Boundaries::bounce_at(Disc& disc, Axis axis, double time) const {
     disc.x = disc.x_at(time);
     disc.y = disc.y_at(time);
     disc.tau = time;
-    if (is_open(side)) return depart(disc, side, time);
-    rebound(disc, side, restitution, time);
+    if (is_open(side)) return depart(disc, side, time, spin);
+    rebound(disc, side, restitution, time, spin);
     disc.wall_collisions += 1;
 }
 
-void Boundaries::depart(Disc& disc, std::size_t side, double time) const {
+void Boundaries::depart(Disc& disc, std::size_t side, double time, double* spin) const {
+    if (spin) *spin = 0;
     fall_.restart(disc, time);
     (side / 2 == 0 ? disc.x : disc.y) = departure(disc, side);
     disc.depart();
     disc.wall_collisions += 1;
 }
 
-void Boundaries::reverse(Disc& disc, Axis axis) const {
+void Boundaries::reverse(Disc& disc, Axis axis, double* spin) const {
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const std::size_t side = velocity_of(disc, low / 2) < 0 ? low : low + 1;
-    rebound(disc, side, effects_.boundaries[side].restitution, 0);
+    rebound(disc, side, effects_.boundaries[side].restitution, 0, spin);
 }
 
-void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, double time) const {
+void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, double time,
+                         double* spin) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
     double& along = side / 2 == 0 ? disc.vy : disc.vx;
     const bool oscillates = oscillations_[side].is_any();
@@ -159,8 +162,8 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
                                    species_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / fall_.slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random));
-        along = (speed * random_direction(random).x) / fall_.slowing_at(time) -
-                gravity_[1 - side / 2] * fall_.falling_time(time);
+        along = (speed * random_direction(random).x) / fall_.slowing_at(time) +
+                surface_velocity(side, time);
     }
     // A disc that is pulled back stays away for the contact time at least, because one
     // at rest would otherwise bounce without end.
@@ -168,7 +171,14 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
     const double pull = oscillates ? oscillations_[side].pressure_at(time, time + contact_time)
                                    : -sign * pull_at(side);
     if (pull > 0) away = std::max(away, 0.5 * pull * contact_time / fall_.slowing_at(time));
+    const double before = normal;
     normal = wall + sign * away;
+    if (rubbing_[side].acts()) [[unlikely]] {
+        const double t = sign_along(side);
+        along += t * rubbing_[side].rub(t * (along - surface_velocity(side, time)),
+                                        std::fabs(normal - before),
+                                        {spin, species_.of(disc.id).radius});
+    }
 }
 
 } // namespace carrom

@@ -20,6 +20,7 @@
 #include "dynamics/gravity.hpp"
 #include "dynamics/never.hpp"
 #include "dynamics/oscillation.hpp"
+#include "dynamics/rubbing.hpp"
 
 namespace carrom {
 
@@ -38,8 +39,9 @@ public:
     Extent walls_between(double begin, double end) const;
     /// When the disc meets a side of this axis, or `never`.
     double wall_time(const Disc& disc, Axis axis) const { return meeting(disc, axis).time; }
-    /// Carries out the collision at `time` = wall_time(disc, axis) in the event-driven method.
-    void bounce_at(Disc& disc, Axis axis, double time) const;
+    /// Carries out the collision of `time` = wall_time(disc, axis), the event-driven method.
+    /// `spin`, here and below: null where discs do not turn.
+    void bounce_at(Disc& disc, Axis axis, double time, double* spin) const;
     /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
     bool may_meet(const Disc& disc, double time, double margin) const;
 
@@ -56,12 +58,12 @@ public:
     double departure(const Disc& disc, std::size_t side) const {
         return departure_or_touch(side, species_.of(disc.id).radius);
     }
-    /// Lets a disc that has come there, advanced to `time`, leave the box.
-    void depart(Disc& disc, std::size_t side, double time) const;
+    /// What becomes of a disc that has come there, advanced to `time`.
+    void depart(Disc& disc, std::size_t side, double time, double* spin) const;
 
-    /// Time-stepped method, walls at rest: reverses the velocity along `axis` of a
-    /// disc that touches.
-    void reverse(Disc& disc, Axis axis) const;
+    /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being
+    /// where it touches.
+    void reverse(Disc& disc, Axis axis, double* spin) const;
 
 private:
     struct Meeting {
@@ -120,7 +122,14 @@ private:
     double delay_of(const Approach& approach, double time) const;
     double delay_to(const Disc& disc, std::size_t side) const;
     Meeting meeting(const Disc& disc, Axis axis) const;
-    void rebound(Disc& disc, std::size_t side, double restitution, double time) const;
+    void rebound(Disc& disc, std::size_t side, double restitution, double time, double* spin) const;
+    /// The velocity of the surface along itself, in the frame.
+    double surface_velocity(std::size_t side, double time) const {
+        return effects_.boundaries[side].surface.velocity / fall_.slowing_at(time) -
+               gravity_[1 - side / 2] * fall_.falling_time(time);
+    }
+    /// The direction t of rubbing.hpp along +x or +y.
+    static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
     Effects effects_;
     Box box_;
@@ -131,6 +140,7 @@ private:
     std::array<double, 2> gravity_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
+    std::array<Rubbing, 4> rubbing_{};
 };
 
 } // namespace carrom

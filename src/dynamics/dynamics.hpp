@@ -22,7 +22,7 @@ namespace carrom {
 template <class D>
 concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, Disc& q,
                                                 const Disc& disc, std::int64_t n, double time,
-                                                double m, double t, Axis axis) {
+                                                double m, double t, double* spin, Axis axis) {
     // What may happen at all. Kernels leave out what does not.
     { D::is_periodic } -> std::convertible_to<bool>;        // discs have images
     { D::has_moving_images } -> std::convertible_to<bool>;  // which move with the row they are in
@@ -71,15 +71,15 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     // The time-stepped method: one candidate of a pair, and one with what stands still.
     { d.contact(disc, disc).exists() } -> std::same_as<bool>;
     { d.wall_time(disc, m) } -> std::same_as<double>; // t of the first bounce in m, or never
-    d.bounce(p, m, t);                                // carries out the bounce at wall_time
-    { d.met_walls(disc, m, t) };                      // which walls that is at
+    d.bounce(p, m, t, spin); // carries out the bounce at wall_time; null where discs do not turn
+    { d.met_walls(disc, m, t) }; // which walls that is at
 
     // The event-driven method: times of the next events.
     { d.event_contact(disc, disc).exists() } -> std::same_as<bool>;
     { d.x_wall_time(disc) } -> std::same_as<double>;
     { d.y_wall_time(disc) } -> std::same_as<double>;
-    d.bounce_x_at(p, time);
-    d.bounce_y_at(p, time);
+    d.bounce_x_at(p, time, spin);
+    d.bounce_y_at(p, time, spin);
     // False only if neither wall time is up to `time`.
     { d.may_meet_wall(disc, time) } -> std::same_as<bool>;
     // A disc inside at some time in between, and within these walls at the end, has met none.
@@ -97,7 +97,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     requires !D::has_species || requires { d.species_table().of(DiscId{}); };
     requires !D::may_have_obstacles || requires(const ContactTimes& times, std::uint32_t body) {
         { d.first_obstacle(disc, times) } -> std::same_as<ObstacleContact>;
-        d.bounce_off_at(p, body, time);
+        d.bounce_off_at(p, body, time, spin);
     };
     requires !D::is_periodic || requires {
         { d.periods() } -> std::convertible_to<Periods>;

@@ -101,26 +101,27 @@ public:
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
 
-    /// Times are those of the plain dynamics; the sides decide what happens at them.
-    /// Walls are at rest in the time-stepped method.
-    void bounce(Disc& disc, double m, double t) const {
-        if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t);
+    /// The plain dynamics' times; the sides decide what happens at them. In the time-stepped method
+    /// walls are at rest.
+    /// `spin`, here and below: that of a rough disc, null of others.
+    void bounce(Disc& disc, double m, double t, double* spin = nullptr) const {
+        if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t, spin);
         const PlainDynamics walls = wall_dynamics(disc);
         const double tx = side_time(disc, Axis::x, m), ty = side_time(disc, Axis::y, m);
         advance(disc, m + t);
         if (tx == t && is_open(disc, Axis::x))
-            return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::x), m + t);
+            return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::x), m + t, spin);
         if (ty == t && is_open(disc, Axis::y))
-            return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::y), m + t);
+            return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::y), m + t, spin);
         const bool x_reverses = tx == t ||
                                 (walls.touches_wall(Axis::x, disc) && !is_open(disc, Axis::x));
         const bool y_reverses = ty == t ||
                                 (walls.touches_wall(Axis::y, disc) && !is_open(disc, Axis::y));
         const bool goes_down = disc.vy < 0;
-        if (x_reverses) boundaries_.reverse(disc, Axis::x);
+        if (x_reverses) boundaries_.reverse(disc, Axis::x, spin);
         // A thermal wall may have turned the disc away from the other one.
         if (y_reverses && (goes_down ? disc.vy < 0 : disc.vy > 0))
-            boundaries_.reverse(disc, Axis::y);
+            boundaries_.reverse(disc, Axis::y, spin);
         disc.wall_collisions += 1;
         stop(disc, m, t);
     }
@@ -135,22 +136,28 @@ public:
     Extent walls_between(double begin, double end) const {
         return boundaries_.walls_between(begin, end);
     }
-    void bounce_x_at(Disc& disc, double time) const { boundaries_.bounce_at(disc, Axis::x, time); }
-    void bounce_y_at(Disc& disc, double time) const { boundaries_.bounce_at(disc, Axis::y, time); }
+    void bounce_x_at(Disc& disc, double time, double* spin = nullptr) const {
+        boundaries_.bounce_at(disc, Axis::x, time, spin);
+    }
+    void bounce_y_at(Disc& disc, double time, double* spin = nullptr) const {
+        boundaries_.bounce_at(disc, Axis::y, time, spin);
+    }
     /// The first obstacle that the disc comes to.
     ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const {
         return disc.has_departed() ? ObstacleContact{}
                                    : obstacles_->first_contact(disc, radius_of(disc), times);
     }
-    void bounce_off_at(Disc& disc, std::uint32_t body, double time) const {
+    void bounce_off_at(Disc& disc, std::uint32_t body, double time, double* spin = nullptr) const {
         const bool is_touched = time - disc.tau < contact_time_;
         advance(disc, time);
-        obstacles_->rebound(disc, body, time, is_touched);
+        obstacles_->rebound(disc, body, time, is_touched, {spin, radius_of(disc)});
         disc.wall_collisions += 1;
     }
 
 protected:
-    void reverse(Disc& disc, Axis axis) const { boundaries_.reverse(disc, axis); }
+    void reverse(Disc& disc, Axis axis, double* spin) const {
+        boundaries_.reverse(disc, axis, spin);
+    }
 
     ObstacleContact obstacle_contact(const Disc& disc, double m) const {
         return first_obstacle(disc, {m, m + 1});
@@ -158,10 +165,10 @@ protected:
 
     /// Reflects the disc from the obstacle that it comes to in the micro-step, and returns which
     /// that is.
-    std::uint32_t rebound_in(Disc& disc, double m) const {
+    std::uint32_t rebound_in(Disc& disc, double m, double* spin) const {
         const ObstacleContact contact = obstacle_contact(disc, m);
         advance(disc, contact.time);
-        obstacles_->rebound(disc, contact.body, 0, false);
+        obstacles_->rebound(disc, contact.body, 0, false, {spin, radius_of(disc)});
         disc.wall_collisions += 1;
         return contact.body;
     }
@@ -211,7 +218,9 @@ private:
                    : wall_dynamics(disc).axis_stop(axis, disc, rest);
     }
 
-    void bounce_off(Disc& disc, double m, double t) const { stop(disc, m, t, rebound_in(disc, m)); }
+    void bounce_off(Disc& disc, double m, double t, double* spin) const {
+        stop(disc, m, t, rebound_in(disc, m, spin));
+    }
 
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
         if (!has_obstacles() && !boundaries_.are_any_open())

@@ -66,7 +66,9 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
         side.temperature /= micro_steps * micro_steps;
         side.speed /= micro_steps;
         side.period *= micro_steps;
+        side.surface.velocity /= micro_steps;
     }
+    scaled.obstacles.surface.velocity /= micro_steps;
     scaled.drag /= micro_steps;
     scaled.growth /= micro_steps;
     scaled.shear /= micro_steps;

@@ -48,6 +48,18 @@ enum class BoundaryKind {
 #undef CARROM_NAME
 };
 
+/// What a wall or an obstacle does along its surface (rubbing.hpp).
+struct Surface {
+    double tangential_restitution = -1; ///< as of rough discs; -1 is smooth
+    double friction = std::numeric_limits<double>::infinity();
+    double velocity = 0; ///< of sides along +x or +y, of obstacles counterclockwise; thermal sides
+                         ///< have one, too
+
+    /// Whether discs feel the surface go by.
+    bool rubs() const { return tangential_restitution != -1 && friction != 0; }
+    friend bool operator==(const Surface&, const Surface&) = default;
+};
+
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
     double restitution = 1; ///< for walls, moving ones as well
@@ -57,8 +69,11 @@ struct Boundary {
     double amplitude = 0;
     double period = 1;
     double phase = 0; ///< at the start, as an angle
+    Surface surface{};
 
-    bool is_plain() const { return kind == BoundaryKind::wall && restitution == 1; }
+    bool is_plain() const {
+        return kind == BoundaryKind::wall && restitution == 1 && !surface.rubs();
+    }
     /// Whether the box repeats itself beyond it.
     bool is_periodic() const {
         return kind == BoundaryKind::periodic || kind == BoundaryKind::sheared;
@@ -94,6 +109,7 @@ struct ObstacleList {
     std::vector<FixedDisc> discs;
     std::vector<Segment> segments;
     double restitution = 1;
+    Surface surface{};
 
     bool are_any() const { return !discs.empty() || !segments.empty(); }
     friend bool operator==(const ObstacleList&, const ObstacleList&) = default;

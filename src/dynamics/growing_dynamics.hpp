@@ -68,8 +68,12 @@ public:
 
     double x_wall_time(const Disc& disc) const { return meeting(disc, Axis::x).time; }
     double y_wall_time(const Disc& disc) const { return meeting(disc, Axis::y).time; }
-    void bounce_x_at(Disc& disc, double time) const { bounce_at(disc, Axis::x, time); }
-    void bounce_y_at(Disc& disc, double time) const { bounce_at(disc, Axis::y, time); }
+    void bounce_x_at(Disc& disc, double time, double* /*spin*/ = nullptr) const {
+        bounce_at(disc, Axis::x, time);
+    }
+    void bounce_y_at(Disc& disc, double time, double* /*spin*/ = nullptr) const {
+        bounce_at(disc, Axis::y, time);
+    }
     bool may_meet_wall(const Disc& disc, double time) const {
         const double first_radius = species_table().of(disc.id).radius,
                      radius = first_radius * growth_at(time);

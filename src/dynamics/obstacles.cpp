@@ -37,6 +37,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 
 Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effects)
     : restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
+      rubbing_(effects.obstacles.surface, effects.contact),
       gravity_{effects.gravity.x, effects.gravity.y},
       n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box)),
       largest_radius_(largest_radius) {
@@ -249,7 +250,8 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
     return best;
 }
 
-void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_touched) const {
+void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_touched,
+                        const Turning& turning) const {
     const Entry image = image_of(code, disc);
     const Body& at = bodies_[image.body];
     const Shift shift = shift_of(image);
@@ -272,6 +274,12 @@ void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_tou
     if (pull > 0) away = std::max(away, 0.5 * pull * contact_time_);
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
+    if (!rubbing_.acts()) return;
+    const double along = nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
+    const double change = rubbing_.rub(along - rubbing_.velocity(), std::fabs(away - normal),
+                                       turning);
+    disc.vx -= change * ny;
+    disc.vy += change * nx;
 }
 
 Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,

@@ -20,6 +20,7 @@
 #include "core/disc.hpp"
 #include "core/extent.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/rubbing.hpp"
 
 namespace carrom {
 
@@ -51,10 +52,11 @@ public:
     /// lower number if it meets two at once.
     ObstacleContact first_contact(const Disc& disc, double radius, const ContactTimes& times) const;
 
-    /// Reverses the velocity of a disc at the body of a contact's number `code` at
-    /// `time`, the disc's own time now. `is_touched` means that it has been touched
-    /// within the contact time before.
-    void rebound(Disc& disc, std::uint32_t code, double time, bool is_touched) const;
+    /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at
+    /// `time`, its own now; `is_touched` says whether it has been touched within the contact time
+    /// before.
+    void rebound(Disc& disc, std::uint32_t code, double time, bool is_touched,
+                 const Turning& turning = {}) const;
 
     struct Overlap {
         double depth = 0;
@@ -113,6 +115,7 @@ private:
     }
 
     double restitution_, contact_time_;
+    Rubbing rubbing_;
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;
     Periods periods_;

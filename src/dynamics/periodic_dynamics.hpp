@@ -70,12 +70,12 @@ public:
         if (this->has_obstacles() && t != side_time(disc, m)) return {};
         return {periods_.x == 0, periods_.y == 0};
     }
-    /// At most one axis has walls, so there are no corners.
-    void bounce(Disc& disc, double m, double t) const {
+    /// There is one axis with walls at most, and so no corner.
+    void bounce(Disc& disc, double m, double t, double* spin = nullptr) const {
         if (this->has_obstacles() && t != side_time(disc, m))
-            return stop(disc, m, t, this->rebound_in(disc, m));
+            return stop(disc, m, t, this->rebound_in(disc, m, spin));
         this->advance(disc, m + t);
-        this->reverse(disc, periods_.x == 0 ? Axis::x : Axis::y);
+        this->reverse(disc, periods_.x == 0 ? Axis::x : Axis::y, spin);
         disc.wall_collisions += 1;
         stop(disc, m, t);
     }

@@ -117,7 +117,7 @@ public:
         return std::min(axis_time(Axis::x, disc, m), axis_time(Axis::y, disc, m));
     }
     /// A corner reverses both velocities and counts once.
-    void bounce(Disc& disc, double m, double t) const {
+    void bounce(Disc& disc, double m, double t, double* /*spin*/ = nullptr) const {
         const MetWalls met = reach_walls(disc, m, t);
         if (met.at_x) disc.vx = -disc.vx;
         if (met.at_y) disc.vy = -disc.vy;
@@ -155,12 +155,12 @@ public:
                  y < at_y.high() - margin);
     }
     Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_.x, 0, box_.y}; }
-    static void bounce_x_at(Disc& disc, double time) {
+    static void bounce_x_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vx = -disc.vx;
         disc.wall_collisions += 1;
     }
-    static void bounce_y_at(Disc& disc, double time) {
+    static void bounce_y_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vy = -disc.vy;
         disc.wall_collisions += 1;

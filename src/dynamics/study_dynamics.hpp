@@ -85,7 +85,7 @@ public:
     double wall_time(const Disc& disc, double m) const {
         return std::min(x_time(disc, m), y_time(disc, m));
     }
-    void bounce(Disc& disc, double m, double t) const {
+    void bounce(Disc& disc, double m, double t, double* /*spin*/ = nullptr) const {
         const MetWalls met = reach_walls(disc, m, t);
         if (met.at_x) disc.vx = -disc.vx;
         if (met.at_y) disc.vy = -disc.vy;
@@ -131,12 +131,12 @@ public:
         return !(x > x_walls_.low() + margin && x < x_walls_.high() - margin &&
                  y > y_walls_.low() + margin && y < y_walls_.high() - margin);
     }
-    static void bounce_x_at(Disc& disc, double time) {
+    static void bounce_x_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vx = -disc.vx;
         disc.wall_collisions += 1;
     }
-    static void bounce_y_at(Disc& disc, double time) {
+    static void bounce_y_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vy = -disc.vy;
         disc.wall_collisions += 1;

@@ -281,20 +281,18 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     const double vx_before = p.vx, vy_before = p.vy;
     const WallStress<Dynamics> before(p);
     if (event.q == x_wall) {
-        dynamics.bounce_x_at(p, event.time);
+        dynamics.bounce_x_at(p, event.time, spin_of(event.p));
     } else if (event.q == y_wall) {
-        dynamics.bounce_y_at(p, event.time);
+        dynamics.bounce_y_at(p, event.time, spin_of(event.p));
     } else if (Dynamics::may_have_obstacles && is_wall(event.q)) {
         if constexpr (Dynamics::may_have_obstacles)
-            dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
+            dynamics.bounce_off_at(p, event.q - first_obstacle, event.time, spin_of(event.p));
     } else {
         if (is_own[event.p] != is_own[event.q] && !is_whole)
             check_partner(is_own[event.p] != 0 ? event.q : event.p);
         collide(event);
         note(event.q, event.p, event);
     }
-    if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
-        if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
     if (is_wall(event.q) && is_own[event.p] != 0)
         before.add_to(stress_terms, outcome->stress, dynamics, p, event.time, ground.flown_before);
     note(event.p, event.q, event);

@@ -108,6 +108,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void report(std::span<std::uint64_t> histories);
 
     Flight flight_of(std::uint32_t slot) const;
+    /// Null where discs do not turn.
+    double* spin_of([[maybe_unused]] std::uint32_t slot) {
+        if constexpr (Dynamics::has_spin) return &columns[SideColumn::spin][slot];
+        return nullptr;
+    }
     std::uint32_t versions_of(const Event& event) const {
         return discs[event.p].version() + (is_wall(event.q) ? 0 : discs[event.q].version());
     }

@@ -107,6 +107,8 @@ void fill_scene(Scene& scene, Settings& settings, Problems& problems, const Disc
     take_values(check);
     derive_defaults(check);
     place_outputs(check);
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.derive) effect.derive(check);
     for (const Key& key : keys()) check_needs(check, key);
     check_times(check);
     for (const BoundaryDeclaration& kind : all_boundaries())

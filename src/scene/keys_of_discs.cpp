@@ -205,7 +205,7 @@ std::vector<Key> keys_of_time() {
             .within({1, largest_steps}),
         key("time.sync_every", "micro-steps",
             "Time between common rewrites of all positions. Another value rounds "
-            "differently.",
+            "differently. Under strong gravity the default is 32, 16 or less.",
             [](auto& s) -> auto& { return s.sync_every; })
             .within({1, 0x1p30}),
         key("time.accuracy", "1",

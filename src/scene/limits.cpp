@@ -51,6 +51,16 @@ std::string speed_problem(double speed, const Scene& scene) {
                        speed, most);
 }
 
+std::string units_warning(double fastest, const Scene& scene) {
+    constexpr double most_diameters = 1000;
+    const double diameters = fastest / (2 * scene.radius);
+    if (!(diameters > most_diameters)) return {};
+    return fmt::format(
+        "the fastest disc flies {:.3g} diameters in a step, which may take very long; "
+        "speeds are lengths per step: try some of about a diameter, {:g}",
+        diameters, 2 * scene.radius);
+}
+
 std::string column_problem(DiscColumn column, double number) {
     constexpr double smallest_mass = 0x1p-100, largest_mass = 0x1p100;
     const auto is_within = [number](double low, double high) {

@@ -279,10 +279,8 @@ template <class Dynamics>
     const bool is_summed = this->stress_ && c.p < discs_.n_own();
     if (c.is_wall()) {
         const WallStress<Dynamics> before(p);
-        dynamics_.bounce(p, m, c.time);
+        dynamics_.bounce(p, m, c.time, spin_of(c.p));
         if (is_summed) before.add_to(terms, stress, dynamics_, p, m + c.time, this->flown_before_);
-        if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
-            if (p.has_departed()) discs_.columns()[SideColumn::spin][c.p] = 0;
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
     Disc& q = results[c.q];

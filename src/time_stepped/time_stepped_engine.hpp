@@ -68,6 +68,11 @@ private:
         else
             discs_.grid().update_flight(index, disc);
     }
+    /// Null where discs do not turn.
+    double* spin_of([[maybe_unused]] LocalIndex index) {
+        if constexpr (Dynamics::has_spin) return &discs_.columns()[SideColumn::spin][index];
+        return nullptr;
+    }
     void update_halo(const Window& window, int m);
     void note_velocities(std::span<const Disc> results);
     void log_collisions(std::span<const Disc> results, int m);

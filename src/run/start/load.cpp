@@ -2,11 +2,13 @@
 #include "run/start/load.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +24,7 @@
 #include "run/files/run_folder.hpp"
 #include "run/start/restart.hpp"
 #include "run/start/scene_source.hpp"
+#include "scene/limits.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
 
@@ -161,6 +164,16 @@ void check_memory(const Scene& scene, const Communicator& ranks) {
                                    scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
+/// The course program's own scenes are as fast. **Collective.**
+void warn_of_units(const RunOptions& options, const Scene& scene,
+                   const std::vector<InputDisc>& discs, const Communicator& ranks) {
+    if (scene.lines_before_discs > 0) return;
+    double fastest = 0;
+    for (const InputDisc& disc : discs) fastest = std::max(fastest, std::hypot(disc.vx, disc.vy));
+    const std::string warning = units_warning(ranks.max(fastest), scene);
+    if (!warning.empty()) options.messages.warn("{}: warning: {}\n", scene.name, warning);
+}
+
 /// Lets a run that was killed before its first checkpoint begin with the copy of its
 /// scene. **Collective.**
 RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
@@ -231,6 +244,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     check_threads(tuning.threads, ranks);
     if (!loaded.start.stored)
         loaded.start.discs = first_discs(scene, source.stream.get(), ranks, tuning);
+    warn_of_units(options, scene, loaded.start.discs, ranks);
     prepare_outputs(scene, !loaded.start.stored, ranks);
     for (const std::string& warning : scene.warnings)
         options.messages.warn("{}: warning: {}\n", scene.name, warning);

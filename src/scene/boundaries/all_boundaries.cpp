@@ -80,7 +80,7 @@ std::string summary_of_boundaries(const Effects& effects) {
     std::string text;
     for (std::size_t k = 0; k < boundary_names.size(); ++k) {
         const Boundary& side = effects.boundaries[k];
-        if (side.is_plain()) continue;
+        if (side.kind == BoundaryKind::wall && side.restitution == 1) continue;
         text += (text.empty() ? "" : "; ") +
                 declaration_of(side.kind).summary(side, boundary_names[k]);
     }

@@ -36,6 +36,8 @@ struct EffectDeclaration {
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
+    /// Defaults that depend on its numbers, before any check.
+    void (*derive)(const Check&) = nullptr;
     /// Checks of more than one number: of times, and of what depends on a right box and discs.
     void (*check_times)(const Check&) = nullptr;
     void (*check_room)(const Check&) = nullptr;
@@ -49,7 +51,8 @@ struct EffectDeclaration {
 };
 
 #define CARROM_FOR_EACH_EFFECT(effect)                                                             \
-    effect(gravity) effect(drag) effect(growth) effect(shear) effect(obstacles) effect(thermostat)
+    effect(gravity) effect(drag) effect(growth) effect(shear) effect(obstacles) effect(rubbing)    \
+        effect(thermostat)
 
 /// In the order of the reference.
 const std::vector<EffectDeclaration>& all_effects();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Uniform gravity (dynamics/gravity.hpp).
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,33 +25,86 @@ std::vector<Key> keys_of_gravity() {
     };
 }
 
+/// Whether discs that gravity drives along periodic sides find a steady flow: something has to take
+/// the momentum along the sides `low` and `low + 1`, and something the energy.
+bool are_stopped(const Scene& s, std::size_t low) {
+    const Effects& e = s.effects;
+    const ThermostatKind kind = e.thermostat.kind;
+    if (e.drag != 0 || kind == ThermostatKind::langevin || kind == ThermostatKind::andersen)
+        return true;
+    const Boundary *const first = &e.boundaries[low], *const last = first + 2;
+    const auto any = [&](const auto& what) { return std::any_of(first, last, what); };
+    const bool are_thermal = any(
+        [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
+    const bool is_energy_taken = are_pairs_lossy(e) || kind == ThermostatKind::rescale ||
+                                 any([](const Boundary& side) {
+                                     return side.restitution < 1 ||
+                                            std::fabs(side.surface.tangential_restitution) < 1;
+                                 });
+    return are_thermal ||
+           (is_energy_taken && any([](const Boundary& side) { return side.surface.rubs(); }));
+}
+
 std::vector<Rule> rules_of_gravity() {
+    constexpr std::string_view why =
+        "discs would fall for ever; take drag, thermal sides, or sides with a "
+        "tangential_restitution above -1";
     return {
         rule("gravity", "time.method = \"time-stepped\"",
              "discs fly straight there; take time.method = \"event-driven\"",
              {"effects.gravity.y", "effects.gravity.x"},
              [](const Scene& s) { return s.effects.gravity.is_any() && is_time_stepped(s); }),
-        rule("gravity along x", "periodic sides left and right",
-             "discs would fall for ever, unless rough walls or drag stop them: not in this version",
+        rule("gravity along x", "periodic sides left and right where nothing stops discs", why,
              {"effects.gravity.x"},
-             [](const Scene& s) { return s.effects.gravity.x != 0 && s.effects.is_periodic_x(); }),
-        rule("gravity along y", "periodic sides bottom and top",
-             "discs would fall for ever, unless rough walls or drag stop them: not in this version",
+             [](const Scene& s) {
+                 return s.effects.gravity.x != 0 && s.effects.is_periodic_x() && !are_stopped(s, 2);
+             }),
+        rule("gravity along y", "periodic sides bottom and top where nothing stops discs", why,
              {"effects.gravity.y"},
-             [](const Scene& s) { return s.effects.gravity.y != 0 && s.effects.is_periodic_y(); }),
+             [](const Scene& s) {
+                 return s.effects.gravity.y != 0 && s.effects.is_periodic_y() && !are_stopped(s, 0);
+             }),
+        rule("gravity along periodic sides", "obstacles", "this version does not have both",
+             {"effects.gravity.x", "effects.gravity.y"},
+             [](const Scene& s) {
+                 const Effects& e = s.effects;
+                 return has_obstacles(s) && ((e.gravity.x != 0 && e.is_periodic_x()) ||
+                                             (e.gravity.y != 0 && e.is_periodic_y()));
+             }),
+        rule("gravity along periodic sides", "sheared sides",
+             "nothing stops discs in a flow without walls",
+             {"effects.gravity.x", "effects.gravity.y"},
+             [](const Scene& s) { return s.effects.are_sheared() && s.effects.gravity.is_any(); }),
     };
+}
+
+/// Whether what is pulled with `g` falls by more than half the box from sync to sync.
+bool falls_too_far(const Scene& scene, double g) {
+    const double time = steps_between_syncs(scene), drag = scene.effects.drag;
+    if (drag * time > longest_drag) return false; // a problem already
+    const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
+    return std::fabs(g) * fall > 0.5 * scene.box.longest();
+}
+
+/// Strong gravity needs syncs that follow each other sooner than they do by default. Where one in
+/// each micro-step is too late, check_fall says so.
+void shorten_sync(const Check& check) {
+    Scene& scene = check.scene;
+    const Gravity& g = scene.effects.gravity;
+    const std::int64_t by_default = scene.sync_every;
+    if (check.settings.has("time.sync_every") || scene.box == Box()) return;
+    while (scene.sync_every > 1 && (falls_too_far(scene, g.x) || falls_too_far(scene, g.y)))
+        scene.sync_every /= 2;
+    if (falls_too_far(scene, g.x) || falls_too_far(scene, g.y)) scene.sync_every = by_default;
 }
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the
 /// box's.
 void check_fall(const Check& check) {
     const Scene& scene = check.scene;
-    const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return; // reported already
-    const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
                                  {"effects.gravity.y", scene.effects.gravity.y}}) {
-        if (std::fabs(g) * fall <= 0.5 * scene.box.longest()) continue;
+        if (!falls_too_far(scene, g)) continue;
         const double longest = std::floor(std::sqrt(scene.box.longest() / std::fabs(g)) *
                                           static_cast<double>(scene.micro_steps));
         check.refuse({key},
@@ -71,6 +125,7 @@ EffectDeclaration gravity() {
     return {.tables = {{"effects.gravity", "Uniform gravity."}},
             .keys = keys_of_gravity(),
             .rules = rules_of_gravity(),
+            .derive = shorten_sync,
             .check_room = check_fall,
             .summary =
                 [](const Effects& e) {

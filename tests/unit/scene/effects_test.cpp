@@ -108,6 +108,34 @@ TEST_CASE("Sides are read, and contradictions explained") {
               "cannot have an open side together with a moving wall"));
 }
 
+TEST_CASE("Walls that rub and slide are read, and keys without a meaning named") {
+    const Scene scene = read_scene(
+        good, "s.toml",
+        {"box.top.tangential_restitution=0.5", "box.top.friction=0.2", "box.top.velocity=0.1",
+         "box.left.kind=thermal", "box.left.temperature=2", "box.left.velocity=-0.3",
+         "effects.obstacles.discs=[[10, 20, 3]]", "effects.obstacles.tangential_restitution=1"});
+    CHECK(scene.effects.boundaries[3].surface == Surface{0.5, 0.2, 0.1});
+    CHECK(scene.effects.boundaries[0].surface.velocity == -0.3);
+    CHECK(scene.effects.obstacles.surface.rubs());
+    CHECK(
+        summary_of(scene.effects).find("top wall rubs with 0.5, friction 0.2 and slides at 0.1") !=
+        std::string::npos);
+    CHECK(read_scene(good, "s.toml", {"box.top.tangential_restitution=0.5"}).effects.are_any());
+    CHECK(
+        has(problems_with({"box.top.velocity=0.1"}),
+            "no meaning without box.top.kind = \"thermal\" or a tangential_restitution above -1"));
+    CHECK(has(problems_with({"box.top.friction=0.1"}),
+              "no meaning without box.top.tangential_restitution above -1"));
+    CHECK(has(problems_with({"box.top.kind=open", "box.top.tangential_restitution=0"}),
+              "no meaning without box.top.kind = \"wall\", \"moving\" or \"oscillating\""));
+    CHECK(has(problems_with({"box.top.tangential_restitution=1.5"}), "from -1 to 1, not 1.5"));
+    CHECK(has(problems_with({"effects.obstacles.tangential_restitution=0"}),
+              "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
+    CHECK(has(problems_with({"box.top.tangential_restitution=0.5", "effects.growth.rate=0.01",
+                             "time.method=event-driven"}),
+              "cannot have walls that rub together with growing discs"));
+}
+
 TEST_CASE("Obstacles are read, each wrong one is named") {
     const Scene scene = read_scene(good, "s.toml",
                                    {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
@@ -144,10 +172,20 @@ TEST_CASE("Gravity is read, and refused where the falling frame would leave the 
               .effects.gravity == Gravity{0, -0.02});
     CHECK(has(problems_with({"effects.gravity.y=-0.02", "time.method=time-stepped"}),
               "take time.method = \"event-driven\""));
-    CHECK(has(problems_with({"effects.gravity.x=1", "time.method=event-driven"}),
-              "time.sync_every = 10 or less will do"));
+    CHECK(has(
+        problems_with({"effects.gravity.x=1", "time.method=event-driven", "time.sync_every=64"}),
+        "time.sync_every = 10 or less will do"));
     CHECK(problems_with({"effects.gravity.x=1", "time.method=event-driven", "time.sync_every=10"})
               .empty());
+    // By default syncs follow each other as gravity needs it: 8 steps fall 32, and half the box is
+    // 50.
+    const auto sync_every = [](const Texts& texts) {
+        return read_scene(good, "s.toml", texts).sync_every;
+    };
+    CHECK(sync_every({"effects.gravity.x=1", "time.method=event-driven"}) == 8);
+    CHECK(sync_every({"effects.gravity.x=0.02", "time.method=event-driven"}) == 64);
+    CHECK(has(problems_with({"effects.gravity.y=1000", "time.method=event-driven"}),
+              "take more time.micro_steps"));
 }
 
 TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
@@ -164,7 +202,8 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01",
                              "effects.obstacles.discs=[[5, 5, 1]]", all}),
               "cannot have obstacles together with drag and gravity at once"));
-    CHECK(has(problems_with({"effects.gravity.x=0.03", all}), "time.sync_every = 57 or less"));
+    CHECK(has(problems_with({"effects.gravity.x=0.03", "time.sync_every=64", all}),
+              "time.sync_every = 57 or less"));
     CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all})
               .empty()); // falls 42 from sync to sync instead of 61
 }
@@ -277,6 +316,21 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
         has(with({"effects.gravity.y=-0.01", "time.method=event-driven"}), "would fall for ever"));
     CHECK_FALSE(
         has(with({"effects.gravity.x=-0.01", "time.method=event-driven"}), "would fall for ever"));
+    for (const Texts& stopped :
+         {Texts{"effects.drag.rate=0.01"}, Texts{"box.left.kind=thermal", "box.left.temperature=1"},
+          Texts{"box.right.tangential_restitution=0"},
+          Texts{"box.right.tangential_restitution=1", "box.left.restitution=0.9"}}) {
+        Texts texts = along_y;
+        texts.insert(texts.end(), {"effects.gravity.y=-0.01", "time.method=event-driven"});
+        texts.insert(texts.end(), stopped.begin(), stopped.end());
+        CHECK(problems_with(texts).empty());
+    }
+    CHECK(has(with({"effects.gravity.y=-0.01", "time.method=event-driven",
+                    "box.right.tangential_restitution=1"}),
+              "would fall for ever")); // nothing takes the energy
+    CHECK(has(with({"effects.gravity.y=-0.01", "time.method=event-driven", "effects.drag.rate=0.01",
+                    "effects.obstacles.discs=[[5, 5, 1]]"}),
+              "cannot have gravity along periodic sides together with obstacles"));
     CHECK(with({"effects.obstacles.discs=[[0,100,40]]"}).empty());
     CHECK(has(with({"effects.obstacles.discs=[[50,50,5], [50,50,99]]"}),
               "row 2 of 'effects.obstacles.discs': the radius must be at most 98, not 99"));

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Walls and obstacles that rub, and surfaces that slide (dynamics/rubbing.hpp).
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/effects/effect.hpp"
+#include "scene/key_members.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+bool reflects(const Boundary& side) {
+    return side.kind == BoundaryKind::wall || side.kind == BoundaryKind::moving ||
+           side.kind == BoundaryKind::oscillating;
+}
+
+bool slides(const Boundary& side) {
+    return side.kind == BoundaryKind::thermal || side.surface.rubs();
+}
+
+bool do_sides_rub(const Effects& effects) {
+    return std::any_of(effects.boundaries.begin(), effects.boundaries.end(),
+                       [](const Boundary& side) { return side.surface.rubs(); });
+}
+
+template <class SurfaceOf>
+void add_surface(std::vector<Key>& all, const std::string& table, const SurfaceOf& surface_of,
+                 const Need& body, const Need& rubbing, const Need& sliding,
+                 const char* direction) {
+    all.push_back(
+        key(table + ".tangential_restitution", "1",
+            "Of discs whose surface sticks to it, from -1 (smooth) to 1.",
+            [surface_of](auto& s) -> auto& { return surface_of(s).tangential_restitution; })
+            .within({-1, 1})
+            .needs(body));
+    all.push_back(key(table + ".friction", "1",
+                      "Coulomb's coefficient; discs slide on it beyond that.",
+                      [surface_of](auto& s) -> auto& { return surface_of(s).friction; })
+                      .by_default("no limit")
+                      .within({0, 1e6})
+                      .needs(rubbing));
+    all.push_back(key(table + ".velocity", "length/step",
+                      fmt::format("Of the surface, {}; the body stays where it is.", direction),
+                      [surface_of](auto& s) -> auto& { return surface_of(s).velocity; })
+                      .within({-1e6, 1e6})
+                      .needs(sliding));
+}
+
+std::vector<Key> keys_of_rubbing() {
+    std::vector<Key> all;
+    for (std::size_t side = 0; side < boundary_names.size(); ++side) {
+        const std::string table = std::string("box.") + boundary_names[side];
+        add_surface(
+            all, table, [side](auto& s) -> auto& { return s.effects.boundaries[side].surface; },
+            {"without " + table + ".kind = \"wall\", \"moving\" or \"oscillating\"",
+             [side](const Scene& s) { return reflects(s.effects.boundaries[side]); }},
+            {"without " + table + ".tangential_restitution above -1",
+             [side](const Scene& s) {
+                 return s.effects.boundaries[side].surface.tangential_restitution != -1;
+             }},
+            {"without " + table + ".kind = \"thermal\" or a tangential_restitution above -1",
+             [side](const Scene& s) { return slides(s.effects.boundaries[side]); }},
+            side < 2 ? "along +y" : "along +x");
+    }
+    add_surface(
+        all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.obstacles.surface; },
+        {"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
+         [](const Scene& s) { return has_obstacles(s); }},
+        {"without effects.obstacles.tangential_restitution above -1",
+         [](const Scene& s) { return s.effects.obstacles.surface.tangential_restitution != -1; }},
+        {"without effects.obstacles.tangential_restitution above -1",
+         [](const Scene& s) { return s.effects.obstacles.surface.rubs(); }},
+        "counterclockwise around the body");
+    return all;
+}
+
+std::vector<Rule> rules_of_rubbing() {
+    return {
+        rule("walls that rub", "growing discs", "this version does not have both",
+             {"effects.growth.rate"},
+             [](const Scene& s) { return has_growth(s) && do_sides_rub(s.effects); }),
+    };
+}
+
+/// A body's velocity along itself must be one that discs may have.
+void check_room_of_rubbing(const Check& check) {
+    const Effects& effects = check.scene.effects;
+    const auto hold = [&check](const std::string& table, const Surface& surface) {
+        const std::string key = table + ".velocity",
+                          text = speed_problem(surface.velocity, check.scene);
+        if (!text.empty()) check.refuse({key}, fmt::format("'{}': {}", key, text));
+    };
+    for (std::size_t side = 0; side < boundary_names.size(); ++side)
+        hold(std::string("box.") + boundary_names[side], effects.boundaries[side].surface);
+    hold("effects.obstacles", effects.obstacles.surface);
+}
+
+std::string text_of(const Surface& surface) {
+    std::string text;
+    if (surface.rubs()) {
+        text = fmt::format("rubs with {:g}", surface.tangential_restitution);
+        if (std::isfinite(surface.friction))
+            text += fmt::format(", friction {:g}", surface.friction);
+    }
+    if (surface.velocity != 0)
+        text += fmt::format("{}slides at {:g}", text.empty() ? "" : " and ", surface.velocity);
+    return text;
+}
+
+std::string summary_of_rubbing(const Effects& effects) {
+    std::string all;
+    const auto add = [&all](const std::string& what, const std::string& does) {
+        if (!does.empty()) all += (all.empty() ? "" : "; ") + what + ' ' + does;
+    };
+    for (std::size_t side = 0; side < boundary_names.size(); ++side)
+        add(fmt::format("{} wall", boundary_names[side]),
+            text_of(effects.boundaries[side].surface));
+    if (effects.obstacles.are_any()) add("obstacle", text_of(effects.obstacles.surface));
+    return all;
+}
+
+CheckAllowance allowance_of_rubbing(const Effects& effects) {
+    CheckAllowance allowance;
+    const auto add = [&](const Surface& surface) {
+        const bool is_elastic = surface.tangential_restitution == 1 && std::isinf(surface.friction);
+        allowance.collisions_take_energy |= surface.rubs() && !is_elastic;
+        allowance.walls_give_energy |= surface.velocity != 0;
+    };
+    for (const Boundary& side : effects.boundaries) add(side.surface);
+    if (effects.obstacles.are_any()) add(effects.obstacles.surface);
+    return allowance;
+}
+
+double usual_speed_of_surfaces(const Scene& scene) {
+    double speed = std::fabs(scene.effects.obstacles.surface.velocity);
+    for (const Boundary& side : scene.effects.boundaries)
+        speed = std::max(speed, std::fabs(side.surface.velocity));
+    return speed;
+}
+
+} // namespace
+
+namespace effects {
+
+EffectDeclaration rubbing() {
+    return {.keys = keys_of_rubbing(),
+            .rules = rules_of_rubbing(),
+            .check_room = check_room_of_rubbing,
+            .summary = summary_of_rubbing,
+            .allowance = allowance_of_rubbing,
+            .usual_speed = usual_speed_of_surfaces};
+}
+
+} // namespace effects
+
+} // namespace carrom

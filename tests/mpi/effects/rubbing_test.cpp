@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Walls and obstacles that rub and slide: what mechanics says of a disc that meets one and of one
+// that rolls on a floor, the same bits on every machine shape, and what the check knows.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "effect_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
+
+ContactEffect rough(double inertia) {
+    return {ContactKind::rough, 0.9, 0.001, 0.3, no_limit, inertia};
+}
+
+struct Motion {
+    double vx = 0, vy = 0, spin = 0;
+};
+
+/// Of the scene's only disc, which begins with that spin. **Collective.**
+Motion motion_after(const TestScene& scene, double spin, Method method, const Communicator& world,
+                    std::uint64_t n_bounces) {
+    Scene all = scene_of(scene);
+    all.method = method;
+    StoredState state;
+    const bool turns = scene.setting.effects.contact.kind == ContactKind::rough;
+    if (world.is_root()) {
+        const InputDisc& disc = scene.discs[0];
+        state.discs.push_back({disc.x, disc.y, disc.vx, disc.vy, 0, 0, 0, 0});
+        if (turns) state.columns.add(SideColumn::spin, {spin});
+    }
+    Simulation simulation(all, state, world, {});
+    advance_to(simulation, scene.steps);
+    if (n_bounces > 0) CHECK(simulation.totals().wall_collisions == n_bounces);
+    Motion mine;
+    for (const Disc& disc : simulation.shown()) {
+        mine.vx = disc.vx;
+        mine.vy = disc.vy;
+        if (turns) mine.spin = simulation.spins()[0];
+    }
+    Motion sum;
+    for (const Motion& part : world.all_gather(mine)) {
+        sum.vx += part.vx;
+        sum.vy += part.vy;
+        sum.spin += part.spin;
+    }
+    return sum;
+}
+
+/// A body with an outward normal (nx, ny), whose surface goes by with u along (-ny, nx).
+struct Body {
+    double nx, ny, u;
+};
+
+/// Along t = (-ny, nx), of the surface of a disc of radius 2 over the body's.
+double slip(const Motion& disc, const Body& body) {
+    return disc.vy * body.nx - disc.vx * body.ny - body.u - 2 * disc.spin;
+}
+
+double normal_of(const Motion& disc, const Body& body) {
+    return disc.vx * body.nx + disc.vy * body.ny;
+}
+
+/// The impulse acts where the surfaces touch: it changes the angular momentum about the centre by
+/// -r times what it changes the momentum along t by.
+void check_blow(const Motion& before, const Motion& after, const Body& body, const Surface& surface,
+                const ContactEffect& contact) {
+    const double along = (after.vy - before.vy) * body.nx - (after.vx - before.vx) * body.ny;
+    const double pushed = normal_of(after, body) - normal_of(before, body);
+    CHECK(pushed > 0);
+    if (contact.kind == ContactKind::rough)
+        CHECK(contact.inertia * 4 * (after.spin - before.spin) == Approx(-2 * along).margin(1e-12));
+    const double h = slip(before, body), most = surface.friction * pushed;
+    if (std::fabs(along) < most * (1 - 1e-9))
+        CHECK(slip(after, body) == Approx(-surface.tangential_restitution * h).margin(1e-12));
+    else
+        CHECK(along == Approx(h > 0 ? -most : most).epsilon(1e-12));
+}
+
+/// Of a disc of radius 2 that comes to the side from the middle of the box.
+TestScene towards(std::size_t side, const Surface& surface, const ContactEffect& contact) {
+    TestScene scene = empty_scene("to a wall", 64, 2, 50);
+    constexpr std::array vx{-1.0, 1.0, 0.125, 0.125}, vy{0.125, 0.125, -1.0, 1.0};
+    add_disc(scene, 32, 32, vx[side], vy[side]);
+    scene.setting.effects.contact = contact;
+    scene.setting.effects.boundaries[side].surface = surface;
+    scene.setting.effects.boundaries[side].restitution = 0.75;
+    return scene;
+}
+
+constexpr std::array<std::array<double, 2>, 4> normals{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+std::vector<Surface> surfaces() {
+    return {{0.5, no_limit, 0}, {0, no_limit, 0.3}, {1, no_limit, -0.2}, {0.2, 0.05, 0.7}};
+}
+
+} // namespace
+
+TEST_CASE("effects: a wall that rubs acts on velocity and spin as mechanics says") {
+    const Communicator world = Communicator::world();
+    for (const ContactEffect& contact : {ContactEffect{}, rough(0.5), rough(1)}) {
+        for (const Surface& surface : surfaces()) {
+            for (std::size_t side = 0; side < 4; ++side) {
+                for (const Method method : {Method::time_stepped, Method::event_driven}) {
+                    INFO("side " << side << ", e_t " << surface.tangential_restitution
+                                 << ", contact " << static_cast<int>(contact.kind));
+                    const TestScene scene = towards(side, surface, contact);
+                    const bool turns = contact.kind == ContactKind::rough;
+                    const Motion before{scene.discs[0].vx, scene.discs[0].vy, turns ? 0.15 : 0};
+                    const Motion after = motion_after(scene, before.spin, method, world, 1);
+                    const auto [nx, ny] = normals[side];
+                    // The velocity of a side is along +x or +y, which is t or against it.
+                    const Body body{nx, ny, surface.velocity * (nx - ny)};
+                    CHECK(normal_of(after, body) == Approx(0.75).epsilon(1e-12));
+                    check_blow(before, after, body, surface, contact);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("effects: obstacles that rub act on velocity and spin as mechanics says") {
+    const Communicator world = Communicator::world();
+    for (const ContactEffect& contact : {ContactEffect{}, rough(0.5)}) {
+        for (const Surface& surface : surfaces()) {
+            for (const bool is_segment : {false, true}) {
+                for (const Method method : {Method::time_stepped, Method::event_driven}) {
+                    TestScene scene = empty_scene("to an obstacle", 64, 2, 30);
+                    add_disc(scene, 16, 32, 1, 0.125);
+                    ObstacleList& obstacles = scene.setting.effects.obstacles;
+                    obstacles.restitution = 0.75;
+                    obstacles.surface = surface;
+                    if (is_segment)
+                        obstacles.segments = {{40, 20, 44, 60}};
+                    else
+                        obstacles.discs = {{40, 30, 5}};
+                    scene.setting.effects.contact = contact;
+                    const bool turns = contact.kind == ContactKind::rough;
+                    const Motion before{1, 0.125, turns ? -0.2 : 0};
+                    const Motion after = motion_after(scene, before.spin, method, world, 1);
+                    // The line of centres when surfaces touch; the segment's normal.
+                    double nx = -40 / std::hypot(4, 40), ny = 4 / std::hypot(4, 40);
+                    if (!is_segment) {
+                        const double dx = 16 - 40, dy = 32 - 30, b = dx + 0.125 * dy,
+                                     a = 1 + 0.125 * 0.125, c = dx * dx + dy * dy - 49;
+                        const double time = (-b - std::sqrt(b * b - a * c)) / a;
+                        nx = (dx + time) / 7;
+                        ny = (dy + 0.125 * time) / 7;
+                    }
+                    const Body body{nx, ny, surface.velocity};
+                    CHECK(normal_of(after, body) ==
+                          Approx(-0.75 * normal_of(before, body)).epsilon(1e-12));
+                    check_blow(before, after, body, surface, contact);
+                }
+            }
+        }
+    }
+}
+
+// A disc that lies on a floor, and that gravity pulls to the right, too: it rolls with g_x / (1 +
+// q) if the friction can turn it, which takes mu g_y >= g_x q / (1 + q); otherwise it slides with
+// g_x - mu g_y, and mu g_y / (q r) turns it. The floor acts once in a contact time of 1/16.
+TEST_CASE(
+    "effects: a rough disc that is pulled along a floor rolls, or slides, as mechanics says") {
+    const Communicator world = Communicator::world();
+    const double pull = 0.0009, down = 0.01, time = 200, radius = 2;
+    for (const double inertia : {0.5, 1.0}) {
+        for (const double friction : {0.1, 0.02}) {
+            TestScene scene = empty_scene("a disc on a floor", 64, radius, 200);
+            add_disc(scene, 32, radius, 0, 0);
+            Effects& effects = scene.setting.effects;
+            effects.boundaries = {periodic, periodic, Boundary{}, Boundary{}};
+            effects.boundaries[2].restitution = 0;
+            effects.boundaries[2].surface = {0, friction, 0};
+            effects.contact = rough(inertia);
+            effects.contact.contact_time = 0.0625;
+            effects.gravity = {pull, -down};
+            scene.setting.sync_every = 16;
+            const Motion motion = motion_after(scene, 0, Method::event_driven, world, 0);
+            const bool rolls = friction * down >= pull * inertia / (1 + inertia);
+            INFO("friction " << friction << ", inertia " << inertia << ", rolls " << rolls);
+            const double vx = time * (rolls ? pull / (1 + inertia) : pull - friction * down);
+            const double surface = time *
+                                   (rolls ? pull / (1 + inertia) : friction * down / inertia);
+            CHECK(motion.vx == Approx(vx).epsilon(0.002));
+            CHECK(-motion.spin * radius == Approx(surface).epsilon(0.002));
+        }
+    }
+}
+
+TEST_CASE("effects: walls that rub and slide give the same bits on every shape, and are checked") {
+    const Communicator world = Communicator::world(), alone = Communicator::of_this_rank();
+    for (const int kind : {0, 1, 2, 3}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
+            TestScene scene = gas(200, 0.2, 0.1, 660 + static_cast<std::uint64_t>(kind));
+            INFO("kind " << kind << ", method " << static_cast<int>(method));
+            scene.setting.sync_every = 6;
+            scene.setting.micro_steps = 2;
+            scene.steps = 40;
+            Effects& effects = scene.setting.effects;
+            effects.contact = kind % 2 == 0 ? ContactEffect{ContactKind::restitution, 0.8, 0.001}
+                                            : rough(0.5);
+            effects.boundaries[0].surface = {0.5, no_limit, 0.05};
+            effects.boundaries[2].surface = {0, 0.3, -0.05};
+            effects.boundaries[3].surface = {1, no_limit, 0};
+            if (kind == 2) {
+                effects.boundaries[3] = {BoundaryKind::thermal, 1, 0.01};
+                effects.boundaries[3].surface.velocity = 0.1;
+            }
+            if (kind >= 2) {
+                effects.boundaries[0] = effects.boundaries[1] = periodic;
+                if (method == Method::event_driven) effects.gravity = {0.002, -0.001};
+            } else {
+                effects.obstacles.segments = {{20, 20, 30, 24}};
+                effects.obstacles.surface = {0, 0.5, 0.1};
+                make_room_for_obstacles(scene);
+            }
+            Scene whole = scene_of(scene);
+            whole.method = method;
+            Simulation shared = simulation_of(scene, method, world);
+            Simulation single(whole, scene.discs, alone, Tuning{});
+            shared.check_every_step(whole);
+            CHECK_NOTHROW(advance_to(shared, scene.steps));
+            advance_to(single, scene.steps);
+            CHECK(shared.totals().hash == single.totals().hash);
+        }
+    }
+}

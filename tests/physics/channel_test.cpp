@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flows between thermal walls against Enskog's viscosity (Gass, J. Chem. Phys. 54, 1898 (1971)),
+// which sheared sides have, too (tests/mpi/periodic/shear_physics_test.cpp).
+#include <cmath>
+#include <numbers>
+
+#include "catch.hpp"
+#include <fmt/format.h>
+
+#include "gas_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr double kt = 0.01, height = 80; // of discs of radius 1
+constexpr std::size_t n_discs = 407;     // a packing fraction of 0.2
+
+/// Along x between thermal walls, which slide with -u below and u above.
+TestScene channel(double u, double pull) {
+    TestScene scene = crystal(n_discs, n_discs * std::numbers::pi / (height * height), 71);
+    Random random(72);
+    set_speeds(scene, std::sqrt(2 * kt), random);
+    auto& sides = scene.setting.effects.boundaries;
+    sides[0].kind = sides[1].kind = BoundaryKind::periodic;
+    sides[2] = sides[3] = {BoundaryKind::thermal, 1, kt};
+    sides[2].surface.velocity = -u;
+    sides[3].surface.velocity = u;
+    scene.setting.effects.gravity = {pull, 0};
+    return scene;
+}
+
+/// In the middle half of the channel, with places from its middle: means of powers of y and of vx.
+struct Middle {
+    double n = 0, y2 = 0, y4 = 0, v = 0, vy = 0, vy2 = 0, squares = 0, looks = 0;
+
+    double density() const { return n / looks / (height * height / 2); }
+    /// Of vx = a + b y, and of vx = a + b y^2.
+    double slope() const { return vy / y2; }
+    double curvature() const { return (vy2 / n - v / n * (y2 / n)) / (y4 / n - y2 / n * (y2 / n)); }
+    double viscosity_unit() const { return std::sqrt(squares / n) / 2; } ///< sqrt(kT) / diameter
+};
+
+Middle look_at(Simulation& simulation, std::int64_t early, std::int64_t last, std::int64_t apart) {
+    Middle all;
+    for (std::int64_t step = early; step <= last; step += apart) {
+        while (simulation.step() < step) simulation.advance_towards(step);
+        all.looks += 1;
+        for (const Disc& disc : simulation.shown()) {
+            const double y = disc.y - height / 2;
+            if (std::fabs(y) > height / 4) continue;
+            all.n += 1;
+            all.y2 += y * y;
+            all.y4 += y * y * y * y;
+            all.v += disc.vx;
+            all.vy += disc.vx * y;
+            all.vy2 += disc.vx * y * y;
+            all.squares += disc.vy * disc.vy; // across the flow: kT
+        }
+    }
+    return all;
+}
+
+double enskog_viscosity(double density) {
+    const double packing = density * std::numbers::pi, bn = 2 * packing,
+                 chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
+    return 1.022 / (2 * std::sqrt(std::numbers::pi)) * (1 / chi + bn + 0.8729 * chi * bn * bn);
+}
+
+} // namespace
+
+// Gravity pulls with n g on each layer, so the parabola has the curvature n g / (2 viscosity). The
+// slowest mode of the channel decays in H^2 / (pi^2 nu), some 2000 steps: 100,000 steps have 50 of
+// them. With velocities of 0.1 each the error of the curvature is some 2 %; four of these are
+// allowed.
+TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille") {
+    const Communicator world = Communicator::world();
+    const double pull = 3e-5;
+    Simulation simulation = event_driven_simulation(channel(0, pull), world);
+    const Middle middle = look_at(simulation, 10000, 110000, 200);
+    const double viscosity = -middle.density() * pull / (2 * middle.curvature()) /
+                             middle.viscosity_unit();
+    fmt::print("Poiseuille: {:.4f}, Enskog {:.4f}\n", viscosity,
+               enskog_viscosity(middle.density()));
+    CHECK(viscosity == Approx(enskog_viscosity(middle.density())).epsilon(0.08));
+}
+
+// The stress is the same at each height. Within a radius of a wall collisions with the wall carry
+// it, and the pressure tensor has none of these: it is that of the rest of the box.
+TEST_CASE("physics: between walls that slide the flow of Couette has Enskog's viscosity") {
+    const Communicator world = Communicator::world();
+    Simulation simulation = event_driven_simulation(channel(0.07, 0), world);
+    const Middle middle = look_at(simulation, 10000, 110000, 200);
+    const double stress = -simulation.averages().pressure_tensor.xy.value * height / (height - 2);
+    const double viscosity = stress / middle.slope() / middle.viscosity_unit();
+    fmt::print("Couette: {:.4f}, Enskog {:.4f}, slope {:.3g}\n", viscosity,
+               enskog_viscosity(middle.density()), middle.slope());
+    CHECK(viscosity == Approx(enskog_viscosity(middle.density())).epsilon(0.12));
+}
