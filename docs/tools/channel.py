@@ -6,8 +6,8 @@
 
 Couette: walls slide against each other, and the stress over the slope of the mean velocity is the
 viscosity. Poiseuille: gravity drives the gas along walls at rest; the mean velocity has the curvature
-n m g / viscosity. Slope, curvature, density and temperature are those of the middle of the channel, where walls
-are not felt. The stress is that of the whole box times H / (H - 2 r), because the layers of a radius at
+n m g / viscosity. Slope, curvature, density and temperature are those of the middle seven tenths of
+the channel, where walls are not felt. The stress is that of the whole box times H / (H - 2 r), because the layers of a radius at
 the walls carry it by collisions with walls, which the pressure tensor leaves out. Errors are those of
 ten parts of a run.
 """
@@ -21,7 +21,7 @@ import tempfile
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/python"))
-SIZE, TEMPERATURE, PARTS = 40, 0.01, 10
+LENGTH, SIZE, TEMPERATURE, PARTS = 120, 40, 0.01, 10
 
 
 def enskog_viscosity(packing):
@@ -33,9 +33,9 @@ def enskog_viscosity(packing):
 def scene_of(packing, sliding, gravity, steps):
     wall = {"kind": "thermal", "temperature": TEMPERATURE}
     scene = {
-        "box": {"size": SIZE, "left": {"kind": "periodic"}, "right": {"kind": "periodic"},
+        "box": {"size": [LENGTH, SIZE], "left": {"kind": "periodic"}, "right": {"kind": "periodic"},
                 "bottom": wall | {"velocity": -sliding}, "top": wall | {"velocity": sliding}},
-        "discs": {"count": round(packing * SIZE**2 * 4 / math.pi), "radius": 0.5,
+        "discs": {"count": round(packing * LENGTH * SIZE * 4 / math.pi), "radius": 0.5,
                   "temperature": TEMPERATURE},
         "time": {"steps": steps, "method": "event-driven"},
         "output": {"averages_from_step": steps // 10,
@@ -47,21 +47,21 @@ def scene_of(packing, sliding, gravity, steps):
 
 
 def middle_of(frames, degree):
-    """Of frames: the last coefficient of the polynomial for vx, kT and density in the middle half."""
+    """Of frames: the last coefficient of the polynomial for vx, kT and density in the middle."""
     y = numpy.concatenate([frame.x[:, 1] for frame in frames]) - SIZE / 2
     v = numpy.concatenate([frame.v for frame in frames])
-    inside = abs(y) < SIZE / 4
+    inside = abs(y) < 0.35 * SIZE
     y, v = y[inside], v[inside]
     fit = numpy.polynomial.Polynomial.fit(y, v[:, 0], degree).convert()
     kt = (numpy.var(v[:, 0] - fit(y)) + numpy.var(v[:, 1])) / 2
-    return fit.coef[degree], kt, len(y) / len(frames) / (SIZE**2 / 2)
+    return fit.coef[degree], kt, len(y) / len(frames) / (0.7 * LENGTH * SIZE)
 
 
 def measured(kind, packing, carrom, folder):
     thermal = math.sqrt(TEMPERATURE)
     sliding, gravity = (0.5 * thermal, 0) if kind == "couette" else (0, 0.005 * TEMPERATURE)
-    run = carrom.run(scene_of(packing, sliding, gravity, 200_000), folder=folder, quiet=True)
-    frames = list(run.frames)[400:]
+    run = carrom.run(scene_of(packing, sliding, gravity, 100_000), folder=folder)
+    frames = list(run.frames)[200:]
     degree = 1 if kind == "couette" else 2
     parts = [middle_of(frames[k::1][: len(frames) // PARTS], degree)
              for k in range(0, len(frames) - len(frames) // PARTS + 1, len(frames) // PARTS)]

@@ -31,11 +31,11 @@ TestScene channel(double u, double pull) {
     return scene;
 }
 
-/// In the middle half of the channel, with places from its middle: means of powers of y and of vx.
+/// In the middle seven tenths of the channel, with places from its middle: means of powers of y and of vx.
 struct Middle {
     double n = 0, y2 = 0, y4 = 0, v = 0, vy = 0, vy2 = 0, squares = 0, looks = 0;
 
-    double density() const { return n / looks / (height * height / 2); }
+    double density() const { return n / looks / (0.7 * height * height); }
     /// Of vx = a + b y, and of vx = a + b y^2.
     double slope() const { return vy / y2; }
     double curvature() const { return (vy2 / n - v / n * (y2 / n)) / (y4 / n - y2 / n * (y2 / n)); }
@@ -49,7 +49,7 @@ Middle look_at(Simulation& simulation, std::int64_t early, std::int64_t last, st
         all.looks += 1;
         for (const Disc& disc : simulation.shown()) {
             const double y = disc.y - height / 2;
-            if (std::fabs(y) > height / 4) continue;
+            if (std::fabs(y) > 0.35 * height) continue;
             all.n += 1;
             all.y2 += y * y;
             all.y4 += y * y * y * y;
@@ -72,7 +72,7 @@ double enskog_viscosity(double density) {
 
 // Gravity pulls with n g on each layer, so the parabola has the curvature n g / (2 viscosity). The
 // slowest mode of the channel decays in H^2 / (pi^2 nu), some 2000 steps: 100,000 steps have 50 of
-// them. With velocities of 0.1 each the error of the curvature is some 2 %; four of these are
+// them. With velocities of 0.1 each the error of the curvature is some 3 %; four of these are
 // allowed.
 TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille") {
     const Communicator world = Communicator::world();
@@ -83,7 +83,7 @@ TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille"
                              middle.viscosity_unit();
     fmt::print("Poiseuille: {:.4f}, Enskog {:.4f}\n", viscosity,
                enskog_viscosity(middle.density()));
-    CHECK(viscosity == Approx(enskog_viscosity(middle.density())).epsilon(0.08));
+    CHECK(viscosity == Approx(enskog_viscosity(middle.density())).epsilon(0.12));
 }
 
 // The stress is the same at each height. Within a radius of a wall collisions with the wall carry

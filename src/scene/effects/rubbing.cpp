@@ -30,7 +30,7 @@ bool do_sides_rub(const Effects& effects) {
 template <class SurfaceOf>
 void add_surface(std::vector<Key>& all, const std::string& table, const SurfaceOf& surface_of,
                  const Need& body, const Need& rubbing, const Need& sliding,
-                 const char* direction) {
+                 const char* help_of_velocity) {
     all.push_back(
         key(table + ".tangential_restitution", "1",
             "Of discs whose surface sticks to it, from -1 (smooth) to 1.",
@@ -43,8 +43,7 @@ void add_surface(std::vector<Key>& all, const std::string& table, const SurfaceO
                       .by_default("no limit")
                       .within({0, 1e6})
                       .needs(rubbing));
-    all.push_back(key(table + ".velocity", "length/step",
-                      fmt::format("Of the surface, {}; the body stays where it is.", direction),
+    all.push_back(key(table + ".velocity", "length/step", help_of_velocity,
                       [surface_of](auto& s) -> auto& { return surface_of(s).velocity; })
                       .within({-1e6, 1e6})
                       .needs(sliding));
@@ -64,7 +63,8 @@ std::vector<Key> keys_of_rubbing() {
              }},
             {"without " + table + ".kind = \"thermal\" or a tangential_restitution above -1",
              [side](const Scene& s) { return slides(s.effects.boundaries[side]); }},
-            side < 2 ? "along +y" : "along +x");
+            side < 2 ? "Of the surface, along +y; the side stays where it is."
+                     : "Of the surface, along +x; the side stays where it is.");
     }
     add_surface(
         all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.obstacles.surface; },
@@ -74,7 +74,7 @@ std::vector<Key> keys_of_rubbing() {
          [](const Scene& s) { return s.effects.obstacles.surface.tangential_restitution != -1; }},
         {"without effects.obstacles.tangential_restitution above -1",
          [](const Scene& s) { return s.effects.obstacles.surface.rubs(); }},
-        "counterclockwise around the body");
+        "Of the surface, counterclockwise around the body, which stays where it is.");
     return all;
 }
 
