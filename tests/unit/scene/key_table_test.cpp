@@ -131,6 +131,10 @@ Texts random_overrides(Draw& draw) {
     }
     if (draw.below(12) == 0)
         texts.insert(texts.end(), {"box.top.kind=moving", "box.top.speed=0.01"});
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(),
+                     {"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
+                      "effects.thermostat.temperature=0.01"});
     if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");
     if (draw.below(8) == 0) // with keys that need these quantities, and periodic sides
         texts.insert(texts.end(), {"box.left.kind=periodic", "box.right.kind=periodic",
