@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Flows between thermal walls held to Enskog's viscosity: docs/validation/channel.csv.
 
-  docs/tools/channel.py CARROM FOLDER     some five core-minutes; needs numpy and h5py
+  docs/tools/channel.py CARROM FOLDER     a core-minute; needs numpy and h5py
 
 Couette: walls slide against each other, and the stress over the slope of the mean velocity is the
 viscosity. Poiseuille: gravity drives the gas along walls at rest; the mean velocity has the curvature
@@ -60,8 +60,8 @@ def middle_of(frames, degree):
 def measured(kind, packing, carrom, folder):
     thermal = math.sqrt(TEMPERATURE)
     sliding, gravity = (0.5 * thermal, 0) if kind == "couette" else (0, 0.005 * TEMPERATURE)
-    run = carrom.run(scene_of(packing, sliding, gravity, 100_000), folder=folder)
-    frames = list(run.frames)[200:]
+    run = carrom.run(scene_of(packing, sliding, gravity, 40_000), folder=folder)
+    frames = list(run.frames)[80:]
     degree = 1 if kind == "couette" else 2
     parts = [middle_of(frames[k::1][: len(frames) // PARTS], degree)
              for k in range(0, len(frames) - len(frames) // PARTS + 1, len(frames) // PARTS)]

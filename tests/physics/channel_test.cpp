@@ -31,7 +31,8 @@ TestScene channel(double u, double pull) {
     return scene;
 }
 
-/// In the middle seven tenths of the channel, with places from its middle: means of powers of y and of vx.
+/// In the middle seven tenths of the channel, with places from its middle: means of powers of y and
+/// of vx.
 struct Middle {
     double n = 0, y2 = 0, y4 = 0, v = 0, vy = 0, vy2 = 0, squares = 0, looks = 0;
 

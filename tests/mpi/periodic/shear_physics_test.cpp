@@ -143,8 +143,9 @@ TEST_CASE("shear: elastic discs whose velocities are rescaled have Enskog's visc
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;
     TestScene scene = flowing_gas(1000, 0.3, 0.1, 1);
-    const double kt = 0.01;
-    scene.setting.effects.shear = 0.1 * std::sqrt(kt) / (2 * scene.setting.radius);
+    // Their own at the start, so that the flow has its rate from then on.
+    const double thermal = scene.setting.effects.shear * 2 * scene.setting.radius / 0.1,
+                 kt = thermal * thermal;
     scene.setting.effects.thermostat = {ThermostatKind::rescale, 0, 0, kt, 0};
     scene.setting.sync_every = 8;
     scene.steps = 4000;
