@@ -107,7 +107,7 @@ Meetings decided(const Communicator& world, const Meetings& all, const Setting& 
     std::vector<Candidate> live;
     for (const Meeting& m : all)
         if (is_ours(m))
-            live.push_back({m.time, place.at(m.p), m.q == no_disc ? wall : place.at(m.q)});
+            live.push_back({m.time, place.at(m.p), m.q == no_disc ? wall_index : place.at(m.q)});
     std::shuffle(live.begin(), live.end(), std::mt19937(static_cast<unsigned>(world.rank())));
 
     const Population population{discs, own.size()};
