@@ -108,34 +108,6 @@ TEST_CASE("Sides are read, and contradictions explained") {
               "cannot have an open side together with a moving wall"));
 }
 
-TEST_CASE("Walls that rub and slide are read, and keys without a meaning named") {
-    const Scene scene = read_scene(
-        good, "s.toml",
-        {"box.top.tangential_restitution=0.5", "box.top.friction=0.2", "box.top.velocity=0.1",
-         "box.left.kind=thermal", "box.left.temperature=2", "box.left.velocity=-0.3",
-         "effects.obstacles.discs=[[10, 20, 3]]", "effects.obstacles.tangential_restitution=1"});
-    CHECK(scene.effects.boundaries[3].surface == Surface{0.5, 0.2, 0.1});
-    CHECK(scene.effects.boundaries[0].surface.velocity == -0.3);
-    CHECK(scene.effects.obstacles.surface.rubs());
-    CHECK(
-        summary_of(scene.effects).find("top wall rubs with 0.5, friction 0.2 and slides at 0.1") !=
-        std::string::npos);
-    CHECK(read_scene(good, "s.toml", {"box.top.tangential_restitution=0.5"}).effects.are_any());
-    CHECK(
-        has(problems_with({"box.top.velocity=0.1"}),
-            "no meaning without box.top.kind = \"thermal\" or a tangential_restitution above -1"));
-    CHECK(has(problems_with({"box.top.friction=0.1"}),
-              "no meaning without box.top.tangential_restitution above -1"));
-    CHECK(has(problems_with({"box.top.kind=open", "box.top.tangential_restitution=0"}),
-              "no meaning without box.top.kind = \"wall\", \"moving\" or \"oscillating\""));
-    CHECK(has(problems_with({"box.top.tangential_restitution=1.5"}), "from -1 to 1, not 1.5"));
-    CHECK(has(problems_with({"effects.obstacles.tangential_restitution=0"}),
-              "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
-    CHECK(has(problems_with({"box.top.tangential_restitution=0.5", "effects.growth.rate=0.01",
-                             "time.method=event-driven"}),
-              "cannot have walls that rub together with growing discs"));
-}
-
 TEST_CASE("Obstacles are read, each wrong one is named") {
     const Scene scene = read_scene(good, "s.toml",
                                    {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
