@@ -16,7 +16,7 @@ class Carrom(CMakePackage):
 
     version("0.3.0")
 
-    variant("shared", default=True, description="Install libcarrom.so, not libcarrom.a")
+    variant("shared", default=False, description="Install libcarrom.so, not libcarrom.a")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
