@@ -14,6 +14,7 @@
 #include "domain/strips.hpp"
 #include "dynamics/species.hpp"
 #include "engine/collision.hpp"
+#include "engine/pair_event.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/stress_sums.hpp"
 #include "engine/totals.hpp"
@@ -74,6 +75,9 @@ public:
     void log_to(std::vector<Collision>* log) { log_ = log; }
     /// See Simulation::add_impulses_to.
     void add_impulses_to(WallImpulses* impulses) { impulses_ = impulses; }
+    /// From now on collisions of pairs are appended to `events` of one rank, in no particular
+    /// order; null ends that.
+    void note_pairs_in(std::vector<PairEvent>* events) { pair_events_ = events; }
     /// From now on the energy that moving images give own discs is added to `work`, as long as
     /// collisions are logged; per micro-step, of stored states. Null ends that.
     void add_work_to(double* work) { work_ = work; }
@@ -96,9 +100,12 @@ public:
 protected:
     /// Notes the flight from (x, y) to where the disc is now. Threads may call it at once.
     void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
-    bool is_followed() const { return log_ != nullptr || impulses_ != nullptr; }
+    bool is_followed() const {
+        return log_ != nullptr || impulses_ != nullptr || pair_events_ != nullptr;
+    }
 
     std::vector<Collision>* log_ = nullptr;
+    std::vector<PairEvent>* pair_events_ = nullptr;
     WallImpulses* impulses_ = nullptr;
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;

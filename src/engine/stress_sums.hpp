@@ -84,6 +84,9 @@ public:
         if constexpr (Dynamics::has_species) wx_ = q.vx - p.vx, wy_ = q.vy - p.vy;
     }
 
+    double vx() const { return vx_; } ///< of p
+    double vy() const { return vy_; }
+
     /// Called after it, at `time`, with the separation from p to q. Flights have gathered stress
     /// for `flown` before the last sync. Returns p's impulse along x.
     [[gnu::always_inline]] double add_to(StressTerms& terms, StressSums& sum,

@@ -11,8 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// So many collisions of a block's discs within `Dynamics::cascade_interval` are a collision
-/// cascade, and some for each disc more.
+/// Collisions within `Dynamics::cascade_interval` that are a cascade: of a block, and per disc.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
@@ -320,6 +319,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
             ground.flown_before);
         if constexpr (Dynamics::has_moving_images)
             outcome->work += impulse * periods().between(p, q, event.time).vx;
+        if (ground.notes_pairs) note_pair(event, stress);
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }
@@ -366,8 +366,7 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
 /// or if it collides again when it is not back on schedule.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
-    const Disc& disc = discs[slot];
-    const Disc& at_start = ground.discs[indices[slot]];
+    const Disc &disc = discs[slot], &at_start = ground.discs[indices[slot]];
     const BlockWindow& window = ground.window;
     const double elapsed = time - window.begin;
     double dx = disc.x - at_start.x_at(window.begin);

@@ -19,6 +19,7 @@
 #include "core/disc.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
+#include "engine/pair_event.hpp"
 #include "engine/stress_sums.hpp"
 #include "event_driven/box_layout.hpp"
 
@@ -61,6 +62,8 @@ struct BlockGround {
     BoxCells box_cells{};                 ///< for runs of the whole box
     bool is_alone = false; ///< there is one run, of the whole box: nobody compares histories, and
                            ///< the grid says nothing
+    bool notes_pairs = false;
+    double velocity_unit = 1; ///< of the pairs that are noted
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
@@ -118,10 +121,11 @@ struct BlockOutcome {
     SideColumns columns;          ///< likewise
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
-    std::uint64_t n_events = 0; ///< whose first disc is own
-    StressSums stress{1};       ///< of these
-    double work = 0;            ///< that moving images have done in them, if they are logged
-    double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
+    std::vector<PairEvent> pairs; ///< times are since the last sync
+    std::uint64_t n_events = 0;   ///< whose first disc is own
+    StressSums stress{1};         ///< of these
+    double work = 0;              ///< that moving images have done in them, if they are logged
+    double too_fast = 0;          ///< the largest speed of an own disc that got too far, else 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
                             ///< has met, else 0
     double largest_speed_at_end = 0;

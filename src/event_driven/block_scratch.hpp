@@ -186,6 +186,14 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         outcome->cascade_time = event.time;
     }
 
+    /// After the collision, while the second disc is where the event's image has it.
+    [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before) {
+        const Disc &p = discs[event.p], &q = discs[event.q];
+        outcome->pairs.push_back(pair_event(dynamics, p, dynamics.separation(p, q), p, q,
+                                            before.vx(), before.vy(), event.time,
+                                            ground.velocity_unit));
+    }
+
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {
         const bool at_wall = is_wall(event.q);
         outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id,

@@ -19,6 +19,7 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->states.clear();
     outcome->ring.clear();
     outcome->log.clear();
+    outcome->pairs.clear();
     outcome->n_events = 0;
     outcome->work = 0;
     outcome->stress = ground.no_stress;

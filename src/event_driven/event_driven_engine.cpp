@@ -304,7 +304,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const BlockGround ground{discs_.all(),      discs_.n_own(),   &discs_.grid(),
                              own_cells_,        window_,          this->is_followed(),
                              &discs_.columns(), this->no_stress_, this->flown_before_,
-                             box_cells_,        is_alone_};
+                             box_cells_,        is_alone_,        this->pair_events_ != nullptr,
+                             static_cast<double>(this->micro_steps_)};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
@@ -348,22 +349,6 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     }
     for (Block& block : blocks_) block.has_run = false;
     last_duration_ = window_.duration();
-}
-
-template <class Dynamics>
-void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
-    for (const LoggedEvent& event : outcome.log) {
-        double mass = 1;
-        if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(event.p).mass;
-        const double unit = mass * (dynamics_.frame_at(event.time).slowing *
-                                    static_cast<double>(this->micro_steps_));
-        if (this->impulses_ && event.is_wall && event.q <= 1)
-            this->impulses_->add(event.q, event.normal_impulse * unit);
-        if (this->log_)
-            this->log_->push_back(
-                {this->last_sync(), dynamics_.micro_steps_at(event.time), event.generation, event.p,
-                 event.is_wall ? Collision::wall : event.q, event.impulse * unit});
-    }
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {

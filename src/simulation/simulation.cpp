@@ -144,6 +144,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
         advance_checked();
     else // at most to the first step after a sync
         engine_->advance_towards(std::min(last_step, next));
+    hand_over_pairs();
     if (!averages_->has_begun() && step() >= averages_from_)
         average_anew();
     else if (averages_->has_begun() && averages_->is_due(step()))
@@ -292,6 +293,21 @@ void Simulation::log_to(std::vector<Collision>* log) {
 }
 
 void Simulation::add_impulses_to(WallImpulses* impulses) { engine_->add_impulses_to(impulses); }
+
+void Simulation::follow_pairs(PairFollower& follower) {
+    followers_.push_back(&follower);
+    engine_->note_pairs_in(&pair_events_);
+}
+
+void Simulation::forget(PairFollower& follower) {
+    std::erase(followers_, &follower);
+    if (followers_.empty()) engine_->note_pairs_in(nullptr);
+}
+
+void Simulation::hand_over_pairs() {
+    for (PairFollower* follower : followers_) follower->take(pair_events_);
+    pair_events_.clear();
+}
 
 void Simulation::note_crossings_in(std::vector<Crossing>& crossings) {
     engine_->note_crossings_in(crossings);

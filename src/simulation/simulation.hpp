@@ -28,6 +28,8 @@ struct AveragedSystem;
 class BlockAverages;
 class Engine;
 class StateCheck;
+class PairFollower;
+struct PairEvent;
 struct BondOrder;
 struct HexaticSums;
 struct LocalView;
@@ -80,6 +82,10 @@ public:
     /// From now on the momentum that discs give to the sides of the box is added to
     /// `impulses` of one rank; null ends that.
     void add_impulses_to(WallImpulses* impulses);
+    /// From now on `follower` is given this rank's collisions of pairs, with each call of
+    /// `advance_towards`, until it is forgotten.
+    void follow_pairs(PairFollower& follower);
+    void forget(PairFollower& follower);
     /// From now on the box lengths by which syncs in a periodic box bring own discs
     /// back are appended to `crossings`, until it is forgotten.
     void note_crossings_in(std::vector<Crossing>& crossings);
@@ -141,6 +147,7 @@ public:
 
 private:
     void advance_checked();
+    void hand_over_pairs();
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
     MotionSample integrated_sample() const;
     /// Like `shown()`, but only the velocities are right.
@@ -161,6 +168,8 @@ private:
     std::unique_ptr<BlockAverages> averages_;
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
+    std::vector<PairFollower*> followers_;
+    std::vector<PairEvent> pair_events_;    ///< since they were handed over
     mutable std::vector<Disc> shown_;       ///< under gravity
     mutable std::vector<Disc> stored_;      ///< once discs have left the box
     mutable SideColumns stored_columns_;    ///< once discs have left the box

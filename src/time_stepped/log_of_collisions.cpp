@@ -10,6 +10,10 @@ template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
+    if (!this->pair_events_) return;
+    unhit_partners_.clear();
+    for (const Candidate& c : verdicts_.kept)
+        unhit_partners_.push_back(c.is_wall() ? Disc{} : results[c.q]);
 }
 
 /// Two ranks may know of a collision; the one that owns the first disc logs it.
@@ -28,6 +32,13 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
             const auto [at_x, at_y] = dynamics_.met_walls(unhit_[i], m, c.time);
             if (at_x) this->impulses_->add(0, mass * dx);
             if (at_y) this->impulses_->add(1, mass * dy);
+        }
+        if (this->pair_events_ && !c.is_wall()) {
+            const double time = m + c.time;
+            PairEvent& event = this->pair_events_->emplace_back(pair_event(
+                dynamics_, unhit_[i], dynamics_.separation_at(unhit_[i], unhit_partners_[i], time),
+                results[c.p], results[c.q], unhit_[i].vx, unhit_[i].vy, time, k));
+            event.micro_step = this->last_sync();
         }
         if (this->log_)
             this->log_->push_back({this->last_sync() + m, c.time, 0, unhit_[i].id,

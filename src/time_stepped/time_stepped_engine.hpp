@@ -97,7 +97,8 @@ private:
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
     std::vector<Disc> unhit_; ///< for the log: the first disc of each kept candidate, before it
-    std::vector<WindowState> states_; ///< by disc
+    std::vector<Disc> unhit_partners_; ///< the same for second discs, if pairs are noted
+    std::vector<WindowState> states_;  ///< by disc
 
     // Candidates whose first disc is own.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;

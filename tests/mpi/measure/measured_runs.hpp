@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "measure/sampler.hpp"
+#include "parallel/exchange.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {
@@ -50,6 +51,25 @@ inline void advance_to(Simulation& simulation, Sampler& sampler, std::int64_t st
         simulation.advance_towards(std::min(step, sampler.next_due(simulation.step())));
         sampler.sample_if_due();
     }
+}
+
+/// A disc as the box sees it now; velocities are per step.
+struct SeenDisc {
+    DiscId id = 0;
+    double x = 0, y = 0, vx = 0, vy = 0;
+};
+
+/// All discs, in the order of ids, on every rank.
+inline std::vector<SeenDisc> seen_discs(const Simulation& simulation, const Communicator& world) {
+    std::vector<SeenDisc> mine;
+    const double unit = simulation.velocity_unit(), time = simulation.clock();
+    for (const Disc& disc : simulation.shown())
+        mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
+    const std::vector<std::vector<SeenDisc>> out(static_cast<std::size_t>(world.size()), mine);
+    std::vector<SeenDisc> all = send_to_owners(world, out).items;
+    std::sort(all.begin(), all.end(),
+              [](const SeenDisc& a, const SeenDisc& b) { return a.id < b.id; });
+    return all;
 }
 
 inline void leave_out(Scene& scene, const std::string& quantity) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A collision of two discs with all that sums over events need: where it was, what impulse passed
+// between the discs, and how fast they were afterwards. Engines note it only where a measurement
+// follows pairs.
+//
+// Everything is as the box sees it at the time of the collision, so gravity and drag are in it.
+// Places are not brought back into a periodic box.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/disc.hpp"
+#include "core/frame.hpp"
+#include "dynamics/plain_dynamics.hpp"
+
+namespace carrom {
+
+/// Lengths are the scene's; velocities and impulses are per step.
+struct PairEvent {
+    DiscId p = 0, q = 0;         ///< p is the lower id
+    std::int64_t micro_step = 0; ///< that `time` counts from, since the scene's start
+    double time = 0;             ///< in micro-steps
+    double x = 0, y = 0;         ///< centre of p
+    double dx = 0, dy = 0;       ///< from there to the centre of q
+    double ix = 0, iy = 0;       ///< impulse that p got; q got the opposite
+    double p_vx = 0, p_vy = 0;   ///< velocities after the collision
+    double q_vx = 0, q_vy = 0;
+
+    /// Time in steps since step `origin`.
+    double steps_since(std::int64_t origin, std::int64_t micro_steps) const {
+        return (static_cast<double>(micro_step - origin * micro_steps) + time) /
+               static_cast<double>(micro_steps);
+    }
+};
+
+/// Whoever wants to know of pairs. What is taken must not depend on the order of the events,
+/// because threads and ranks find them in any order.
+class PairFollower {
+public:
+    PairFollower() = default;
+    virtual ~PairFollower() = default;
+    PairFollower(const PairFollower&) = delete;
+    PairFollower& operator=(const PairFollower&) = delete;
+
+    /// Takes events of this rank: each pair is the event of the rank that owns its first disc.
+    virtual void take(std::span<const PairEvent> events) = 0;
+};
+
+/// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
+/// is the first disc at that time, before or after the collision, and `to` is the separation then.
+/// `unit` turns stored velocities into those per step.
+template <class Dynamics>
+PairEvent pair_event(const Dynamics& dynamics, const Disc& place, const Separation& to,
+                     const Disc& p, const Disc& q, double vx_before, double vy_before, double time,
+                     double unit) {
+    const Frame frame = dynamics.frame_at(time);
+    const double mass = dynamics.mass_of(p) * frame.slowing * unit;
+    PairEvent event;
+    event.p = p.id;
+    event.q = q.id;
+    event.time = dynamics.micro_steps_at(time);
+    event.x = place.x_at(time) + frame.x;
+    event.y = place.y_at(time) + frame.y;
+    event.dx = to.x;
+    event.dy = to.y;
+    event.ix = mass * (p.vx - vx_before);
+    event.iy = mass * (p.vy - vy_before);
+    event.p_vx = (p.vx * frame.slowing + frame.vx) * unit;
+    event.p_vy = (p.vy * frame.slowing + frame.vy) * unit;
+    event.q_vx = (q.vx * frame.slowing + frame.vx) * unit;
+    event.q_vy = (q.vy * frame.slowing + frame.vy) * unit;
+    return event;
+}
+
+} // namespace carrom

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the event-driven engine logs of its events, where somebody follows them.
+#include "event_driven/event_driven_engine.hpp"
+
+namespace carrom {
+
+template <class Dynamics>
+void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
+    for (const LoggedEvent& event : outcome.log) {
+        double mass = 1;
+        if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(event.p).mass;
+        const double unit = mass * (dynamics_.frame_at(event.time).slowing *
+                                    static_cast<double>(this->micro_steps_));
+        if (this->impulses_ && event.is_wall && event.q <= 1)
+            this->impulses_->add(event.q, event.normal_impulse * unit);
+        if (this->log_)
+            this->log_->push_back(
+                {this->last_sync(), dynamics_.micro_steps_at(event.time), event.generation, event.p,
+                 event.is_wall ? Collision::wall : event.q, event.impulse * unit});
+    }
+    if (!this->pair_events_) return;
+    for (PairEvent event : outcome.pairs) {
+        event.micro_step = this->last_sync();
+        this->pair_events_->push_back(event);
+    }
+}
+
+// What the engine's own file calls. The class itself is compiled there.
+#define CARROM_DEFINE(Dynamics)                                                                    \
+    template void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome&);
+CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
+#undef CARROM_DEFINE
+
+} // namespace carrom

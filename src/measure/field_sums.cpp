@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measure/field_sums.hpp"
+
+#include <span>
+
+namespace carrom {
+
+namespace {
+
+/// Usual terms are some 2^50 units, and sums come to 2^75 of these.
+constexpr double headroom = 0x1p75;
+constexpr std::size_t words_per_cell = 1 + 4 * n_field_moments;
+
+} // namespace
+
+FieldSums::FieldSums(std::size_t n_cells, double speed, double length)
+    : speed_(speed), length_(length) {
+    counts_.assign(n_cells, 0);
+    clear();
+}
+
+void FieldSums::clear() {
+    counts_.assign(counts_.size(), 0);
+    sums_.clear();
+    const auto add = [this](double usual, std::size_t n) {
+        sums_.insert(sums_.end(), n, ExactSum(usual * headroom));
+    };
+    for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
+        add(1, 1);
+        add(speed_, 2);
+        add(speed_ * speed_, 3);
+        add(speed_ * length_, 3);
+    }
+}
+
+std::array<std::int64_t, 3> FieldSums::stress_in_units(double xx, double xy, double yy) const {
+    const double scale = sums_[field_stress_xx].scale();
+    const auto units = [scale](double term) { // of the hardest blows 2^62 units remain
+        return static_cast<std::int64_t>(std::clamp(term * scale, -0x1p62, 0x1p62));
+    };
+    return {units(xx), units(xy), units(yy)};
+}
+
+/// Each sum is four words of 32 bits, so that carries stay apart.
+std::vector<std::uint64_t> FieldSums::joined_words(const Communicator& ranks) const {
+    std::vector<std::uint64_t> words;
+    words.reserve(words_per_cell * size());
+    for (std::size_t cell = 0; cell < size(); ++cell) {
+        words.push_back(counts_[cell]);
+        for (std::size_t k = 0; k < n_field_moments; ++k) {
+            const ExactSum& sum = sums_[n_field_moments * cell + k];
+            for (const std::uint64_t word : {sum.low_word(), sum.high_word()}) {
+                words.push_back(word & 0xffffffff);
+                words.push_back(word >> 32);
+            }
+        }
+    }
+    ranks.sum(std::span(words));
+    return words;
+}
+
+bool FieldSums::add_words(const std::vector<std::uint64_t>& words) {
+    if (words.size() != words_per_cell * size()) return false;
+    const std::uint64_t* next = words.data();
+    for (std::size_t cell = 0; cell < size(); ++cell) {
+        counts_[cell] += *next++;
+        for (std::size_t k = 0; k < n_field_moments; ++k, next += 4) {
+            ExactSum& sum = sums_[n_field_moments * cell + k];
+            sum.add_words(next[0], 0);
+            sum.add_words(next[1] << 32, next[1] >> 32);
+            sum.add_words(0, next[2]);
+            sum.add_words(0, next[3] << 32);
+        }
+    }
+    return true;
+}
+
+void FieldSums::add(const FieldSums& other, std::size_t first) {
+    for (std::size_t cell = 0; cell < size(); ++cell) {
+        counts_[cell] += other.counts_[first + cell];
+        for (std::size_t k = 0; k < n_field_moments; ++k)
+            sums_[n_field_moments * cell + k] += other.sums_[n_field_moments * (first + cell) + k];
+    }
+}
+
+FieldSums FieldSums::total() const {
+    FieldSums all(1, speed_, length_);
+    for (std::size_t cell = 0; cell < size(); ++cell) all.add(*this, cell);
+    return all;
+}
+
+} // namespace carrom

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "profiles": density, velocity, temperature about the local mean, and the pressure tensor, on a
+// grid of cells, averaged over one block of time after another.
+//
+// What discs carry is sampled. What collisions carry is not: each collision of a block counts. Its
+// impulse times distance is shared among the cells that the line between both centres crosses, by
+// length, because then the force across any line of the grid comes out right. Price: a pass over
+// the discs at each sample, and some hundred instructions for each collision.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "dynamics/species.hpp"
+#include "engine/pair_event.hpp"
+#include "measure/field_sums.hpp"
+#include "measure/measurement.hpp"
+#include "measure/speeds.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr QuantitySetting profile_columns{"profile_columns", 10}, profile_rows{"profile_rows", 10},
+    profile_samples{"profile_samples", 10}, profile_species{"profile_species", 0};
+constexpr double most_rows = 1e6; ///< of a table
+
+std::size_t n_cells_of(const MeasurementOutput& output) {
+    return static_cast<std::size_t>(profile_columns.of(output) * profile_rows.of(output));
+}
+
+void check_grid(const Check& check) {
+    const Scene& scene = check.scene;
+    const MeasurementOutput& output = *scene.measurements;
+    const std::size_t n_cells = n_cells_of(output);
+    if (n_cells > scene.n_discs)
+        check.refuse({profile_columns.key_name(), profile_rows.key_name(), quantities_key},
+                     fmt::format("a grid of {} cells for \"profiles\" is more than the {} discs; "
+                                 "try: smaller '{}' or '{}'",
+                                 n_cells, scene.n_discs, profile_columns.key_name(),
+                                 profile_rows.key_name()));
+    const double n_blocks = static_cast<double>(scene.steps - output.from_step) /
+                            static_cast<double>(output.every_steps) / profile_samples.of(output);
+    if (n_blocks * static_cast<double>(n_cells) > most_rows)
+        check.refuse({profile_samples.key_name(), quantities_key},
+                     fmt::format("{:.0f} blocks of {} cells are more than a million rows; try: a "
+                                 "larger '{}'",
+                                 n_blocks, n_cells, profile_samples.key_name()));
+}
+
+/// Of a block: the last sample, steps that collisions are of, and the mean edges of the box.
+struct BlockHead {
+    double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
+};
+
+class Profiles : public Measurement, public PairFollower {
+public:
+    explicit Profiles(MeasuredRun& run)
+        : Measurement(run), n_x_(static_cast<std::size_t>(profile_columns.of(run.output))),
+          n_y_(static_cast<std::size_t>(profile_rows.of(run.output))),
+          per_block_(static_cast<std::uint64_t>(profile_samples.of(run.output))),
+          n_kinds_(profile_species.of(run.output) != 0
+                       ? std::max<std::size_t>(run.scene.effects.species.size(), 1)
+                       : 1),
+          species_(run.scene.effects.species, run.scene.radius), sums_(0, 1, 1) {
+        const auto& sides = run.scene.effects.boundaries;
+        are_sides_moving_ = std::any_of(sides.begin(), sides.end(), [](const Boundary& side) {
+            return side.speed != 0 || side.amplitude != 0;
+        });
+        DiscId end = 0;
+        for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
+    }
+    ~Profiles() override { run_.simulation.forget(*this); }
+
+    void begin() override {
+        speed_ = std::max(usual_speed(run_), driven_speed(run_.scene));
+        follow();
+    }
+
+    void take(std::span<const PairEvent> events) override {
+        Extent box{0, run_.scene.box.x, 0, run_.scene.box.y};
+        for (const PairEvent& event : events) {
+            if (are_sides_moving_)
+                box = extent_at(run_.scene.effects, run_.scene.box,
+                                event.steps_since(0, run_.scene.micro_steps));
+            add(event, box);
+        }
+    }
+
+    void sample(const SampledState& state) override {
+        const Extent& box = state.box;
+        const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
+        const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
+                     per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
+        const auto place = [](double x, std::size_t n) { // the edges belong to the last cells
+            return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(n - 1)));
+        };
+        for (const Disc& disc : state.inside) {
+            const std::size_t cell = place((disc.y_at(time) - box.y_low) * per_y, n_y_) * n_x_ +
+                                     place((disc.x_at(time) - box.x_low) * per_x, n_x_);
+            sums_.add_disc(kind_of(disc.id) * n_cells() + cell, species_.of(disc.id).mass,
+                           disc.vx * unit, disc.vy * unit);
+        }
+        if (!state.is_first) head_.steps += static_cast<double>(run_.output.every_steps);
+        head_.x_low += box.x_low, head_.x_high += box.x_high;
+        head_.y_low += box.y_low, head_.y_high += box.y_high;
+        if (++n_samples_ == per_block_) end_block();
+    }
+
+    void keep(KeptNumbers& kept) override {
+        kept.same(n_x_), kept.same(n_y_), kept.same(per_block_), kept.same(n_kinds_);
+        kept(speed_), kept(n_samples_);
+        for (double* number : numbers_of(head_)) kept(*number);
+        kept(heads_), kept(blocks_);
+        std::vector<std::uint64_t> words;
+        if (!kept.is_restored()) words = sums_.joined_words(run_.ranks);
+        kept(words);
+        if (!kept.is_restored() || !kept.is_right()) return;
+        follow();
+        FieldSums all = sums_;
+        if (!all.add_words(words)) return kept.refuse();
+        if (run_.ranks.is_root()) sums_ = std::move(all);
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        std::vector<MeasuredTable> all = {table_of("profiles", 0, n_cells())};
+        for (std::size_t kind = 0; n_kinds_ > 1 && kind < n_kinds_; ++kind)
+            all.push_back(
+                table_of(fmt::format("profiles_{}", kind + 1), (kind + 1) * n_cells(), n_cells()));
+        all.push_back(table_of("profiles_total", n_fields() - 1, 1));
+        return all;
+    }
+
+private:
+    static constexpr std::size_t n_numbers = 1 + n_field_moments;
+
+    static std::array<double*, 6> numbers_of(BlockHead& head) {
+        return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
+    }
+    std::size_t n_cells() const { return n_x_ * n_y_; }
+    /// Of a block that has ended: all species together, each of them if they are apart, and the
+    /// whole box.
+    std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
+
+    std::size_t kind_of(DiscId id) const {
+        if (n_kinds_ == 1) return 0;
+        return static_cast<std::size_t>(std::upper_bound(ends_.begin(), ends_.end(), id) -
+                                        ends_.begin());
+    }
+
+    /// Sums are empty then. **Collective.**
+    void follow() {
+        sums_ = FieldSums(n_kinds_ * n_cells(), std::max(speed_, 0x1p-200), run_.scene.radius);
+        run_.simulation.forget(*this);
+        run_.simulation.follow_pairs(*this);
+    }
+
+    std::size_t cell_of(std::int64_t column, std::int64_t row) const {
+        const auto within = [](std::int64_t place, std::size_t size, bool is_periodic) {
+            const auto n = static_cast<std::int64_t>(size);
+            if (is_periodic) return static_cast<std::size_t>(((place % n) + n) % n);
+            return static_cast<std::size_t>(std::clamp<std::int64_t>(place, 0, n - 1));
+        };
+        return within(row, n_y_, run_.scene.effects.is_periodic_y()) * n_x_ +
+               within(column, n_x_, run_.scene.effects.is_periodic_x());
+    }
+
+    /// Shares a collision's stress among the cells on its line and both discs' species.
+    void add(const PairEvent& event, const Extent& box) {
+        const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
+                     per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
+        const std::array<std::int64_t, 3> whole = sums_.stress_in_units(
+            -event.ix * event.dx, -(event.ix * event.dy + event.iy * event.dx) / 2,
+            -event.iy * event.dy);
+        std::array<std::int64_t, 3> rest = whole;
+        const std::size_t p = kind_of(event.p) * n_cells(), q = kind_of(event.q) * n_cells();
+        for_each_part_of_line((event.x - box.x_low) * per_x, (event.y - box.y_low) * per_y,
+                              event.dx * per_x, event.dy * per_y,
+                              [&](std::int64_t column, std::int64_t row, double from, double to) {
+                                  std::array<std::int64_t, 3> part = rest, half{};
+                                  for (std::size_t k = 0; k < 3; ++k) {
+                                      if (to < 1)
+                                          part[k] = static_cast<std::int64_t>(
+                                              static_cast<double>(whole[k]) * (to - from));
+                                      rest[k] -= part[k];
+                                      half[k] = p == q ? 0 : part[k] / 2;
+                                      part[k] -= half[k];
+                                  }
+                                  const std::size_t cell = cell_of(column, row);
+                                  sums_.add_stress(p + cell, part);
+                                  if (p != q) sums_.add_stress(q + cell, half);
+                              });
+    }
+
+    void note(const FieldSums& sums) {
+        for (std::size_t cell = 0; cell < sums.size(); ++cell) {
+            blocks_.push_back(static_cast<double>(sums.count(cell)));
+            for (std::size_t k = 0; k < n_field_moments; ++k)
+                blocks_.push_back(sums.value(cell, static_cast<FieldMoment>(k)));
+        }
+    }
+
+    /// **Collective.**
+    void end_block() {
+        FieldSums sums = sums_;
+        sums.clear();
+        sums.add_words(sums_.joined_words(run_.ranks));
+        sums_.clear();
+        FieldSums all(n_cells(), std::max(speed_, 0x1p-200), run_.scene.radius);
+        for (std::size_t kind = 0; kind < n_kinds_; ++kind) all.add(sums, kind * n_cells());
+        note(all);
+        if (n_kinds_ > 1) note(sums);
+        note(all.total());
+        head_.to_step = static_cast<double>(run_.simulation.step());
+        for (double* edge : {&head_.x_low, &head_.x_high, &head_.y_low, &head_.y_high})
+            *edge /= static_cast<double>(per_block_);
+        for (double* number : numbers_of(head_)) heads_.push_back(*number);
+        head_ = {};
+        n_samples_ = 0;
+    }
+
+    MeasuredTable table_of(std::string name, std::size_t first, std::size_t n) const;
+    std::vector<double> row_of(const BlockHead& head, const double* of, double area) const;
+
+    std::size_t n_x_, n_y_;
+    std::uint64_t per_block_;
+    std::size_t n_kinds_; ///< 1 unless species have tables of their own
+    SpeciesTable species_;
+    std::vector<DiscId> ends_; ///< of the ids of each species
+    bool are_sides_moving_ = false;
+    double speed_ = 0;
+    std::uint64_t n_samples_ = 0; ///< of the block that has begun, as all that follows
+    BlockHead head_;              ///< edges are sums over the samples
+    FieldSums sums_;              ///< of this rank, one kind after another
+    std::vector<double> heads_;   ///< of blocks that have ended
+    std::vector<double> blocks_;  ///< of each of their fields: count and moments
+};
+
+std::vector<double> Profiles::row_of(const BlockHead& head, const double* of, double area) const {
+    const double n = of[0], m = of[1 + field_mass];
+    const double vx = of[1 + field_momentum_x] / m, vy = of[1 + field_momentum_y] / m;
+    const double xx = of[1 + field_flux_xx] - m * vx * vx, xy = of[1 + field_flux_xy] - m * vx * vy,
+                 yy = of[1 + field_flux_yy] - m * vy * vy;
+    const double per_area = 1 / (static_cast<double>(per_block_) * area),
+                 per_time = 1 / (head.steps * area);
+    return {n,
+            n * per_area,
+            vx,
+            vy,
+            (xx + yy) / (2 * n),
+            xx * per_area,
+            xy * per_area,
+            yy * per_area,
+            of[1 + field_stress_xx] * per_time,
+            of[1 + field_stress_xy] * per_time,
+            of[1 + field_stress_yy] * per_time};
+}
+
+/// `n` fields of each block from `first` on; a single one is the whole box and has no place.
+MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
+    const bool is_grid = n == n_cells() && first + n < n_fields();
+    MeasuredTable table{
+        std::move(name),
+        {is_grid
+             ? fmt::format("means over {} samples up to to_step, on a grid of {} by {} cells; "
+                           "x, y: their centres in the box as it is on average",
+                           per_block_, n_x_, n_y_)
+             : fmt::format("means over {} samples up to to_step, over the whole box", per_block_),
+         "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that; xx, "
+         "xy, yy: kinetic part of the pressure tensor about that; contact_xx, contact_xy, "
+         "contact_yy: collisions' part, shared along the line between centres",
+         "lengths in the scene's unit, times in steps; nan without discs or time"},
+        {"to_step"},
+        {}};
+    if (is_grid) table.columns.insert(table.columns.end(), {"x", "y"});
+    table.columns.insert(table.columns.end(),
+                         {"count", "density", "vx", "vy", "temperature", "xx", "xy", "yy",
+                          "contact_xx", "contact_xy", "contact_yy"});
+    for (std::size_t block = 0; 6 * block < heads_.size(); ++block) {
+        BlockHead head;
+        const std::array<double*, 6> numbers = numbers_of(head);
+        for (std::size_t k = 0; k < 6; ++k) *numbers[k] = heads_[6 * block + k];
+        const double width = (head.x_high - head.x_low) / static_cast<double>(n_x_),
+                     height = (head.y_high - head.y_low) / static_cast<double>(n_y_);
+        for (std::size_t cell = 0; cell < n; ++cell) {
+            std::vector<double>& row = table.rows.emplace_back(std::vector{head.to_step});
+            if (is_grid) {
+                row.push_back(head.x_low + (static_cast<double>(cell % n_x_) + 0.5) * width);
+                row.push_back(head.y_low + (static_cast<double>(cell / n_x_) + 0.5) * height);
+            }
+            const std::vector<double> numbers_of_cell = row_of(
+                head, blocks_.data() + n_numbers * (block * n_fields() + first + cell),
+                width * height * static_cast<double>(is_grid ? 1 : n_cells()));
+            row.insert(row.end(), numbers_of_cell.begin(), numbers_of_cell.end());
+        }
+    }
+    return table;
+}
+
+Key grid_key(const QuantitySetting& setting, std::string_view help) {
+    return setting.integer("1", help).within({1, 10000});
+}
+
+} // namespace
+
+MeasuredQuantity profiles_quantity() {
+    return {
+        {.name = "profiles",
+         .help = "Density, velocity, temperature and pressure tensor on a grid, block by block.",
+         .keys = {grid_key(profile_columns, "Cells of \"profiles\" along x."),
+                  grid_key(profile_rows, "Cells of \"profiles\" along y."),
+                  profile_samples
+                      .integer("samples", "Samples that a block of \"profiles\" averages.")
+                      .within({1, largest_steps}),
+                  profile_species
+                      .integer("1", "1: \"profiles\" has tables of each species as well.")
+                      .within({0, 1})},
+         .check = check_grid},
+        make_measurement<Profiles>};
+}
+
+} // namespace carrom

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Profiles on a grid, against sums over all discs of each cell; a restart inside a block.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "engine/pair_event.hpp"
+#include "measured_runs.hpp"
+#include "parallel/exchange.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr std::size_t n_x = 5, n_y = 3;
+
+/// All discs of a cell, over the samples of a block.
+struct ProfileCell {
+    std::vector<SeenDisc> discs;
+    std::vector<double> masses;
+};
+
+/// Two passes: first the velocity of the centre of mass, then squares about it.
+std::vector<double> row_of_cell(const ProfileCell& cell, double area, double n_samples) {
+    double mass = 0, vx = 0, vy = 0, xx = 0, xy = 0, yy = 0;
+    for (std::size_t k = 0; k < cell.discs.size(); ++k) {
+        mass += cell.masses[k];
+        vx += cell.masses[k] * cell.discs[k].vx;
+        vy += cell.masses[k] * cell.discs[k].vy;
+    }
+    vx /= mass, vy /= mass;
+    for (std::size_t k = 0; k < cell.discs.size(); ++k) {
+        const double a = cell.discs[k].vx - vx, b = cell.discs[k].vy - vy, m = cell.masses[k];
+        xx += m * a * a, xy += m * a * b, yy += m * b * b;
+    }
+    const double n = static_cast<double>(cell.discs.size()), per_area = 1 / (area * n_samples);
+    return {
+        n, n * per_area, vx, vy, (xx + yy) / (2 * n), xx * per_area, xy * per_area, yy * per_area};
+}
+
+Scene with_profiles(const TestScene& test, Method method) {
+    Scene scene = measured(test, method, 5, 3);
+    scene.measurements->quantities = {"profiles"};
+    scene.measurements->give("profile_columns", n_x);
+    scene.measurements->give("profile_rows", n_y);
+    scene.measurements->give("profile_samples", 3);
+    return scene;
+}
+
+TestScene profiled_mixture() {
+    TestScene test = gas(300, 0.2, 0.5, 91);
+    test.setting.effects.species = {{100, test.setting.radius, 1}, {200, test.setting.radius, 4}};
+    test.setting.sync_every = 16;
+    test.steps = 40;
+    return test;
+}
+
+} // namespace
+
+TEST_CASE("measurements: profiles are what the discs of each cell give") {
+    const Communicator world = Communicator::world();
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        const TestScene test = profiled_mixture();
+        const Scene scene = with_profiles(test, method);
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        std::vector<std::vector<double>> expected;
+        std::vector<ProfileCell> cells(n_x * n_y);
+        std::size_t n_samples = 0;
+        for (std::int64_t step = 0; step <= 40; ++step) {
+            advance_to(simulation, sampler, step);
+            if (step < 3 || (step - 3) % 5 != 0) continue;
+            for (const SeenDisc& disc : seen_discs(simulation, world)) {
+                const auto column = static_cast<std::size_t>(disc.x / scene.box.x * n_x),
+                           row = static_cast<std::size_t>(disc.y / scene.box.y * n_y);
+                cells[row * n_x + column].discs.push_back(disc);
+                cells[row * n_x + column].masses.push_back(disc.id < 100 ? 1 : 4);
+            }
+            if (++n_samples % 3 != 0) continue;
+            for (const ProfileCell& cell : cells)
+                expected.push_back(row_of_cell(cell, scene.box.area() / (n_x * n_y), 3));
+            cells.assign(n_x * n_y, {});
+        }
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        const MeasuredTable& table = table_of(tables, "profiles");
+        REQUIRE(table.rows.size() == expected.size());
+        REQUIRE(table.rows.size() == 2 * n_x * n_y); // eight samples are two whole blocks
+        double total = 0;
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+            total += table.rows[k][3];
+            CHECK(table.rows[k][0] == (k < n_x * n_y ? 13 : 28));
+            for (std::size_t column = 0; column < expected[k].size(); ++column)
+                CHECK(table.rows[k][3 + column] ==
+                      Approx(expected[k][column]).epsilon(1e-11).margin(1e-13));
+        }
+        CHECK(total == 2 * 3 * 300);
+    }
+}
+
+/// All of this rank's collisions of pairs.
+struct Recorded : PairFollower {
+    void take(std::span<const PairEvent> more) override {
+        events.insert(events.end(), more.begin(), more.end());
+    }
+    std::vector<PairEvent> events;
+};
+
+/// The share of the line that lies in the rectangle, by clipping it at one edge after another.
+double share_within(const PairEvent& event, double left, double right, double bottom, double top) {
+    double from = 0, to = 1;
+    const auto clip = [&](double at, double along, double low, double high) {
+        if (along == 0) {
+            if (at < low || at >= high) to = from;
+            return;
+        }
+        const double a = (low - at) / along, b = (high - at) / along;
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    };
+    clip(event.x, event.dx, left, right);
+    clip(event.y, event.dy, bottom, top);
+    return std::max(to - from, 0.0);
+}
+
+TEST_CASE("measurements: collisions' stress is shared along the line between centres") {
+    const Communicator world = Communicator::world();
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        TestScene test = profiled_mixture();
+        for (Boundary& side : test.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
+        Scene scene = with_profiles(test, method);
+        scene.measurements->give("profile_columns", 13);
+        scene.measurements->give("profile_rows", 22); // some are lower than a radius
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        advance_to(simulation, sampler, 13);
+        Recorded recorded;
+        simulation.follow_pairs(recorded);
+        std::vector<Collision> log;
+        simulation.log_to(&log);
+        advance_to(simulation, sampler, 28);
+        simulation.log_to(nullptr);
+        simulation.forget(recorded);
+        std::vector<double> impulses, logged_impulses;
+        for (const PairEvent& event : recorded.events)
+            impulses.push_back(std::hypot(event.ix, event.iy));
+        for (const Collision& collision : log)
+            if (collision.q != Collision::wall) logged_impulses.push_back(collision.impulse);
+        std::sort(impulses.begin(), impulses.end());
+        std::sort(logged_impulses.begin(), logged_impulses.end());
+        REQUIRE(impulses.size() == logged_impulses.size());
+        REQUIRE(world.sum(std::uint64_t{impulses.size()}) > 100);
+        for (std::size_t k = 0; k < impulses.size(); ++k)
+            CHECK(impulses[k] == Approx(logged_impulses[k]).epsilon(1e-9));
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        const std::vector<double> xx = column_of(tables, "profiles", "contact_xx"),
+                                  xy = column_of(tables, "profiles", "contact_xy");
+        const std::vector<std::vector<PairEvent>> copies(static_cast<std::size_t>(world.size()),
+                                                         recorded.events);
+        const std::vector<PairEvent> events = send_to_owners(world, copies).items;
+        const double width = scene.box.x / 13, height = scene.box.y / 22;
+        for (std::size_t cell = 0; cell < 13 * 22; ++cell) {
+            double sums[2] = {0, 0};
+            for (const PairEvent& event : events)
+                for (const int i : {-1, 0, 1})
+                    for (const int j : {-1, 0, 1}) {
+                        const double left = static_cast<double>(cell % 13) * width +
+                                            i * scene.box.x,
+                                     bottom = static_cast<double>(cell / 13) * height +
+                                              j * scene.box.y;
+                        const double share = share_within(event, left, left + width, bottom,
+                                                          bottom + height);
+                        sums[0] -= share * event.ix * event.dx;
+                        sums[1] -= share * (event.ix * event.dy + event.iy * event.dx) / 2;
+                    }
+            const double per = 1 / (width * height * 15); // over 15 steps
+            CHECK(xx[13 * 22 + cell] == Approx(sums[0] * per).margin(1e-9));
+            CHECK(xy[13 * 22 + cell] == Approx(sums[1] * per).margin(1e-9));
+        }
+    }
+}
+
+/// The same run on another grid.
+std::vector<MeasuredTable> profiles_on(const TestScene& test, Method method, double columns,
+                                       double rows, const Communicator& world) {
+    Scene scene = with_profiles(test, method);
+    scene.measurements->give("profile_columns", columns);
+    scene.measurements->give("profile_rows", rows);
+    scene.measurements->give("profile_species", 1);
+    scene.measurements->quantities = {"profiles", "pressure"};
+    Simulation simulation = simulation_of(scene, test, world);
+    Sampler sampler(scene, simulation, world);
+    advance_to(simulation, sampler, 33);
+    return sampler.tables();
+}
+
+TEST_CASE("measurements: any grid of profiles adds up to the same totals") {
+    const Communicator world = Communicator::world();
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        for (const bool is_periodic : {false, true}) {
+            TestScene test = profiled_mixture();
+            if (is_periodic)
+                for (Boundary& side : test.setting.effects.boundaries)
+                    side.kind = BoundaryKind::periodic;
+            const std::vector<MeasuredTable> one = profiles_on(test, method, 1, 1, world),
+                                             many = profiles_on(test, method, 13, 22, world);
+            REQUIRE(table_of(one, "profiles_total").rows.size() == 2);
+            CHECK(table_of(one, "profiles_total").rows == table_of(many, "profiles_total").rows);
+            // Half the trace of the collisions' part is P - N kT / A, and "pressure" has both from
+            // sums of its own. The first block is two intervals long, and the second one three.
+            const std::vector<double> pressures = column_of(one, "pressure_history", "pressure"),
+                                      kT = column_of(one, "pressure_history", "kT"),
+                                      xx = column_of(one, "profiles_total", "contact_xx"),
+                                      yy = column_of(one, "profiles_total", "contact_yy");
+            const double density = 300 / test.setting.box().area();
+            const auto contact = [&](std::size_t k) { return pressures[k] - density * kT[k]; };
+            CHECK((xx[0] + yy[0]) / 2 == Approx((contact(0) + contact(1)) / 2).epsilon(1e-10));
+            CHECK((xx[1] + yy[1]) / 2 ==
+                  Approx((contact(2) + contact(3) + contact(4)) / 3).epsilon(1e-10));
+            // Species add up, in each cell.
+            for (const char* column : {"count", "contact_xx", "contact_xy", "contact_yy"}) {
+                const std::vector<double> all = column_of(many, "profiles", column),
+                                          light = column_of(many, "profiles_1", column),
+                                          heavy = column_of(many, "profiles_2", column);
+                for (std::size_t k = 0; k < all.size(); ++k)
+                    CHECK(light[k] + heavy[k] == Approx(all[k]).epsilon(1e-12).margin(1e-15));
+            }
+        }
+    }
+}
+
+TEST_CASE("measurements: profiles go on inside a block") {
+    const Communicator world = Communicator::world();
+    const TestScene test = profiled_mixture();
+    const Scene scene = with_profiles(test, Method::event_driven);
+    Simulation whole = simulation_of(scene, test, world);
+    Sampler whole_sampler(scene, whole, world);
+    advance_to(whole, whole_sampler, 40);
+    Simulation first = simulation_of(scene, test, world);
+    Sampler first_sampler(scene, first, world);
+    advance_to(first, first_sampler, 21); // one sample of the second block has been taken
+    StoredState state{{first.discs().begin(), first.discs().end()}, first.micro_steps_done()};
+    Tuning tuning;
+    Simulation second(scene, std::move(state), world, tuning);
+    Sampler sampler(scene, second, world);
+    sampler.go_on(first_sampler.stored());
+    advance_to(second, sampler, 40);
+    CHECK(table_of(sampler.tables(), "profiles").rows ==
+          table_of(whole_sampler.tables(), "profiles").rows);
+}
