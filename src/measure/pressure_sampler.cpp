@@ -84,6 +84,9 @@ StressSums PressureSampler::since_last() const {
 void PressureSampler::sample(PressureSums& sums, double steps) {
     MotionSample now = simulation_->motion_sample();
     simulation_->integrate(since_last(), now);
+    const double unit = simulation_->velocity_unit();
+    last_integral_ = unit * Tensor{now.stress.xx - last_.stress.xx, now.stress.xy - last_.stress.xy,
+                                   now.stress.yy - last_.stress.yy};
     const MotionIntegrals mean = integrals_between(simulation_->averaged_system(), last_, now,
                                                    steps);
     for (const double number :

@@ -35,6 +35,8 @@ public:
     /// The last sample. Its speeds and counts are unknown after a restart.
     const MotionSample& last() const { return last_; }
     double temperature() const; ///< at the last sample
+    /// Time integral of the last interval's stress times area, with all momentum flux; per step.
+    const Tensor& last_integral() const { return last_integral_; }
     /// Adds the data since the last sample. **Collective.**
     void store(PressureSums& sums) const;
 
@@ -46,6 +48,7 @@ private:
 
     Simulation* simulation_;
     const Communicator* ranks_;
+    Tensor last_integral_;
     StressSums last_sums_; ///< on this rank, at the last sample
     MotionSample last_;    ///< its integrals are those of flights since the sync before
 };

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "correlations": what discs have become of themselves, over decades of time: mean square
+// displacement, velocity autocorrelation, self-intermediate scattering function, non-Gaussian
+// parameter, overlap and its susceptibility chi_4.
+//
+// Lags and origins are those of multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
+// and a level is added whenever the time doubles. Price of a sample: each disc is sent once, and
+// compared with some 1.5 `correlation_points` of its earlier states.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "measure/followed_discs.hpp"
+#include "measure/multiple_tau.hpp"
+#include "parallel/pieces.hpp"
+#include "statistics/blocking.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
+    overlap_distance{"overlap_distance"};
+constexpr std::size_t most_species = 8;
+constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< a rank has whole runs
+
+enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
+
+void check_correlations(const Check& check) {
+    Scene& scene = check.scene;
+    const std::string wave = correlation_wavenumber.key_name(),
+                      overlap = overlap_distance.key_name();
+    if (!check.settings.has(wave))
+        scene.measurements->derive(std::string(correlation_wavenumber.name),
+                                   std::numbers::pi / scene.radius);
+    if (!check.settings.has(overlap))
+        scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
+    check_correlation_points(check);
+    if (scene.effects.species.size() > most_species)
+        check.refuse({quantities_key},
+                     fmt::format("\"correlations\" of {} species; at most {} have tables of their "
+                                 "own",
+                                 scene.effects.species.size(), most_species));
+}
+
+class Correlations : public Measurement {
+public:
+    explicit Correlations(MeasuredRun& run)
+        : Measurement(run), discs_(run),
+          scheme_(static_cast<std::uint64_t>(correlation_points.of(run.output))),
+          wavenumber_(correlation_wavenumber.of(run.output)),
+          overlap_(overlap_distance.of(run.output)) {
+        DiscId end = 0;
+        for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
+        if (ends_.empty()) ends_.push_back(run.scene.n_discs);
+    }
+
+    void begin() override { discs_.begin(); }
+
+    void sample(const SampledState& /*state*/) override {
+        const std::vector<FollowedDisc>& now = discs_.now();
+        begin_levels();
+        std::vector<std::size_t> lags;
+        std::vector<double> sums;
+        const std::size_t n_sums = ends_.size() * n_runs() * n_moments;
+        scheme_.for_each_pair(n_samples_,
+                              [&](std::size_t lag, std::size_t level, std::size_t slot) {
+                                  lags.push_back(lag);
+                                  sums.resize(sums.size() + n_sums, 0);
+                                  compare(now, levels_[level][slot], std::span(sums).last(n_sums));
+                              });
+        note_means(lags, sums);
+        for (std::size_t level = 0; level < levels_.size(); ++level)
+            if (scheme_.keeps(level, n_samples_))
+                levels_[level][scheme_.slot(level, n_samples_)] = now;
+        ++n_samples_;
+    }
+
+    void keep(KeptNumbers& kept) override {
+        kept.same(static_cast<std::int64_t>(scheme_.points()));
+        kept.same(wavenumber_), kept.same(overlap_);
+        discs_.keep(kept);
+        kept(n_samples_);
+        std::size_t n_lags = lags_.size(), n_levels = levels_.size();
+        kept(n_lags), kept(n_levels);
+        if (n_lags > 1000 || n_levels > 64) return kept.refuse();
+        lags_.resize(n_lags, VectorBlocks(n_values()));
+        for (VectorBlocks& blocks : lags_) {
+            std::vector<std::int64_t> words = blocks.words();
+            kept(words);
+            if (kept.is_restored() && !blocks.set_words(words)) return kept.refuse();
+        }
+        levels_.resize(n_levels, Level(scheme_.points()));
+        for (Level& level : levels_)
+            for (std::vector<FollowedDisc>& states : level) keep_states(kept, states);
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        std::vector<MeasuredTable> all = {table_of("correlations", ends_.size())};
+        for (std::size_t kind = 0; ends_.size() > 1 && kind < ends_.size(); ++kind)
+            all.push_back(table_of(fmt::format("correlations_{}", kind + 1), kind));
+        return all;
+    }
+
+private:
+    using Level = std::vector<std::vector<FollowedDisc>>;
+
+    /// For each species and for all discs: the moments, and the square of the overlap.
+    std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
+
+    void keep_states(KeptNumbers& kept, std::vector<FollowedDisc>& states) {
+        std::uint64_t is_there = run_.ranks.max(states.empty() ? 0.0 : 1.0) > 0 ? 1 : 0;
+        kept(is_there);
+        if (is_there == 0) return;
+        for (double FollowedDisc::* field :
+             {&FollowedDisc::x, &FollowedDisc::y, &FollowedDisc::vx, &FollowedDisc::vy}) {
+            std::vector<double> numbers;
+            for (const FollowedDisc& state : states) numbers.push_back(state.*field);
+            discs_.keep(kept, numbers);
+            if (!kept.is_restored()) continue;
+            states.resize(numbers.size());
+            for (std::size_t i = 0; i < numbers.size(); ++i) states[i].*field = numbers[i];
+        }
+    }
+
+    void begin_levels() {
+        for (std::size_t level = levels_.size(); level < scheme_.n_levels(n_samples_); ++level) {
+            levels_.emplace_back(scheme_.points());
+            for (std::uint64_t point = 0; level > 0 && point < scheme_.points() / 2; ++point)
+                levels_[level][point] = levels_[level - 1][2 * point];
+        }
+        lags_.resize(scheme_.n_lags(n_samples_), VectorBlocks(n_values()));
+    }
+
+    /// Adds this rank's discs to `sums`: of each species and moment one for each run of ids. Terms
+    /// of one sum are added in the order of ids on one rank, so that all machine shapes have the
+    /// same bits.
+    void compare(const std::vector<FollowedDisc>& now, const std::vector<FollowedDisc>& before,
+                 std::span<double> sums) const {
+        std::size_t kind = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            const DiscId id = discs_.first_id() + i;
+            while (id >= ends_[kind]) ++kind;
+            const double dx = now[i].x - before[i].x, dy = now[i].y - before[i].y,
+                         square = dx * dx + dy * dy;
+            double* const of = &sums[(kind * n_runs() + id / ids_of_run) * n_moments];
+            of[squares] += square;
+            of[fourths] += square * square;
+            of[products] += now[i].vx * before[i].vx + now[i].vy * before[i].vy;
+            of[waves] += (std::cos(wavenumber_ * dx) + std::cos(wavenumber_ * dy)) / 2;
+            of[overlaps] += square < overlap_ * overlap_ ? 1 : 0;
+        }
+    }
+
+    /// Joins the ranks, and adds a sample to each of the lags. **Collective.**
+    void note_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
+        std::vector<std::uint64_t> words(sums.size()); // other ranks have zeros where one has a sum
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            words[k] = std::bit_cast<std::uint64_t>(sums[k]);
+        run_.ranks.sum(std::span(words));
+        const std::uint64_t* next = words.data();
+        for (const std::size_t lag : lags) {
+            std::vector<double> values;
+            std::array<double, n_moments> all{};
+            const auto add = [&values](const std::array<double, n_moments>& totals, double n) {
+                for (const double total : totals) values.push_back(total / n);
+                values.push_back((totals[overlaps] / n) * (totals[overlaps] / n));
+            };
+            for (std::size_t kind = 0; kind < ends_.size(); ++kind) {
+                std::array<double, n_moments> totals{};
+                for (std::size_t run = 0; run < n_runs(); ++run)
+                    for (double& total : totals) total += std::bit_cast<double>(*next++);
+                for (std::size_t m = 0; m < n_moments; ++m) all[m] += totals[m];
+                add(totals, n_of(kind));
+            }
+            add(all, static_cast<double>(discs_.n_discs()));
+            lags_[lag].add(values);
+        }
+    }
+
+    std::size_t n_runs() const {
+        return static_cast<std::size_t>((discs_.n_discs() + ids_of_run - 1) / ids_of_run);
+    }
+
+    double n_of(std::size_t kind) const {
+        return static_cast<double>(kind == ends_.size() ? ends_.back()
+                                   : kind == 0          ? ends_[0]
+                                                        : ends_[kind] - ends_[kind - 1]);
+    }
+
+    MeasuredTable table_of(std::string name, std::size_t kind) const {
+        MeasuredTable table{
+            std::move(name),
+            {fmt::format("means over discs and overlapping origins, with one standard error (nan "
+                         "where there are too few): squares: of displacements; velocities: "
+                         "v(0) v(steps); scattering: F_s at k = {:g}; alpha_2: "
+                         "<r^4> / (2 <r^2>^2) - 1; overlap: share of discs that are within {:g} of "
+                         "where they were; chi_4: N times its variance over origins",
+                         wavenumber_, overlap_),
+             "lengths in the scene's unit, times in steps"},
+            {"steps", "count", "squares", "squares_error", "velocities", "velocities_error",
+             "scattering", "scattering_error", "alpha_2", "overlap", "overlap_error", "chi_4"},
+            {}};
+        for (std::size_t lag = 0; lag < lags_.size(); ++lag) {
+            if (lags_[lag].n_samples() == 0) continue;
+            const std::vector<SampledMean> means = lags_[lag].means();
+            const SampledMean* const of = means.data() + (n_moments + 1) * kind;
+            const double r2 = of[squares].value, q = of[overlaps].value;
+            table.rows.push_back({static_cast<double>(scheme_.lag(lag)) *
+                                      static_cast<double>(run_.output.every_steps),
+                                  static_cast<double>(lags_[lag].n_samples()), r2,
+                                  of[squares].error, of[products].value, of[products].error,
+                                  of[waves].value, of[waves].error,
+                                  of[fourths].value / (2 * r2 * r2) - 1, q, of[overlaps].error,
+                                  n_of(kind) * (of[n_moments].value - q * q)});
+        }
+        return table;
+    }
+
+    FollowedDiscs discs_;
+    MultipleTau scheme_;
+    double wavenumber_, overlap_;
+    std::vector<DiscId> ends_; ///< of the ids of each species
+    std::uint64_t n_samples_ = 0;
+    std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
+    std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
+};
+
+bool needs_another_box(const Scene& s) {
+    return measures(s, "correlations") &&
+           (s.effects.have_open_boundaries() || s.effects.are_sheared());
+}
+
+} // namespace
+
+MeasuredQuantity correlations_quantity() {
+    return {{.name = "correlations",
+             .help = "Displacements, velocities, F_s, alpha_2 and chi_4 over decades of time.",
+             .keys = {correlation_points_key(),
+                      correlation_wavenumber
+                          .number("1/length", "Wave number of F_s.", "pi over the radius")
+                          .within({.low = 0, .excludes_low = true}),
+                      overlap_distance
+                          .number("length",
+                                  "Discs that are within it of where they were overlap "
+                                  "with themselves.",
+                                  "0.6 radii")
+                          .within({.low = 0, .excludes_low = true})},
+             .rules = {{.one = "\"correlations\"",
+                        .other = "an open or a sheared side",
+                        .why = "discs leave, or drift apart with the flow",
+                        .keys = {quantities_key},
+                        .is_broken = needs_another_box}},
+             .check = check_correlations},
+            make_measurement<Correlations>};
+}
+
+} // namespace carrom

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Correlations over decades of time, against frames of all discs that are compared pair by pair;
+// a restart between samples.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "measured_runs.hpp"
+#include "parallel/exchange.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr int n_correlated = 1300; ///< more than a run of ids that a rank has
+constexpr int n_light = 1100, sample_steps = 2, last_sample = 90;
+
+using SeenFrame = std::vector<SeenDisc>; ///< in the order of ids
+
+double mass_of_mixture(DiscId id) { return id < n_light ? 1 : 4; }
+
+/// Places are made continuous by nearest images, and seen from the centre of mass.
+void unwrap(std::vector<SeenFrame>& frames, double side) {
+    for (std::size_t t = 1; t < frames.size(); ++t)
+        for (std::size_t i = 0; i < frames[t].size(); ++i) {
+            SeenDisc& now = frames[t][i];
+            const SeenDisc& before = frames[t - 1][i];
+            now.x -= side * std::round((now.x - before.x) / side);
+            now.y -= side * std::round((now.y - before.y) / side);
+        }
+    for (SeenFrame& frame : frames)
+        for (double SeenDisc::* field :
+             {&SeenDisc::x, &SeenDisc::y, &SeenDisc::vx, &SeenDisc::vy}) {
+            double sum = 0, mass = 0;
+            for (const SeenDisc& disc : frame)
+                sum += mass_of_mixture(disc.id) * disc.*field, mass += mass_of_mixture(disc.id);
+            for (SeenDisc& disc : frame) disc.*field -= sum / mass;
+        }
+}
+
+/// What a row has from column "count" on, without errors, for ids from `begin` to `end`.
+std::vector<double> correlations_of(const std::vector<SeenFrame>& frames, int lag, int spacing,
+                                    int begin, int end, double k, double overlap) {
+    double r2 = 0, r4 = 0, vv = 0, waves = 0, q = 0, q2 = 0;
+    const double n = end - begin;
+    int count = 0;
+    for (int t = 0; t + lag < static_cast<int>(frames.size()); t += spacing) {
+        double near = 0;
+        for (int i = begin; i < end; ++i) {
+            const SeenDisc
+                &a = frames[static_cast<std::size_t>(t)][static_cast<std::size_t>(i)],
+                &b = frames[static_cast<std::size_t>(t + lag)][static_cast<std::size_t>(i)];
+            const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+            r2 += square / n;
+            r4 += square * square / n;
+            vv += (a.vx * b.vx + a.vy * b.vy) / n;
+            waves += (std::cos(k * dx) + std::cos(k * dy)) / (2 * n);
+            near += std::sqrt(square) < overlap ? 1 / n : 0;
+        }
+        q += near;
+        q2 += near * near;
+        ++count;
+    }
+    r2 /= count, r4 /= count, vv /= count, waves /= count, q /= count, q2 /= count;
+    return {static_cast<double>(count), r2, vv, waves, r4 / (2 * r2 * r2) - 1, q, n * (q2 - q * q)};
+}
+
+TestScene correlated_mixture(bool is_periodic) {
+    TestScene test = gas(n_correlated, 0.2, 0.6, 17);
+    test.setting.effects.species = {{n_light, test.setting.radius, 1},
+                                    {n_correlated - n_light, test.setting.radius, 4}};
+    if (is_periodic)
+        for (Boundary& side : test.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
+    test.setting.sync_every = 16;
+    test.steps = sample_steps * last_sample;
+    return test;
+}
+
+Scene with_correlations(const TestScene& test, Method method) {
+    Scene scene = measured(test, method, sample_steps);
+    scene.measurements->quantities = {"correlations"};
+    scene.measurements->give("correlation_points", 4);
+    scene.measurements->give("correlation_wavenumber", 0.7 / scene.radius);
+    scene.measurements->give("overlap_distance", 2 * scene.radius);
+    return scene;
+}
+
+bool are_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+} // namespace
+
+TEST_CASE("measurements: correlations are those of frames, pair by pair") {
+    const Communicator world = Communicator::world();
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        const TestScene test = correlated_mixture(true);
+        const Scene scene = with_correlations(test, method);
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        std::vector<SeenFrame> frames;
+        for (int sample = 0; sample <= last_sample; ++sample) {
+            advance_to(simulation, sampler, sample_steps * sample);
+            frames.push_back(seen_discs(simulation, world));
+        }
+        unwrap(frames, scene.box.x);
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        REQUIRE(tables.size() == 3);
+        const int ends[][2] = {{0, n_correlated}, {0, n_light}, {n_light, n_correlated}};
+        for (std::size_t table = 0; table < 3; ++table) {
+            INFO(tables[table].name);
+            // 1, 2, 3, 4, then 6, 8, 12, 16 ... 64, and 96 is too long
+            REQUIRE(tables[table].rows.size() == 12);
+            for (const std::vector<double>& row : tables[table].rows) {
+                const int lag = static_cast<int>(row[0]) / sample_steps;
+                int spacing = 1;
+                while (4 * spacing < lag) spacing *= 2;
+                const std::vector<double> expected = correlations_of(
+                    frames, lag, spacing, ends[table][0], ends[table][1], 0.7 / scene.radius,
+                    2 * scene.radius);
+                const std::vector<double> found = {row[1], row[2], row[4], row[6],
+                                                   row[8], row[9], row[11]};
+                INFO(lag);
+                CHECK(found[0] == expected[0]);
+                for (std::size_t k = 1; k < found.size(); ++k)
+                    CHECK(found[k] == Approx(expected[k]).epsilon(1e-12).margin(1e-12));
+            }
+        }
+    }
+}
+
+TEST_CASE("measurements: correlations go on between samples") {
+    const Communicator world = Communicator::world();
+    for (const bool is_periodic : {true, false}) {
+        const TestScene test = correlated_mixture(is_periodic);
+        const Scene scene = with_correlations(test, Method::event_driven);
+        Simulation whole = simulation_of(scene, test, world);
+        Sampler whole_sampler(scene, whole, world);
+        advance_to(whole, whole_sampler, test.steps);
+        Simulation first = simulation_of(scene, test, world);
+        Sampler first_sampler(scene, first, world);
+        advance_to(first, first_sampler, 75);
+        StoredState state{{first.discs().begin(), first.discs().end()}, first.micro_steps_done()};
+        Simulation second(scene, std::move(state), world, {});
+        Sampler sampler(scene, second, world);
+        sampler.go_on(first_sampler.stored());
+        advance_to(second, sampler, test.steps);
+        const std::vector<MeasuredTable> expected = whole_sampler.tables(),
+                                         tables = sampler.tables();
+        REQUIRE(tables.size() == expected.size());
+        for (std::size_t table = 0; table < tables.size(); ++table) {
+            REQUIRE(tables[table].rows.size() == expected[table].rows.size());
+            for (std::size_t row = 0; row < tables[table].rows.size(); ++row)
+                CHECK(std::equal(tables[table].rows[row].begin(), tables[table].rows[row].end(),
+                                 expected[table].rows[row].begin(), are_same));
+        }
+    }
+}
