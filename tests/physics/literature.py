@@ -253,15 +253,15 @@ def is_right(row, largest_error):
                row[f"{name}_error"] <= largest_error * row[f"{name}_known"] for name in names)
 
 
-def main():
+def main(description, studies):
     """Print a study line by line."""
-    parser = argparse.ArgumentParser(description=__doc__,
+    parser = argparse.ArgumentParser(description=description,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("carrom")
-    parser.add_argument("study", choices=STUDIES)
+    parser.add_argument("study", choices=studies)
     parser.add_argument("--short", action="store_true")
     options = parser.parse_args()
-    study, largest_of_short, largest = STUDIES[options.study]
+    study, largest_of_short, largest = studies[options.study]
     is_all_right = True
     for count, row in enumerate(study(options.carrom, options.short)):
         if count == 0:
@@ -275,4 +275,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(__doc__, STUDIES)

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Hold fields and transport of hard discs to the literature: prints a study as CSV.
+
+  tests/physics/flow_studies.py CARROM STUDY [--short]
+
+shock      a piston drives a shock; the gas behind it, against Rankine and Hugoniot's jumps with
+           Henderson's equation of state
+transport  viscosities, thermal conductivity and D in periodic boxes, against Enskog (Gass, J.
+           Chem. Phys. 54, 1898 (1971)); above a packing of 0.3 they are known to differ
+           (Garcia-Rojo, Luding and Brey, Phys. Rev. E 74, 061305 (2006)), so that nothing is held
+
+Exit codes and errors are those of tests/physics/literature.py.
+"""
+import math
+
+import literature
+
+PISTON_SPEED = 1.5
+LENGTH, WIDTH = 400, 50
+
+
+def henderson(packing):
+    """Z."""
+    return (1 + packing ** 2 / 8) / (1 - packing) ** 2
+
+
+def behind_shock(density, kt, radius, speed):
+    """Density, kT, pressure and the shock's speed, from the jumps of mass, momentum and energy."""
+    def pressure(n, t):
+        return n * t * henderson(n * math.pi * radius ** 2)
+
+    def state(shock):
+        n = density * shock / (shock - speed)
+        p = pressure(density, kt) + density * shock * speed
+        t = kt + (pressure(density, kt) + p) / 2 * (1 / density - 1 / n)
+        return n, t, p
+
+    low, high = speed * 1.05, speed * 10
+    for _ in range(200):
+        shock = (low + high) / 2
+        n, t, p = state(shock)
+        # Too slow a shock asks for a dense gas, whose own pressure is more than the jump gives.
+        low, high = (shock, high) if pressure(n, t) > p else (low, shock)
+    return *state(shock), shock
+
+
+def shock(program, is_short):
+    """A wall comes in at 1.5 into a gas with kT = 0.5, at a packing of 0.1."""
+    discs = 8_000 if is_short else 200_000
+    for seed in (1,) if is_short else (1, 2, 3):
+        radius = math.sqrt(0.1 * LENGTH * WIDTH / (discs * math.pi))
+        report = literature.run(
+            program, "piston.toml", box__size=f"[{LENGTH}, {WIDTH}]", discs__count=discs,
+            discs__seed=seed, box__right__speed=-PISTON_SPEED, time__steps=120,
+            output__measurements__quantities='["profiles"]', output__measurements__every_steps=1,
+            output__measurements__from_step=101, output__measurements__profile_columns=100,
+            output__measurements__profile_rows=1, output__measurements__profile_samples=20)
+        table = report["measurements"]["profiles"]
+        n, kt, p, front = behind_shock(discs / (LENGTH * WIDTH), 0.5, radius, PISTON_SPEED)
+        first, last = 101, 120 # the samples of the block
+        inside = [k for k, x in enumerate(table["x"])
+                  if LENGTH - front * first + 10 < x < LENGTH - PISTON_SPEED * last - 5]
+        def mean(column):
+            return sum(table[column][k] for k in inside) / len(inside)
+        # Momentum flux about the mean, and the collisions' part.
+        pressure = mean("xx") + mean("contact_xx")
+        # Counts fluctuate less than those of an ideal gas; samples are not independent.
+        error = 1 / math.sqrt(mean("count") * len(inside) / (last - first + 1))
+        yield {"discs": discs, "seed": seed, "cells": len(inside), "shock_speed": front,
+               "density": mean("density"), "density_error": error * mean("density"),
+               "density_known": n, "density_known_error": 0.0,
+               "kT": mean("temperature"), "kT_error": error * kt, "kT_known": kt,
+               "kT_known_error": 0.0,
+               "vx": -mean("vx"), "vx_error": error * math.sqrt(kt),
+               "vx_known": PISTON_SPEED, "vx_known_error": 0.0,
+               "P": pressure, "P_error": 2 * error * p, "P_known": p, "P_known_error": 0.0}
+
+
+def enskog(packing, kt):
+    """Shear and bulk viscosity and conductivity of discs of diameter 1 and mass 1."""
+    chi = (literature.factor(packing) - 1) / (2 * packing)
+    x = 2 * packing
+    shear, heat = 0.511 * math.sqrt(kt / math.pi), 2.058 * math.sqrt(kt / math.pi)
+    return (shear * (1 / chi + x + 0.8729 * chi * x ** 2), 1.246 * shear * chi * x ** 2,
+            heat * (1 / chi + 1.5 * x + 0.8718 * chi * x ** 2))
+
+
+def between(table, name, first, last):
+    """The coefficient from the spread's growth between two lags, and its error."""
+    at = [table["steps"].index(lag) for lag in (first, last)]
+    value, error, time = ([table[column][k] for k in at] for column in
+                          (name, f"{name}_error", "steps"))
+    span = time[1] - time[0]
+    return ((value[1] * time[1] - value[0] * time[0]) / span,
+            math.hypot(error[1] * time[1], error[0] * time[0]) / span)
+
+
+def transport(program, is_short):
+    """From 4 to 16 free times, in which what collisions have changed is forgotten."""
+    discs, steps = (256, 12_000) if is_short else (1024, 400_000)
+    for packing in (0.1, 0.3) if is_short else (0.05, 0.1, 0.2, 0.3, 0.4, 0.5):
+        report = literature.gas(program, discs, packing, 100, steps,
+                                output__measurements__quantities='["transport", "correlations"]',
+                                output__measurements__every_steps=1,
+                                output__measurements__from_step=100)
+        kt = report["temperature"]["value"]
+        row = {"packing": packing, "discs": discs, "collisions": report["pair_collisions"]}
+        table = report["measurements"]["transport"]
+        for name, known in zip(("shear", "bulk", "conductivity"), enskog(packing, kt)):
+            value, error = between(table, name, 4, 16)
+            scale = math.sqrt(kt)
+            is_held = packing <= 0.3 and name != "bulk"
+            row |= {name: value / scale, f"{name}_error": error / scale,
+                    f"{name}_enskog": known / scale,
+                    f"{name}_known": known / scale if is_held else "",
+                    f"{name}_known_error": 0.03 * known / scale if is_held else ""}
+        yield row
+
+
+STUDIES = {"shock": (shock, 0.05, 0.01), "transport": (transport, 0.2, 0.03)}
+
+if __name__ == "__main__":
+    literature.main(__doc__, STUDIES)
