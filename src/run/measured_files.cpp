@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "io/table_file.hpp"
+#include "measure/hdf5_key.hpp"
 #include "parallel/agreement.hpp"
 #include "run/files/csv_table.hpp"
 #include "run/files/report_file.hpp"
@@ -50,6 +52,9 @@ void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
             if (failure.empty() && !table.grows)
                 failure = write_whole_file(path_of(scene, table), csv_of(table, scene.name));
         }
+        if (failure.empty() && hdf5_setting.of(*scene.measurements) != 0)
+            failure = write_table_file(
+                (std::filesystem::path(scene.measurements->folder) / "tables.h5").string(), tables);
     }
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }

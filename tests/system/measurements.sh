@@ -41,6 +41,30 @@ run 2 run gas.toml --quiet "${around[@]}" "${flights[@]}" -o kept_around --resta
 expect_code 0 'all round, the second stretch'
 diff -r whole_around/measurements kept_around/measurements >/dev/null ||
     complain "all round: $(diff -rq {whole,kept}_around/measurements)"
+# Fields, correlations and transport, the restart within a block of profiles.
+fields=(--set 'output.measurements.quantities=["profiles","correlations","transport"]'
+        --set output.measurements.profile_columns=7 --set output.measurements.profile_rows=3
+        --set output.measurements.profile_samples=5 --set output.measurements.hdf5=1)
+for method in time-stepped event-driven; do
+    by=(--set time.method=$method "${around[@]}" "${fields[@]}")
+    run 1 run gas.toml --quiet "${by[@]}" -o whole_fields_$method
+    expect_code 0 "fields, $method, one rank"
+    run 3 run gas.toml --quiet --threads 2 --steps 50 "${by[@]}" -o kept_fields_$method
+    expect_code 0 "fields, $method, three ranks"
+    run 2 run gas.toml --quiet "${by[@]}" -o kept_fields_$method --restart latest
+    expect_code 0 "fields, $method, the second stretch"
+    diff -r {whole,kept}_fields_$method/measurements >/dev/null ||
+        complain "fields: $(diff -rq {whole,kept}_fields_$method/measurements)"
+    [ "$(ls whole_fields_$method/measurements | wc -l)" -eq 5 ] || complain 'fields: no five files'
+done
+run 1 run gas.toml -o x "${fields[@]}"
+expect_code 2 'transport between walls'
+expect_told 'periodic all round' 'transport between walls'
+run 1 run gas.toml -o x "${around[@]}" "${fields[@]}" --set output.measurements.profile_rows=300 \
+    --set output.measurements.correlation_points=12
+expect_code 2 'a grid finer than the discs'
+expect_told 'a grid of 2100 cells for "profiles" is more than the 400 discs' 'a grid'
+expect_told 'must be 4, 8, 16, 32 or 64, not 12' 'points of a level'
 run 1 run gas.toml -o x "${around[@]}" "${flights[@]}" \
     --set output.measurements.correlation_steps=20 --set output.measurements.largest_wavenumber=1e4
 expect_code 2 'wrong windows and wavenumbers'

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "measure/followed_discs.hpp"
+#include "measure/hdf5_key.hpp"
 #include "measure/multiple_tau.hpp"
 #include "parallel/pieces.hpp"
 #include "statistics/blocking.hpp"
@@ -38,7 +39,8 @@ void check_correlations(const Check& check) {
                                    std::numbers::pi / scene.radius);
     if (!check.settings.has(overlap))
         scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
-    check_correlation_points(check);
+    if (!scene.measurements->measures("transport")) // which checks them itself
+        check_correlation_points(check);
     if (scene.effects.species.size() > most_species)
         check.refuse({quantities_key},
                      fmt::format("\"correlations\" of {} species; at most {} have tables of their "
@@ -239,7 +241,7 @@ bool needs_another_box(const Scene& s) {
 MeasuredQuantity correlations_quantity() {
     return {{.name = "correlations",
              .help = "Displacements, velocities, F_s, alpha_2 and chi_4 over decades of time.",
-             .keys = {correlation_points_key(),
+             .keys = {correlation_points_key(), hdf5_key(),
                       correlation_wavenumber
                           .number("1/length", "Wave number of F_s.", "pi over the radius")
                           .within({.low = 0, .excludes_low = true}),

@@ -15,6 +15,7 @@
 #include "dynamics/species.hpp"
 #include "engine/pair_event.hpp"
 #include "measure/field_sums.hpp"
+#include "measure/hdf5_key.hpp"
 #include "measure/measurement.hpp"
 #include "measure/speeds.hpp"
 #include "scene/limits.hpp"
@@ -316,7 +317,8 @@ MeasuredQuantity profiles_quantity() {
                       .within({1, largest_steps}),
                   profile_species
                       .integer("1", "1: \"profiles\" has tables of each species as well.")
-                      .within({0, 1})},
+                      .within({0, 1}),
+                  hdf5_key()},
          .check = check_grid},
         make_measurement<Profiles>};
 }

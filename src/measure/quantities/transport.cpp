@@ -16,6 +16,7 @@
 #include "core/exact_sum.hpp"
 #include "dynamics/species.hpp"
 #include "engine/pair_event.hpp"
+#include "measure/hdf5_key.hpp"
 #include "measure/measurement.hpp"
 #include "measure/multiple_tau.hpp"
 #include "measure/pressure_sampler.hpp"
@@ -249,7 +250,7 @@ bool is_another_gas(const Scene& s) {
 MeasuredQuantity transport_quantity() {
     return {{.name = "transport",
              .help = "Viscosities and thermal conductivity from exact integrals over events.",
-             .keys = {correlation_points_key()},
+             .keys = {correlation_points_key(), hdf5_key()},
              .rules = {{.one = "\"transport\"",
                         .other = "walls or effects",
                         .why = "it takes equal elastic discs in a box that is periodic all round",
