@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run scenes that measure fields and correlations, and draw what they have measured.
+
+  build/python/bin/python docs/tools/fields.py build/carrom [NAME ...] [--output docs/pictures]
+
+NAME is shock, transport or slow_liquid. Together they take some minutes.
+"""
+import argparse
+import pathlib
+import subprocess
+import tempfile
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+
+
+def read(path):
+    """Columns of a table by name."""
+    return np.genfromtxt(path, delimiter=",", names=True, comments="#",
+                         skip_header=sum(line.startswith("#") for line in open(path)))
+
+
+def draw_shock(figure, measured):
+    """Profiles at the end, with what Rankine and Hugoniot's jumps give behind the front."""
+    table = read(measured / "profiles.csv")
+    table = table[table["to_step"] == table["to_step"].max()]
+    curves = (("density", table["density"], 0.7490), ("kT", table["temperature"], 1.9130),
+              ("pressure", table["xx"] + table["contact_xx"], 2.1787))
+    for axes, (name, values, known) in zip(figure.subplots(1, 3), curves):
+        axes.plot(table["x"], values, color="#0060b0")
+        axes.axhline(known, color="black", linewidth=0.8, linestyle="--")
+        axes.set(xlabel="x", ylabel=name, ylim=(0, None))
+
+
+def draw_transport(figure, measured):
+    """Coefficients by the time up to which currents are correlated; dashes are Enskog's."""
+    table = read(measured / "transport.csv")
+    table = table[table["steps"] <= 128]
+    curves = (("shear", 0.3138), ("bulk", 0.1449), ("conductivity", 1.4837))
+    for axes, (name, known) in zip(figure.subplots(1, 3), curves):
+        axes.semilogx(table["steps"], table[f"{name}_slope"], ".-", color="#c05000",
+                      label="Green-Kubo")
+        axes.errorbar(table["steps"], table[name], table[f"{name}_error"], color="#0060b0",
+                      label="Helfand")
+        axes.axhline(known, color="black", linewidth=0.8, linestyle="--")
+        axes.set(xlabel="steps", ylabel=name, ylim=(0, None))
+        axes.legend(fontsize=8)
+
+
+def draw_slow_liquid(figure, measured):
+    """F_s, mean square displacement and chi_4 of small and large discs."""
+    for axes, (name, scale) in zip(figure.subplots(1, 3), (("scattering", "linear"),
+                                                           ("squares", "log"),
+                                                           ("chi_4", "linear"))):
+        for kind, colour in ((1, "#0060b0"), (2, "#c05000")):
+            table = read(measured / f"correlations_{kind}.csv")
+            table = table[table["count"] >= 25]
+            axes.plot(table["steps"], table[name], ".-", color=colour,
+                      label=("small", "large")[kind - 1])
+        axes.set(xlabel="steps", ylabel=name, xscale="log", yscale=scale)
+        axes.legend(fontsize=8)
+
+
+PICTURES = {"shock": draw_shock, "transport": draw_transport, "slow_liquid": draw_slow_liquid}
+
+
+def main():
+    """Draw the pictures that are asked for."""
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("names", nargs="*", metavar="NAME", choices=[*PICTURES, []])
+    parser.add_argument("--output", type=pathlib.Path, default=TOP / "docs/pictures")
+    options = parser.parse_args()
+    for name in options.names or PICTURES:
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([options.program.resolve(), "run", TOP / f"inputs/{name}.toml",
+                            "--quiet", "-o", f"{folder}/run"], check=True)
+            figure = plt.figure(figsize=(10, 3), layout="constrained")
+            PICTURES[name](figure, pathlib.Path(folder, "run/measurements"))
+            figure.savefig(options.output / f"{name}.png", dpi=72)
+
+
+if __name__ == "__main__":
+    main()
