@@ -5,7 +5,7 @@
 # was stopped goes on with the same command. It needs an idle machine, and takes some ten minutes.
 #
 #   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core, into build/accuracy
-#   CORES=2 job_scripts/accuracy_study.sh            on two cores, each of which runs half the trials
+#   CORES=2 job_scripts/accuracy_study.sh            on two cores, each with half the trials
 #   PAGE=docs/understanding/accuracy.md job_scripts/accuracy_study.sh
 #                                                    writes the tables of that page, too
 #   SHARE=2/8 job_scripts/accuracy_study.sh FOLDER   the second of eight shares: its own tables and

@@ -301,10 +301,18 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(),      discs_.n_own(),   &discs_.grid(),
-                             own_cells_,        window_,          this->is_followed(),
-                             &discs_.columns(), this->no_stress_, this->flown_before_,
-                             box_cells_,        is_alone_,        this->pair_events_ != nullptr,
+    const BlockGround ground{discs_.all(),
+                             discs_.n_own(),
+                             &discs_.grid(),
+                             own_cells_,
+                             window_,
+                             this->is_followed(),
+                             &discs_.columns(),
+                             this->no_stress_,
+                             this->flown_before_,
+                             box_cells_,
+                             is_alone_,
+                             this->pair_events_ != nullptr,
                              static_cast<double>(this->micro_steps_)};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {

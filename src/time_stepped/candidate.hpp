@@ -18,7 +18,7 @@ namespace carrom {
 inline constexpr LocalIndex wall_index = std::numeric_limits<LocalIndex>::max();
 
 struct Candidate {
-    double time = 0;            ///< in-step time of its micro-step, in [0, 1]
+    double time = 0;                  ///< in-step time of its micro-step, in [0, 1]
     LocalIndex p = 0, q = wall_index; ///< p has the lower id
 
     bool is_wall() const { return q == wall_index; }

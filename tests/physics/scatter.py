@@ -80,7 +80,7 @@ QUANTITIES = {
     "kurtosis": average("averages", "speed_kurtosis"),
     "psi6": measured("psi6", "psi6"),
     "D": measured("diffusion", "D"),
-    # g at contact, between the first two shells and in the second one; S of long and of short waves;
+    # g at contact, between the first two shells and in the second one; S of long and short waves;
     # velocities a sample later, and squares of displacements after five samples.
     "g(2.0)": measured("radial_distribution", "g", 8),
     "g(3.0)": measured("radial_distribution", "g", 12),

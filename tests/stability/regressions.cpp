@@ -118,6 +118,7 @@ std::string toml_of(const Effects& effects, Method method) {
             break;
         case BoundaryKind::open: text += "kind = \"open\"\n"; break;
         case BoundaryKind::periodic: text += "kind = \"periodic\"\n"; break;
+        case BoundaryKind::sheared: text += "kind = \"sheared\"\n"; break; // no test draws one
         case BoundaryKind::wall: break;
         }
         if (side.restitution < 1) text += fmt::format("restitution = {:.17g}\n", side.restitution);

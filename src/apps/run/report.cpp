@@ -81,6 +81,12 @@ nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
     return all;
 }
 
+template <class Numbers> nlohmann::ordered_json by_name(const Numbers& numbers) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::object();
+    for (const auto& [name, number] : numbers) all[name] = number;
+    return all;
+}
+
 /// That of the centre of mass of the discs in the box. Where discs of several masses have left, the
 /// mass of the others is not known.
 nlohmann::ordered_json drift_velocity(const Scene& scene, const Totals& end) {
@@ -100,10 +106,6 @@ nlohmann::ordered_json drift_velocity(const Scene& scene, const Totals& end) {
 } // namespace
 
 std::string report_text(const Scene& scene, const RunResult& result) {
-    nlohmann::ordered_json phases = nlohmann::ordered_json::object();
-    for (const auto& [name, seconds] : result.phase_seconds) phases[name] = seconds;
-    nlohmann::ordered_json phase_imbalance = nlohmann::ordered_json::object();
-    for (const auto& [name, imbalance] : result.phase_imbalance) phase_imbalance[name] = imbalance;
     nlohmann::ordered_json report = {
         {"version", version()},
         {"scene", scene.name},
@@ -140,8 +142,8 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"windows_redone", result.runs.windows_redone},
         {"block_replays", result.runs.blocks},
         {"block_replays_redone", result.runs.blocks_redone},
-        {"phase_seconds", phases},
-        {"phase_imbalance", phase_imbalance},
+        {"phase_seconds", by_name(result.phase_seconds)},
+        {"phase_imbalance", by_name(result.phase_imbalance)},
         {"imbalance", result.imbalance},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
