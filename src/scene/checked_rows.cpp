@@ -18,7 +18,7 @@ bool come_to_rest(const Effects& effects, std::size_t floor, std::size_t first_w
     const bool lose_energy = effects.contact.kind == ContactKind::restitution ||
                              effects.contact.kind == ContactKind::rough;
     const auto is_fixed = [&](std::size_t side) {
-        return effects.boundaries[side].kind == BoundaryKind::wall;
+        return effects.boundaries[side].kind == BoundaryKind::fixed;
     };
     return lose_energy && !effects.obstacles.are_any() && effects.species.empty() &&
            is_fixed(floor) && is_fixed(first_wall) && is_fixed(first_wall + 1);
