@@ -110,7 +110,7 @@ def check_searches():
     for name, (place, version) in asked.items():
         if name not in listed:
             problems.append(f"{place} asks for {name}, which {page.name} does not list")
-        elif version and not listed[name]["at least"].startswith(version):
+        elif version and not listed[name]["at least"].startswith(version.split("...")[0]):
             least = listed[name]["at least"]
             problems.append(f"{place} asks for {name} {version}, {page.name} says {least}")
     for name in listed:

@@ -211,7 +211,7 @@ TEST_CASE("measurements: any grid of profiles adds up to the same totals") {
             // Half the trace of the collisions' part is P - N kT / A, and "pressure" has both from
             // sums of its own. The first block is two intervals long, and the second one three.
             const std::vector<double> pressures = column_of(one, "pressure_history", "pressure"),
-                                      kT = column_of(one, "pressure_history", "kT"),
+                                      kT = column_of(one, "pressure_history", "temperature"),
                                       xx = column_of(one, "profiles_total", "contact_xx"),
                                       yy = column_of(one, "profiles_total", "contact_yy");
             const double density = 300 / test.setting.box().area();
