@@ -61,7 +61,7 @@ def test_a_table_shows_its_ends(run: carrom.Run) -> None:
     body = [item for item in parsed(html).iter() if item.tag == "tr"]
     assert len(body) == 1 + 10 + 1 + 10
     assert table["g"]._repr_html_() is None
-    assert "from, to, pairs, g" in words(run.tables._repr_html_())
+    assert "from, to, pairs, g, g_error" in words(run.tables._repr_html_())
 
 
 def test_what_is_shown_is_escaped() -> None:
