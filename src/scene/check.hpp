@@ -72,4 +72,7 @@ void check_times(const Check& check);
 /// problem, with `why` as the reason.
 void limit_contact_time(const Check& check, double longest, std::string_view why);
 
+/// Refuses heaps whose rows fill the box from wall to wall.
+void check_rows(const Check& check);
+
 } // namespace carrom

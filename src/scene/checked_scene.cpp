@@ -117,6 +117,7 @@ void fill_scene(Scene& scene, Settings& settings, Problems& problems, const Disc
         for (const BoundaryDeclaration& kind : all_boundaries())
             if (kind.check_room) kind.check_room(check);
         check_quantities(check);
+        check_rows(check);
         for (const EffectDeclaration& effect : all_effects())
             if (effect.check_room) effect.check_room(check);
     }

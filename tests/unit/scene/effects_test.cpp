@@ -340,3 +340,21 @@ TEST_CASE("A restart cannot change effects") {
     CHECK(physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", there))
               .empty());
 }
+
+TEST_CASE("Heaps whose rows fill the box from wall to wall are refused") {
+    const Texts heap = {"time.method=event-driven", "effects.gravity.y=-0.02",
+                        "effects.contact.kind=restitution", "effects.contact.restitution=0.8"};
+    const auto problems = [&heap](const Texts& more) {
+        Texts all = heap;
+        all.insert(all.end(), more.begin(), more.end());
+        return problems_with(all);
+    };
+    CHECK(has(problems({}), "a row of 50 discs at rest fills the box of 100"));
+    CHECK(has(problems({}), "try: box.size = 100.2"));
+    for (const Texts& more :
+         {Texts{"discs.count=49"}, Texts{"box.size=100.2"}, Texts{"discs.radius=0.99"},
+          Texts{"box.bottom.kind=open"}, Texts{"box.left.kind=periodic", "box.right.kind=periodic"},
+          Texts{"effects.obstacles.discs=[[10, 20, 4]]"}})
+        CHECK(problems(more).empty());
+    CHECK(problems_with({"time.method=event-driven", "effects.gravity.y=-0.02"}).empty());
+}
