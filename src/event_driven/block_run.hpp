@@ -21,6 +21,7 @@
 #include "dynamics/all_dynamics.hpp"
 #include "engine/stress_sums.hpp"
 #include "event_driven/box_layout.hpp"
+#include "event_driven/size_levels.hpp"
 
 namespace carrom {
 
@@ -60,6 +61,8 @@ struct BlockGround {
     BoxCells box_cells{};                 ///< for runs of the whole box
     bool is_alone = false; ///< there is one run, of the whole box: nobody compares histories, and
                            ///< the grid says nothing
+    std::span<const SizeLevel> levels{}; ///< of discs of several sizes
+    Extent extent{};                     ///< the box, for runs of all of it
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners

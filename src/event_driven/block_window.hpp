@@ -16,7 +16,7 @@ namespace carrom {
 /// What the choice depends on: lengths in the scene's unit, times in micro-steps.
 struct BlockNeeds {
     Box box;
-    double radius = 0;
+    double radius = 0; ///< the largest
     double n_discs = 0;
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
@@ -27,6 +27,7 @@ struct BlockNeeds {
     int more_halo = 0;         ///< reaches more than where few runs are repeated
     bool goes_round_x = false, goes_round_y = false; ///< a halo does not end with the box: it has
                                                      ///< images, if need be many of each disc
+    double radius_to_look_for = 0; ///< of equal discs with as many others around them
 };
 
 struct BlockChoice {

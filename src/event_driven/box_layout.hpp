@@ -48,6 +48,19 @@ public:
     void lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
+    /// The same in levels, one behind the other, each with its own cells. First forgets what was
+    /// laid.
+    void clear();
+    /// Places of the own discs, and of one copy of each other one.
+    const std::vector<LocalIndex>& list_once(std::span<const Disc> discs, std::size_t n_own);
+    /// Gives slots to `listed`, which are places among `discs`. Of those before `n_own` the image
+    /// is the one in the box. Returns where the starts of these cells begin.
+    std::size_t add_level(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+                          std::size_t n_own, const BoxCells& cells, const Periods& periods,
+                          double time);
+    /// By slot of the last level: the place in its list.
+    const std::vector<std::uint32_t>& order() const { return sorted_; }
+
     /// By slot: the place among the discs that were given. Of a ghost the one of its disc.
     const std::vector<LocalIndex>& indices() const { return indices_; }
     /// Where the slots of each cell begin, cells beyond the sides included; one more to a column.
@@ -69,10 +82,9 @@ private:
         int home = 0; ///< the line of cells in the box that is seen there
     };
 
-    void list_once(std::span<const Disc> discs, std::size_t n_own);
-    void sort(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
-              const Periods& periods, double time);
-    void add_ghosts(const BoxCells& cells, std::span<const Line> columns,
+    void sort(std::span<const Disc> discs, std::span<const LocalIndex> listed, std::size_t n_own,
+              const BoxCells& cells, const Periods& periods, double time);
+    void add_ghosts(const BoxCells& cells, std::size_t first_start, std::span<const Line> columns,
                     std::span<const Line> rows);
     void lay_sliding(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
                      const Periods& periods, double time);
@@ -82,7 +94,8 @@ private:
     std::vector<std::uint32_t> starts_;
     std::vector<Ghost> ghosts_;
     std::vector<std::uint32_t> ghost_at_, first_ghost_; ///< by slot
-    std::vector<LocalIndex> listed_, sorted_;           ///< each disc once; by cells of the box
+    std::vector<LocalIndex> listed_;                    ///< each disc once
+    std::vector<std::uint32_t> sorted_;                 ///< places in the list, by cells of the box
     std::vector<std::uint32_t> cell_of_, box_starts_;   ///< of `listed_`; of `sorted_`
     std::vector<LocalIndex> id_table_;
 };

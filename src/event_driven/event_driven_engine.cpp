@@ -39,7 +39,10 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
                                                const Communicator& communicator,
                                                const Tuning& tuning,
                                                const BlockTuning& block_tuning)
-    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning) {
+    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
+      levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
+                                 static_cast<double>(scene.n_discs), scene.box.area(),
+                                 block_tuning.parts_sizes)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
     this->distribute();
@@ -150,6 +153,8 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
+    needs.radius_to_look_for = radius_to_look_for(levels_) * dynamics_.growth_at(time_) +
+                               dynamics_.slack();
     needs.n_discs = n;
     needs.speed_bound = speed_bound;
     needs.time = time_;
@@ -291,19 +296,11 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const
                                                  std::max(width, height) / n_blocks));
 }
 
-/// The share of all ranks' blocks that have to run. **Collective.**
-template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
-    std::uint64_t n[] = {0, blocks_.size()};
-    for (const Block& block : blocks_) n[0] += block.is_marked;
-    communicator_.sum(n);
-    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
-}
-
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{
-        discs_.all(),        discs_.n_own(),    &discs_.grid(),   own_cells_, window_,
-        this->is_followed(), &discs_.columns(), this->no_stress_, box_cells_, is_alone_};
+    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(),    own_cells_,
+                             window_,      this->is_followed(), &discs_.columns(), this->no_stress_,
+                             box_cells_,   is_alone_,           levels_,           extent()};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
