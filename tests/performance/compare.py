@@ -262,7 +262,10 @@ def main():
     parser.add_argument("--output", required=True)
     parser.add_argument("--minutes", type=float, default=7)
     parser.add_argument(
-        "--edmd", nargs="*", default=[], help="programs that planar_edmd.py builds; the fastest counts"
+        "--edmd",
+        nargs="*",
+        default=[],
+        help="programs that planar_edmd.py builds; the fastest counts",
     )
     parser.add_argument("--only", default="*", help="cases by name, as in '*, 1e6*'")
     parser.add_argument("--short", action="store_true")

@@ -99,6 +99,38 @@ class Case:
     edmd: bool = False
 
 
+def beside_edmd():
+    found = {}
+    for packing in (0.3, 0.5, 0.7):
+        for name, n_discs in (
+            ("870", 870),
+            ("4096", 4096),
+            ("1e4", 10_000),
+            ("1e5", 100_000),
+            ("1e6", 1_000_000),
+        ):
+            if packing == 0.7 and n_discs == 1_000_000:
+                continue  # it would grow for minutes in each round
+            found[f"periodic, packing {packing}, {name}"] = Case(
+                lambda s, n=n_discs, e=packing: periodic(n, e, s(2_000_000)),
+                unit="collisions",
+                edmd=True,
+            )
+    return found
+
+
+def unequal_sizes():
+    found = {}
+    for ratio in (1, 3, 10, 30):
+        found[f"sizes 1 and {ratio}, packing 0.4"] = Case(
+            lambda s, r=ratio: mixture(10_000, r, 0.4, s(40)), unit="collisions", edmd=True
+        )
+    found["sizes of 23 %, packing 0.4"] = Case(
+        lambda s: polydisperse(10_000, 0.4, s(40)), unit="collisions", edmd=True
+    )
+    return found
+
+
 def cases():
     found = {
         "slow gas, 1e5": Case(
@@ -133,31 +165,4 @@ def cases():
         ("1e7", 10_000_000, 8),
     ):
         found[f"gas, {name}"] = Case(lambda s, n=n_discs, k=steps: gas(n, s(k)))
-    for packing in (0.3, 0.5, 0.7):
-        for name, n_discs in (
-            ("870", 870),
-            ("4096", 4096),
-            ("1e4", 10_000),
-            ("1e5", 100_000),
-            ("1e6", 1_000_000),
-        ):
-            if packing == 0.7 and n_discs == 1_000_000:
-                continue  # it would grow for minutes in each round
-            found[f"periodic, packing {packing}, {name}"] = Case(
-                lambda s, n=n_discs, e=packing: periodic(n, e, s(2_000_000)),
-                unit="collisions",
-                edmd=True,
-            )
-    for packing, steps in ((0.4, 40),):
-        for ratio in (1, 3, 10, 30):
-            found[f"sizes 1 and {ratio}, packing {packing}"] = Case(
-                lambda s, r=ratio, e=packing, k=steps: mixture(10_000, r, e, s(k)),
-                unit="collisions",
-                edmd=True,
-            )
-        found[f"sizes of 23 %, packing {packing}"] = Case(
-            lambda s, e=packing, k=steps: polydisperse(10_000, e, s(k)),
-            unit="collisions",
-            edmd=True,
-        )
-    return found
+    return found | beside_edmd() | unequal_sizes()
