@@ -7,7 +7,7 @@
 #   tests/performance/page.py                               then draws the page anew
 #
 # Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
-# more. EDMD names the programs that planar_edmd.py builds, as EDMD="cell multi"; the fastest counts.
+# more. EDMD names programs that planar_edmd.py builds, as EDMD="cell multi"; the fastest counts.
 # MOST_RANKS=1024 takes half an hour longer on the simulated cluster (256), and 13 GB for each of as
 # many simulations as there are cores: see
 # `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works;

@@ -20,8 +20,8 @@ import sys
 import tempfile
 
 CELLS = 2200  # along a side: enough for 1e6 discs at a packing fraction of 0.17
-# What is replaced, by what, and how often it is there. First what both variants need: two components
-# of velocity at kT = 1, no output on the way, and the time that a number of collisions takes.
+# What is replaced, by what, and how often it is there. First what both variants need: two
+# components of velocity at kT = 1, no output on the way, and the time that a number of collisions takes.
 BOTH = [
     ("p->vz = imsq * random_gaussian();", "p->vz = 0;", 1),
     ("double fac = sqrt(3.0 /", "double fac = sqrt(2.0 /", 1),
@@ -94,7 +94,7 @@ def main():
     parser.add_argument("source", type=pathlib.Path, help="a clone of EDMD")
     parser.add_argument("program", type=pathlib.Path, help="what to build")
     parser.add_argument("--variant", choices=sorted(CHANGES), default="Cell")
-    parser.add_argument("--neighbours", type=int, help="most neighbours of a disc, for Multi")
+    parser.add_argument("--neighbours", type=int, help="room for neighbours, in Multi")
     parser.add_argument("--flags", nargs="*", default=[], help="more of them for the compiler")
     options = parser.parse_args()
     variant = options.source / options.variant
