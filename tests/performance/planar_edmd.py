@@ -21,7 +21,8 @@ import tempfile
 
 CELLS = 2200  # along a side: enough for 1e6 discs at a packing fraction of 0.17
 # What is replaced, by what, and how often it is there. First what both variants need: two
-# components of velocity at kT = 1, no output on the way, and the time that a number of collisions takes.
+# components of velocity at kT = 1, no output on the way, and the time that a number of collisions
+# takes.
 BOTH = [
     ("p->vz = imsq * random_gaussian();", "p->vz = 0;", 1),
     ("double fac = sqrt(3.0 /", "double fac = sqrt(2.0 /", 1),
@@ -106,7 +107,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         changed = pathlib.Path(folder) / "planar.c"
         changed.write_text(text, encoding="utf-8")
-        words = [*COMPILER, *options.flags, f"-I{variant}", str(changed), "-o", options.program, "-lm"]
+        flags = [*options.flags, f"-I{variant}"]
+        words = [*COMPILER, *flags, str(changed), "-o", options.program, "-lm"]
         subprocess.run(words, check=True)
 
 
