@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Collisions within `Dynamics::cascade_interval` that are a cascade: of a block, and per disc.
+/// More collisions of a block, and per disc, within `Dynamics::cascade_interval` are a cascade.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
@@ -73,7 +73,7 @@ template <class Dynamics> Flight BlockRun<Dynamics>::Scratch::flight_of(std::uin
     return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
 }
 
-/// No branches on signs, which are anything: a flight ends where it began or on either side of it.
+/// Has no branches on signs: they are random, so a processor would predict half of them wrongly.
 template <class Dynamics>
 FlightBox BlockRun<Dynamics>::Scratch::box_of(const Flight& flight) const {
     const float half = (1 - flight.now) / 2;
@@ -83,8 +83,8 @@ FlightBox BlockRun<Dynamics>::Scratch::box_of(const Flight& flight) const {
     return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
 }
 
-/// Fills `runs` with the slots of discs that were in the box at the window's start, and makes room
-/// for all of them in the lists of partners.
+/// Fills `runs` with the slots of the cells that the flight box covers, and makes room for all of
+/// them in the lists of partners.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const FlightBox& box) {
     const auto cell = [](float place, float last) {
         const float above = place > 0 ? place : 0;
@@ -133,9 +133,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     }
 }
 
-/// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the seam
-/// neither disc may come first. So all partners of each disc are looked for, and a pair may be
-/// found twice.
+/// If rows slide, the ghosts of a pair need not lie in opposite cells, and a search that tries each
+/// pair from its first disc only may miss a pair across the seam. So this searches all partners of
+/// each disc, and may find a pair twice.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs_of_all() {
     for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
         if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
@@ -149,9 +149,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const 
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
 }
 
-/// Of two discs that have just collided: they touch, so both look at nearly the same cells. Whether
-/// they meet again is asked once and of the predicate alone; who comes near either of them lies in
-/// the box that holds both of theirs.
+/// Predicts for two discs that have just collided. They touch, so one search of the box around both
+/// flights is faster than two searches. The filter leaves out the pair itself, so the predicate
+/// alone decides whether these two meet again.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
     if (!dynamics.has_pairs()) return;
@@ -198,8 +198,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     push(dynamics.y_wall_time(disc), slot, y_wall);
 }
 
-/// The obstacle that the disc comes to first. One that it has just left is left out at that time,
-/// as with pairs.
+/// Predicts the first obstacle that the disc meets. At the time of its last collision the obstacle
+/// that it has just left does not count, for the same reason as a pair that has just collided.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std::uint32_t slot) {
     if constexpr (Dynamics::may_have_obstacles) {
         if (!dynamics.has_obstacles()) return;
@@ -249,15 +249,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     }
     if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
     const bool is_corner = event.q == x_wall && dynamics.y_wall_time(discs[event.p]) == event.time;
-    const double vy_before = discs[event.p].vy; // a thermal wall changes it, and so what comes next
+    const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy
     carry_out(event);
-    const bool has_left =
-        Dynamics::may_lose_discs &&
-        discs[event.p].has_departed(); // through the first side: then the other one is none
+    const bool has_left = Dynamics::may_lose_discs &&
+                          discs[event.p].has_departed(); // the disc left through the first side
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // nothing may come between the two walls: x and y are alike
+             vy_before)) { // no other event may come in between, because x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -274,7 +273,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     predict_pairs_of(event.p, event.q);
 }
 
-/// Rewrites the states of an event's discs and writes down what has happened to them.
+/// Changes the states of an event's discs, and adds the event to their histories and the sums.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Event& event) {
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
@@ -303,7 +302,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     }
 }
 
-/// Two discs, the second one where the event's image has it.
+/// Collides two discs, with the second one at the place of the event's image.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     Disc &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
@@ -324,8 +323,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }
 
-/// Of a disc that an own one has met. Nobody compares what happens beyond the ring. Who comes from
-/// there has got further than the bound on speeds allows, in truth or because the run is wrong.
+/// Reports a disc from beyond the ring that an own disc has met, because its history is not
+/// compared. It has come further than the speed bound allows, or the run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;
     outcome->far_partner = std::max({outcome->far_partner,
@@ -333,7 +332,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::u
                                      ground.window.speed_bound * (1 + 1e-6)});
 }
 
-/// Writes down what has happened to one of an event's discs.
+/// Adds an event to the history of one of its discs.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
                                        const Event& event) {
@@ -360,10 +359,10 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
         layout.for_ghosts_of(slot, [this](const Ghost& ghost) { place_ghost(ghost); });
 }
 
-/// What makes a window exact is that no disc gets further from its place at the start than the
-/// bound on speeds would take it until then. So one that is faster for a while is none the worse
-/// for it, if it was slower before. It is given up if it might get too far before the window ends,
-/// or if it collides again when it is not back on schedule.
+/// A window is exact if no disc is ever further from its place at the start than the speed bound
+/// would have taken it by then. So a disc may exceed the bound for a while without harm if it was
+/// slower before. The run is void if the disc might get too far before the window ends, or if it
+/// collides again while it is too far away.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const Disc &disc = discs[slot], &at_start = ground.discs[indices[slot]];
@@ -371,14 +370,15 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
     const double elapsed = time - window.begin;
     double dx = disc.x - at_start.x_at(window.begin);
     const double dy = disc.y - at_start.y_at(window.begin);
-    if constexpr (Dynamics::has_moving_images) // of the fastest image next to the disc
+    if constexpr (Dynamics::has_moving_images) // the fastest image next to the disc counts
         dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
              std::fabs(periods().speed) * elapsed;
     const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
                         8 * 0x1p-53 * dynamics.box().longest();
     const double speed = std::sqrt(dynamics.squared_speed(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
-    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision
+    // Only then does its next collision call this function again.
+    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
         away + speed * (window.end - time) <= window.speed_bound * window.duration())
         return;

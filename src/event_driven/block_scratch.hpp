@@ -19,9 +19,9 @@ namespace carrom {
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    std::uint64_t history = 0;      ///< 0: none
-    std::uint32_t generation = 0;   ///< that of the last collision
-    std::uint32_t partner = nobody; ///< that in the last collision
+    std::uint64_t history = 0;      ///< hash of all events, or 0 if there was none
+    std::uint32_t generation = 0;   ///< generation of the last collision
+    std::uint32_t partner = nobody; ///< partner in the last collision
 
     /// Adds a collision: its time, the other's id and the velocities after it. The
     /// place follows from these and the state before.
@@ -123,7 +123,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     const Ghost* ghost_at(std::uint32_t slot) const {
         return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
-    /// With each other at this time, and with no other disc since; perhaps as other images.
+    /// Whether the two discs collided with each other at this time and with no other disc since.
+    /// They may have been other images than now.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
@@ -186,7 +187,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         outcome->cascade_time = event.time;
     }
 
-    /// After the collision, while the second disc is where the event's image has it.
+    /// Must be called after the collision, while the second disc is at the place of the event's
+    /// image.
     [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before) {
         const Disc &p = discs[event.p], &q = discs[event.q];
         outcome->pairs.push_back(pair_event(dynamics, p, dynamics.separation(p, q), p, q,
@@ -211,15 +213,15 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     CellBlock ring;        ///< own cells and those within one reach of them
     CellBlock firsts;      ///< cells of a pair's first disc, from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the grid's axis: corners, lanes and walls in cells have it as x
+    Axis axis = Axis::x; ///< the grid's axis, which is x in lanes, corners and walls in cells
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
     float rows_per_cell = 1; ///< rows may be higher than columns are wide
     float touching_squared = 0,
-          farthest = 0; ///< farthest: the error of a partner's place at the start, in cells
+          farthest = 0; ///< farthest: half width of a flight box beyond its flight, in cells
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
-          y_inner_high = 0;                 ///< in between no wall is near, in cells
+          y_inner_high = 0;                 ///< no wall is near between these, in cells
     std::size_t cell_rows = 0;              ///< entries of `cell_starts` for a column
     std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
@@ -232,18 +234,18 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
-    std::vector<SlotRange> runs; ///< only the first n_runs count; room for all columns
+    std::vector<SlotRange> runs; ///< has room for all columns; only the first n_runs count
     std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the one that it has met
     std::vector<std::uint32_t> later,
-        later_ends;           ///< for a column: partners behind its discs, and where each one's end
+        later_ends;           ///< partners of a column's discs, and where each disc's end
     double cascade_begin = 0; ///< the begin of the present collision cascade, if there is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
-    StressTerms stress_terms;     ///< waiting to be added to the outcome's sums
+    StressTerms stress_terms;     ///< terms that wait to be added to the outcome's sums
     double bound_squared = 0;     ///< square of the speed bound
-    float bound_lane_squared = 0; ///< this square in cells per window, somewhat less
+    float bound_lane_squared = 0; ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;          ///< see BlockOutcome
 };
 

@@ -56,7 +56,8 @@ void BoxLayout::lay(std::span<const Disc> discs, std::size_t n_own, const BoxCel
     add_ghosts(cells, columns, rows);
 }
 
-/// Each disc of the box: the rank's own ones, and one copy of each other one.
+/// Lists each disc of the box once: the rank's own discs, and the first copy of each other disc. A
+/// hash table of ids finds further copies.
 void BoxLayout::list_once(std::span<const Disc> discs, std::size_t n_own) {
     listed_.resize(n_own);
     std::iota(listed_.begin(), listed_.end(), LocalIndex{0});
@@ -74,7 +75,7 @@ void BoxLayout::list_once(std::span<const Disc> discs, std::size_t n_own) {
     }
 }
 
-/// Brings what is listed into the order of the cells of the box, by column and row.
+/// Sorts the listed discs into the order of the cells of the box, by column and row.
 void BoxLayout::sort(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
                      const Periods& periods, double time) {
     const auto n_rows = static_cast<std::uint32_t>(cells.n_rows);

@@ -31,10 +31,10 @@ struct SpreadFlight {
           touching(hold(Lanes(), touching_squared)) {}
 };
 
-/// Which of the discs might touch the flight in what is left of the window: those that are near
-/// already, and those that approach, do not pass by, and arrive in time. Each condition is a number
-/// that is negative where it holds, so that one comparison does for all of them.
-/// The others are at x and y, and fly with vx and vy.
+/// Tells which of the discs at x and y with velocities vx and vy might touch the flight in the rest
+/// of the window. These are the discs that are near already, and those that approach, do not pass
+/// by and arrive in time. Each condition is a number that is negative if the condition holds, so
+/// that one comparison decides on all of them.
 HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
                                        const SpreadFlight& p) {
     const Lanes d;
@@ -44,7 +44,7 @@ HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
     const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, vector_of(d, p.touching)));
-    // where c > 0: they approach, and b^2 > a c
+    // if c > 0, negative for discs that approach and have b^2 > a c
     const auto passes_by = hn::MulAdd(b, hn::Abs(b), hn::Mul(a, c));
     const auto minus_b_end = hn::NegMulSub(a, rest, b); // b and c at the window's end
     const auto c_end = hn::MulAdd(hn::Sub(b, minus_b_end), rest, c);
@@ -53,7 +53,7 @@ HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
 }
 
 #if HWY_TARGET == HWY_AVX2
-/// For each mask of eight lanes those that are set, a byte each, first ones first.
+/// For each mask of eight lanes, the numbers of its set lanes in ascending order, one in each byte.
 constexpr auto set_lanes = [] {
     std::array<std::uint64_t, 256> lanes{};
     for (std::size_t mask = 0; mask < lanes.size(); ++mask) {
@@ -64,7 +64,7 @@ constexpr auto set_lanes = [] {
     return lanes;
 }();
 
-/// Highway's own (1.0.3) copies a table of a kilobyte to the stack each time.
+/// Replaces Highway's Compress, which in 1.0.3 copies a table of a kilobyte to the stack each time.
 HWY_INLINE SlotVector compress(SlotVector slots, hn::Mask<Slots> kept) {
     const hn::Rebind<std::uint8_t, Slots> bytes;
     std::uint8_t mask[8];
@@ -82,16 +82,16 @@ HWY_INLINE SlotVector spread_slot(std::uint32_t slot) {
     return hn::Set(Slots(), static_cast<std::int32_t>(slot));
 }
 
-/// Appends the slots that are kept to `next`; returns the new end. Writes a whole vector: what is
-/// beyond the end says nothing. (Compressing into memory is microcode on some processors, a hundred
-/// cycles each.)
+/// Appends the slots that are kept to `next`, and returns the new end. It writes a whole vector, so
+/// the memory beyond the end is overwritten. (The instruction that compresses into memory takes a
+/// hundred cycles on some processors.)
 HWY_INLINE std::uint32_t* append(SlotVector slots, hn::Mask<Slots> kept, std::uint32_t* next) {
     const hn::RebindToUnsigned<Lanes> d;
     hn::StoreU(hn::BitCast(d, compress(slots, kept)), d, next);
     return next + hn::CountTrue(Slots(), kept);
 }
 
-/// Where the flights of a vector of lanes are at the time `now`.
+/// The places of a vector of flights at the time `now`.
 HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector now) {
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
@@ -117,7 +117,7 @@ HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, con
 std::size_t FilterFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs,
                           const Flight& flight, float touching_squared, std::uint32_t* out) {
     const FlightLanes lanes =
-        all_lanes; // nothing else points to these pointers: they stay in registers
+        all_lanes; // a local copy, so that the compiler can keep the pointers in registers
     const SpreadFlight spread(flight, touching_squared);
     const auto now = hn::Set(Lanes(), flight.now);
     std::uint32_t* next = out;

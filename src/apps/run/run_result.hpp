@@ -14,8 +14,8 @@
 
 namespace carrom {
 
-/// A finished run. Times and numbers that depend on the machine shape are over all
-/// ranks. The totals are the same for every shape.
+/// A finished run. Times and numbers that depend on the machine shape are combined over all ranks,
+/// as each member says. The totals are the same for every shape.
 struct RunResult {
     Totals start, end;
     std::int64_t first_step = 0, last_step = 0;
