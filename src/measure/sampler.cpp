@@ -139,6 +139,8 @@ std::vector<MeasuredTable> Sampler::tables() const {
         }
     }
     for (MeasuredTable& table : rows_from(0)) all.push_back(std::move(table));
+    for (const MeasuredTable& table : all)
+        ensure(is_name_of_table(table.name), "a quantity does not declare the name of a table");
     return all;
 }
 

@@ -63,6 +63,22 @@ for name in trajectory.h5 collisions.h5 measurements/thermo.csv; do
     expect_told "has $name of a run" "$name and no checkpoint"
     cmp "kept/$name" "part/$name" || complain "$name was replaced"
 done
+# A segment of which the joining file was deleted is a recording all the same.
+for name in trajectory collisions; do
+    rm -rf part
+    mkdir part
+    cp -r kept/scene.toml "kept/$name" part/
+    for ranks in 1 3; do
+        run "$ranks" run "${scene[@]}" -o part --steps 30 --resume
+        expect_code 2 "$name/0001.h5 alone on $ranks ranks"
+        expect_told "has $name/0001.h5 of a run and no checkpoint" "$name/0001.h5 alone"
+    done
+    cp -r kept/checkpoints part/
+    run 1 run "${scene[@]}" -o part --steps 30 --resume
+    expect_code 2 "a checkpoint, and $name/0001.h5 without $name.h5"
+    expect_told "$name.h5: is not there, and its segment $name/0001.h5 is" "$name.h5 is lost"
+    cmp "kept/$name/0001.h5" "part/$name/0001.h5" || complain "a segment of $name was replaced"
+done
 run 1 run "${scene[@]}" -o start --steps 0 --set output.checkpoint.at_end=false
 expect_code 0 'a start'
 rm start/report.json
@@ -81,6 +97,22 @@ for file in "${foreign[@]}"; do [ -e "$file" ] || complain "$file was removed"; 
 [ ! -e mine/trajectory/0009.h5 ] || complain 'a segment of the run before is left'
 [ "$(ls mine/checkpoints/checkpoint-0*)" = mine/checkpoints/checkpoint-000000000004.h5 ] ||
     complain "other checkpoints: $(ls mine/checkpoints)"
+# A foreign file that has the name of a table is not replaced.
+for how in '-o tabled' '-o kept --resume' '-o kept --overwrite'; do
+    folder=$(cut -d ' ' -f 2 <<<"$how")
+    mkdir -p "$folder/measurements"
+    [ "$folder" = tabled ] || mv kept/measurements/thermo.csv aside.csv
+    printf 'day,temperature\n1,290\n' >"$folder/measurements/thermo.csv"
+    sums_of "$folder" >before_table
+    # shellcheck disable=SC2086 # several words
+    run 2 run "${scene[@]}" --steps 30 $how
+    expect_code 2 "a foreign thermo.csv, $how"
+    expect_told "$folder/measurements/thermo.csv is no table that a run has written" "$how"
+    sums_of "$folder" | cmp - before_table || complain "files have changed: foreign table, $how"
+    [ "$folder" = tabled ] || mv aside.csv kept/measurements/thermo.csv
+done
+sums_of kept | cmp - before || complain 'the test has not brought the table back'
+
 mkdir far
 mv mine/checkpoints/* far/
 rmdir mine/checkpoints

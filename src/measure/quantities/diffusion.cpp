@@ -215,7 +215,8 @@ MeasuredQuantity diffusion_quantity() {
                                 return measures(s, "diffusion") && s.effects.have_open_boundaries();
                             }}},
              .check_times = check_window},
-            make_measurement<Diffusion>};
+            make_measurement<Diffusion>,
+            {"velocity_autocorrelation"}};
 }
 
 } // namespace carrom

@@ -89,7 +89,8 @@ MeasuredQuantity pressure_quantity() {
     return {{.name = "pressure",
              .help = "The pressure tensor and the compressibility, from all collisions of pairs.",
              .has_history = true},
-            make_measurement<Pressure>};
+            make_measurement<Pressure>,
+            {"pressure_history"}};
 }
 
 } // namespace carrom

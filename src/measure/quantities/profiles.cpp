@@ -320,7 +320,8 @@ MeasuredQuantity profiles_quantity() {
                       .within({0, 1}),
                   hdf5_key()},
          .check = check_grid},
-        make_measurement<Profiles>};
+        make_measurement<Profiles>,
+        {"profiles_total"}};
 }
 
 } // namespace carrom

@@ -160,7 +160,8 @@ MeasuredQuantity psi6_quantity() {
              .keys = {bins_key(), largest_distance_key()},
              .has_history = true,
              .check = check_largest_distance},
-            make_measurement<Psi6>};
+            make_measurement<Psi6>,
+            {"psi6_history", "psi6_distribution", "psi6_correlation", "neighbours"}};
 }
 
 } // namespace carrom

@@ -158,7 +158,8 @@ MeasuredQuantity structure_factor_quantity() {
                                        !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
                             }}},
              .check = check_wavenumber},
-            make_measurement<StructureFactor>};
+            make_measurement<StructureFactor>,
+            {"structure_factor_peak"}};
 }
 
 } // namespace carrom

@@ -42,6 +42,9 @@ std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
         if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
             return path + " is not a plain file";
     }
+    if (const std::string foreign = foreign_table(scene); !foreign.empty())
+        return foreign + " is no table that a run has written, and this run may write one of that "
+                         "name; move it away";
     const std::string trace = trace_of_run(folder);
     if (trace.empty() || options.overwrite) {
         if (options.resume && trace.empty())

@@ -25,6 +25,9 @@ std::string trace_of_run(const std::string& folder);
 /// none. Files that cannot be read count.
 std::string recorded_beyond_start(const std::string& folder);
 
+/// A file of somebody else that a table of the scene may replace; empty if there is none.
+std::string foreign_table(const Scene& scene);
+
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
 
