@@ -84,8 +84,9 @@ std::vector<Key> keys_of_recordings() {
             .within(every),
         flags_key(
             "output.trajectory.fields", "",
-            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's, "
-            "image the box lengths that it has flown.",
+            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's "
+            "(of the radical tessellation where radii differ), image the box lengths that it has "
+            "flown.",
             [](auto& s) -> auto& { return *s.trajectory; }, fields)
             .by_default("position, velocity; image in periodic boxes; angular_velocity of rough "
                         "discs")

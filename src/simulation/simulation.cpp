@@ -330,11 +330,17 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
 LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
+    CellSizes sizes;
+    if (!effects_.species.empty()) sizes.species = engine_->species_table();
+    for (const Species& one : effects_.species)
+        sizes.largest_radius = std::max(sizes.largest_radius, one.radius);
+    sizes.growth = effects_.growth_at(static_cast<double>(step()));
     // Voronoi cells of a fluid are whole within three times the mean distance of neighbours.
     for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs()));;
          reach *= 2) {
         const LocalView now = engine_->local_view(reach_beyond + reach);
-        if (communicator_.all(find_bond_orders(now, box, reach, n_threads_, orders))) return now;
+        if (communicator_.all(find_bond_orders(now, box, sizes, reach, n_threads_, orders)))
+            return now;
         engine_->forget_images();
     }
 }

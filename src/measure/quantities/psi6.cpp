@@ -156,7 +156,8 @@ private:
 
 MeasuredQuantity psi6_quantity() {
     return {{.name = "psi6",
-             .help = "Hexatic order, its correlation g6(r), and numbers of neighbours.",
+             .help = "Hexatic order, its correlation g6(r), and numbers of neighbours; where radii "
+                     "differ, those of the radical tessellation.",
              .keys = {bins_key(), largest_distance_key()},
              .has_history = true,
              .check = check_largest_distance},
