@@ -24,6 +24,9 @@ std::vector<Key> keys_of_contact() {
             "they turn and rub, too.",
             [](auto& s) -> auto& { return s.effects.contact.kind; })
             .advises({{"inelastic", "\"restitution\""},
+                      {"granular", "\"restitution\" or \"rough\""},
+                      {"hertz", "\"restitution\"; discs are hard, and contacts take no time"},
+                      {"soft", "\"restitution\"; discs are hard, and contacts take no time"},
                       {"smooth", "\"elastic\" or \"restitution\""},
                       {"frictional", "\"rough\""},
                       {"ideal", "\"none\""}}),
