@@ -4,7 +4,8 @@
 
   build/python/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
 
-It takes some minutes. A picture has as many colours as 60 kB allow.
+It takes some minutes. A picture has as many colours as 60 kB allow. docs/tools/flows.py draws those
+of driven discs.
 """
 import argparse
 import os
@@ -21,15 +22,12 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 # The step that is shown, and words for `carrom-plot frame`.
 PICTURES = {
     "atmosphere": (20_000, "--view 0 0 200 200"),
-    "belt": (2_000, "--colour spin --fastest 0.2"),
-    "channel": (10_000, "--colour vx --fastest 0.3"),
     "conduction": (4_000, ""),
     "cooling": (3_000, "--dpi 54"),
     "crossing": (100, "--view 20 60 140 160"),
     "drag": (200, ""),
     "effusion": (150, "--scene --view 60 60 140 140"),
     "galton": (400, "--scene"),
-    "heated": (2_000, "--view 0 0 200 200"),
     "hopper": (140, "--scene"),
     "jet": (700, "--view 150 380 700 870 --dpi 52"),
     "lorentz": (25, "--scene --colour vx"),
@@ -37,8 +35,6 @@ PICTURES = {
     "piston": (60, ""),
     "rain": (600, ""),
     "rough": (40, "--colour spin --fastest 0.08"),
-    "shear": (600, "--colour vx --view 0 50 200 250"),
-    "sheared": (10_000, "--colour vx"),
 }
 
 
@@ -60,12 +56,12 @@ def with_scene(word, scene):
     return [word, scene] if word == "--scene" else [word]
 
 
-def shrink(picture, target):
+def shrink(picture, target, most_bytes=MOST_BYTES):
     """As many colours as the size allows."""
     image = Image.open(picture).convert("RGB")
     for colours in (128, 96, 64, 48, 32, 24, 16, 12, 8):
         image.quantize(colours, dither=Image.Dither.NONE).save(target, optimize=True)
-        if target.stat().st_size < MOST_BYTES:
+        if target.stat().st_size < most_bytes:
             print(f"{target}: {colours} colours, {target.stat().st_size} bytes")
             return
     sys.exit(f"{target} has {target.stat().st_size} bytes")
