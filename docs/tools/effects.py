@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the scenes of docs/lessons/effects.md, docs/how-to and README, and draw a picture of each.
+"""Run the scenes of inputs/, and draw the picture of each that the pages show.
 
   build/python/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
 
-It takes some minutes. A picture has as many colours as 60 kB allow. docs/tools/flows.py draws those
-of driven discs.
+It takes some minutes. A picture is 907 pixels wide, and has as many colours as 250 kB allow.
+docs/tools/flows.py draws those of driven discs.
 """
 import argparse
 import os
@@ -16,25 +16,35 @@ import tempfile
 
 from PIL import Image
 
-MOST_BYTES = 60_000
+MOST_BYTES = 250_000
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
 # The step that is shown, and words for `carrom-plot frame`.
 PICTURES = {
     "atmosphere": (20_000, "--view 0 0 200 200"),
+    "break": (250, "--view 20 10 100 90"),
     "conduction": (4_000, ""),
-    "cooling": (3_000, "--dpi 54"),
-    "crossing": (100, "--view 20 60 140 160"),
+    "cooling": (3_000, ""),
+    "crossing": (100, "--colour vx --view 20 60 140 160"),
+    "crystal": (100, ""),
+    "dense": (500, "--view 0 0 100 100"),
+    "dense_liquid": (100, "--view 0 0 100 100"),
     "drag": (200, ""),
-    "effusion": (150, "--scene --view 60 60 140 140"),
+    "effusion": (200, "--scene --colour vx --view 50 30 200 170"),
     "galton": (400, "--scene"),
+    "gas": (100, "--view 0 0 100 100"),
+    "haff": (500, ""),
     "hopper": (140, "--scene"),
-    "jet": (700, "--view 150 380 700 870 --dpi 52"),
+    "jet": (700, "--view 150 380 700 870"),
     "lorentz": (25, "--scene --colour vx"),
     "mixture": (500, ""),
     "piston": (60, ""),
     "rain": (600, ""),
     "rough": (40, "--colour spin --fastest 0.08"),
+    "shaker": (2_000, ""),
+    "single_file": (2_000, "--view 0 -15 45 15"),
+    "tiny": (5, ""),
+    "vibrated": (80_000, "--view 0 0 120 120"),
 }
 
 
@@ -47,7 +57,7 @@ def draw(program, name, folder, target):
     checkpoint = run / "checkpoints" / f"checkpoint-{step:012}.h5"
     tool = [sys.executable, "-m", "carrom.plot.commands", "frame"]
     picture = folder / f"{name}.png"
-    subprocess.run([*tool, checkpoint, "--dpi", "60", *words, "-o", picture], check=True,
+    subprocess.run([*tool, checkpoint, "--dpi", "126", *words, "-o", picture], check=True,
                    env=dict(os.environ, PYTHONPATH=TOP / "src/python"))
     shrink(picture, target)
 

@@ -19,19 +19,20 @@ import pathlib
 import re
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "tools"))
+import plot_style
+
 STYLES = [
-    ("o", "-", "#000000"),
-    ("s", "--", "#666666"),
-    ("^", "-.", "#000000"),
-    ("D", ":", "#666666"),
-    ("v", "-", "#999999"),
-    ("x", "--", "#999999"),
+    (marker, line, colour)
+    for marker, line, colour in zip("os^Dvx", ("-", "--", "-.", ":", "-", "--"), plot_style.COLOURS)
 ]
+KERNELS = {
+    "vector_filter": "filter of pairs",
+    "contact_predicate": "contact predicate",
+    "cell_grid_sort": "sorting into cells",
+}
 
 
 def read_csv(path):
@@ -146,9 +147,8 @@ def cluster_part(rows):
 
 
 def new_axes(xlabel, ylabel):
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained", dpi=110)
+    figure, axes = plt.subplots()
     axes.set(xlabel=xlabel, ylabel=ylabel)
-    axes.grid(True, which="both", color="0.9", linewidth=0.6)
     return figure, axes
 
 
@@ -164,7 +164,7 @@ def draw_series(axes, series):
             markerfacecolor="white",
             label=label,
         )
-    axes.legend(frameon=False)
+    axes.legend()
 
 
 def draw_cluster(rows, folder):
@@ -268,6 +268,8 @@ def draw_roofline(kernels, peaks, folder):
     for index, kernel in enumerate(shown):
         x, y = kernel["flops"] / kernel["bytes"], kernel["items_per_second"] * kernel["flops"] / 1e9
         name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
+        kind, _, n_discs = name.partition("/")
+        name = KERNELS.get(kind, kind) + (f", {int(n_discs):,} discs" if n_discs else "")
         axes.plot(
             [x],
             [y],
@@ -282,13 +284,13 @@ def draw_roofline(kernels, peaks, folder):
             name,
             (x, y),
             textcoords="offset points",
-            xytext=(-7 if is_right else 7, 3 if index < 2 else -9),
+            xytext=(-7 if is_right else 7, (4, -12, 4, 4, -12)[index % 5]),
             ha="right" if is_right else "left",
-            fontsize=8,
+            fontsize=10,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
         )
     axes.set(xscale="log", yscale="log", xlim=(low, high))
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    axes.legend(fontsize=10, loc="lower right")
     figure.savefig(folder / "roofline.png")
     plt.close(figure)
 
@@ -309,6 +311,7 @@ def main():
         "--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md")
     )
     options = parser.parse_args()
+    plot_style.use()
     folder, text = options.folder, options.page.read_text(encoding="utf-8")
     if (folder / "rates.csv").exists():
         rows = read_csv(folder / "rates.csv")

@@ -78,6 +78,8 @@ function show() {
   element("low").textContent = about.colour === "species" ? `${about.species} species` : "0";
   element("high").textContent = about.colour === "species" ? "" : Curves.number(top);
   Discs.drawGradient(element("gradient"), about.colour === "species" ? about.species : 0);
+  element("cover").hidden = about.kind !== "density";
+  if (about.kind === "density") Discs.drawShades(element("shades"));
   const { total, kind } = about;
   Object.assign(document.body.dataset, { step, drawn, total, kind });
   drawCurves();
@@ -181,10 +183,13 @@ async function look() {
   setTimeout(look, 1000 * pause);
 }
 
+// Curves are as long as what has happened, so that the first steps of a long run show, too.
 function drawCurves() {
-  const last = page.state.wanted || page.state.step || 1;
+  const last = Math.max(page.state.step || 1, page.steps[page.index] || 0);
   for (const name of ["energy", "pressure", "rate"]) {
-    Curves.draw(element(name), page.curves[name], last, page.steps[page.index] || 0);
+    const curve = page.curves[name];
+    if (curve) element(`${name}-title`).textContent = curve.title;
+    Curves.draw(element(name), curve, last, page.steps[page.index] || 0);
   }
 }
 
