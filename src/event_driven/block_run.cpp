@@ -35,9 +35,14 @@ template <class Dynamics>
 void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, int halo,
                              std::span<std::uint64_t> histories, BlockOutcome& outcome) {
     scratch_->begin(ground, outcome);
-    scratch_->list_discs(block, halo);
-    scratch_->gather();
-    scratch_->mark_own(block);
+    if constexpr (Scratch::has_sizes) {
+        scratch_->list_levels(block, halo);
+        scratch_->gather();
+    } else {
+        scratch_->list_discs(block, halo);
+        scratch_->gather();
+        scratch_->mark_own(block);
+    }
     run_gathered(histories);
 }
 
@@ -45,7 +50,10 @@ template <class Dynamics>
 void BlockRun<Dynamics>::run_whole(const BlockGround& ground, const CellBlock& block,
                                    std::span<std::uint64_t> histories, BlockOutcome& outcome) {
     scratch_->begin(ground, outcome);
-    scratch_->list_all_discs();
+    if constexpr (Scratch::has_sizes)
+        scratch_->list_levels_of_all();
+    else
+        scratch_->list_all_discs();
     scratch_->gather();
     scratch_->mark_own_of_all(block);
     run_gathered(histories);
@@ -65,22 +73,6 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
         s.happen(event);
     s.stress_terms.add_to(s.outcome->stress);
     s.report(histories);
-}
-
-/// The flight of a disc that has just collided.
-template <class Dynamics> Flight BlockRun<Dynamics>::Scratch::flight_of(std::uint32_t slot) const {
-    const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) * windows_per_time);
-    return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
-}
-
-/// Has no branches on signs: they are random, so a processor would predict half of them wrongly.
-template <class Dynamics>
-FlightBox BlockRun<Dynamics>::Scratch::box_of(const Flight& flight) const {
-    const float half = (1 - flight.now) / 2;
-    const float dx = flight.vx * half, dy = flight.vy * half;
-    const float x_middle = flight.x + dx, y_middle = flight.y + dy;
-    const float wide = std::abs(dx) + farthest, high = std::abs(dy) + farthest;
-    return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
 }
 
 /// Fills `runs` with the slots of the cells that the flight box covers, and makes room for all of
@@ -114,6 +106,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
             if (!ghost_at(slot)) predict_walls(slot);
     if (!dynamics.has_pairs()) return;
+    if constexpr (has_sizes) return predict_levels();
     if (Dynamics::has_moving_images && is_whole) return predict_pairs_of_all();
     const CellTable table{cell_starts.data(),
                           cell_rows,
@@ -133,17 +126,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     }
 }
 
-/// If rows slide, the ghosts of a pair need not lie in opposite cells, and a search that tries each
-/// pair from its first disc only may miss a pair across the seam. So this searches all partners of
-/// each disc, and may find a pair twice.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs_of_all() {
-    for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
-        if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
-}
-
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const Flight& flight) {
     const std::uint32_t slot = flight.slot;
-    look_around(box_of(flight));
+    look_around(box_of(flight, farthest));
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
                                                   touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
@@ -155,8 +140,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const 
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
     if (!dynamics.has_pairs()) return;
+    if constexpr (has_sizes) return predict_two_sized(p, q);
     const Flight p_flight = flight_of(p), q_flight = flight_of(q);
-    const FlightBox a = box_of(p_flight), b = box_of(q_flight);
+    const FlightBox a = box_of(p_flight, farthest), b = box_of(q_flight, farthest);
     const auto least = [](float u, float v) { return u < v ? u : v; };
     const auto most = [](float u, float v) { return u > v ? u : v; };
     look_around({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom),
@@ -169,28 +155,43 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
+/// `b` displaced by `image`, if there is one.
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
-    const Ghost* const ghost = ghost_at(b);
-    if (ghost) [[unlikely]] {
-        b = ghost->disc;
-        move_image(discs[b], ghost->image);
-    }
+[[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::predict_shifted(
+    std::uint32_t a, std::uint32_t b, const Image* image) {
+    if (image) [[unlikely]]
+        move_image(discs[b], *image);
     const auto contact = dynamics.event_contact(discs[a], discs[b]);
-    if (ghost) [[unlikely]]
-        move_image(discs[b], -ghost->image);
+    if (image) [[unlikely]]
+        move_image(discs[b], -*image);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
     // Two discs that have just collided with each other do not collide again at the same time. The
     // rest of their approach, a rounding, is too small for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
-    push(time, a, b, ghost);
+    push(time, a, b, image);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
+    if (const Ghost* const ghost = ghost_at(b)) [[unlikely]]
+        return predict_shifted(a, ghost->disc, &ghost->image);
+    predict_shifted(a, b, nullptr);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b,
+                                                const Image& image) {
+    predict_shifted(a, b, &image);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     predict_obstacle(slot);
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
-    if (x_end > x_inner_low && x_end < x_inner_high && y_end > y_inner_low && y_end < y_inner_high)
+    float radius = 0; // equal discs have theirs in the bounds
+    if constexpr (has_sizes) radius = radii[slot];
+    if (x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
+        y_end - radius > y_inner_low && y_end + radius < y_inner_high)
         return;
     const Disc& disc = discs[slot];
     if (!dynamics.may_meet_wall(disc, ground.window.end)) return;
@@ -216,7 +217,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std
 
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b,
-                                       [[maybe_unused]] const Ghost* ghost) {
+                                       [[maybe_unused]] const Image* image) {
     const BlockWindow& window = ground.window;
     if (!(time <= window.end) || time < window.begin ||
         (time == window.begin && !window.holds_begin))
@@ -233,8 +234,8 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
         raise(b);
         const bool is_turned = discs[b].id < discs[a].id;
         if (is_turned) std::swap(a, b);
-        if (Dynamics::is_periodic && ghost) [[unlikely]]
-            event.set_image(is_turned ? -ghost->image : ghost->image);
+        if (Dynamics::is_periodic && image) [[unlikely]]
+            event.set_image(is_turned ? -*image : *image);
     }
     event.p = a;
     event.q = b;

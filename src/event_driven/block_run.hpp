@@ -25,6 +25,7 @@
 #include "engine/pair_event.hpp"
 #include "engine/stress_sums.hpp"
 #include "event_driven/box_layout.hpp"
+#include "event_driven/size_levels.hpp"
 
 namespace carrom {
 
@@ -66,8 +67,10 @@ struct BlockGround {
     /// There is only one run, of the whole box. Then histories are not compared, and the grid is
     /// not built.
     bool is_alone = false;
-    bool notes_pairs = false; ///< collisions of pairs go to BlockOutcome::pairs
-    double velocity_unit = 1; ///< of the velocities in these
+    bool notes_pairs = false;            ///< collisions of pairs go to BlockOutcome::pairs
+    double velocity_unit = 1;            ///< of the velocities in these
+    std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
+    Extent extent{};                     ///< the box, for runs of the whole box
 };
 
 /// The event history of a disc of a block's ring. It is 0 if the disc had no event, and otherwise a

@@ -46,7 +46,24 @@ struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
 
+/// The cells of a level of sizes.
+struct LevelCells {
+    BoxCells cells;
+    double smallest_radius = 0, largest_radius = 0; ///< at the window's end
+    std::size_t first_start = 0;                    ///< in `cell_starts`
+    std::uint32_t end_slot = 0;
+    float columns_per_unit = 1, rows_per_unit = 1; ///< the unit is that of lanes
+    float left = 0, bottom = 0;                    ///< where cells begin, in units of lanes
+    float farthest = 0; ///< see Scratch; without the radius of the disc that searches
+
+    int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
+    int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
+};
+
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
+    /// Discs have several radii, and lie in levels of cells. Not if images move.
+    static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
+
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
 
     void begin(const BlockGround& of_rank, BlockOutcome& of_run);
@@ -93,21 +110,77 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
-    FlightBox box_of(const Flight& flight) const;
+    /// The flight of a disc that has just collided.
+    Flight flight_of(std::uint32_t slot) const {
+        const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) *
+                                            windows_per_time);
+        return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
+    }
+    /// No branches on signs, which are anything: a flight ends where it began or on either side of
+    /// it.
+    FlightBox box_of(const Flight& flight, float half_side) const {
+        const float half = (1 - flight.now) / 2;
+        const float dx = flight.vx * half, dy = flight.vy * half;
+        const float x_middle = flight.x + dx, y_middle = flight.y + dy;
+        const float wide = std::abs(dx) + half_side, high = std::abs(dy) + half_side;
+        return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
+    }
     void look_around(const FlightBox& box);
     void predict_pairs(std::uint32_t slot) {
-        if (dynamics.has_pairs()) predict_pairs(flight_of(slot));
+        if (!dynamics.has_pairs()) return;
+        if constexpr (has_sizes)
+            predict_sized(slot);
+        else
+            predict_pairs(flight_of(slot));
     }
     void predict_pairs(const Flight& flight);
-    void predict_pairs_of_all();
+    /// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the
+    /// seam neither disc may come first. So all partners of each disc are looked for, and a pair
+    /// may be found twice.
+    void predict_pairs_of_all() {
+        for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
+            if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
+    }
     void predict_pairs_of(std::uint32_t p, std::uint32_t q);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
     void predict_obstacle(std::uint32_t slot);
-    void push(double time, std::uint32_t a, std::uint32_t b, const Ghost* ghost = nullptr);
+    void predict_shifted(std::uint32_t a, std::uint32_t b, const Image* image);
+    void predict_image(std::uint32_t a, std::uint32_t b, const Image& image);
+    void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
     void report(std::span<std::uint64_t> histories);
+    void report_disc(std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
+                     double& end_squared);
 
-    Flight flight_of(std::uint32_t slot) const;
+    // Of discs of several sizes (block_levels.cpp):
+    void list_levels(const CellBlock& own, int halo);
+    void list_levels_of_all();
+    void lay_levels(const Extent& extent, const Periods& across, std::size_t n_at_home);
+    void set_scales_of_levels();
+    void measure_radii();
+    void predict_levels();
+    void look_into(const LevelCells& level, const FlightBox& box, bool with_ghosts);
+    void predict_in_level(const Flight& flight, std::size_t own, std::size_t other);
+    void predict_seen(const Flight& flight, float radius, const Image* image);
+    void predict_sized(std::uint32_t slot);
+    void predict_two_sized(std::uint32_t p, std::uint32_t q);
+    std::size_t level_of_slot(std::uint32_t slot) const {
+        std::size_t level = 0;
+        while (slot >= levels[level].end_slot) ++level;
+        return level;
+    }
+    /// Before it has grown.
+    double first_radius_of(const Disc& disc) const {
+        if constexpr (has_sizes)
+            return dynamics.species_table().of(disc.id).radius;
+        else
+            return dynamics.radius();
+    }
+    SizedLanes sized_lanes() const { return {lanes, radii.data()}; }
+    float margin_of(std::size_t own, std::size_t other) const {
+        return margins[own * levels.size() + other];
+    }
+
     /// Null where discs do not turn.
     double* spin_of([[maybe_unused]] std::uint32_t slot) {
         if constexpr (Dynamics::has_spin) return &columns[SideColumn::spin][slot];
@@ -172,6 +245,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     /// Whether the disc's owner reports its events: it is own or in the ring.
     bool is_compared(std::uint32_t slot) const {
+        if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
         const auto cell = static_cast<std::size_t>(behind - cell_starts.begin()) - 1;
         const int column = cells.first_column + static_cast<int>(cell / cell_rows),
@@ -247,6 +321,13 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double bound_squared = 0;     ///< square of the speed bound
     float bound_lane_squared = 0; ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;          ///< see BlockOutcome
+    // Of discs of several sizes:
+    std::vector<LevelCells> levels;                 ///< smallest discs first
+    std::vector<std::vector<LocalIndex>> in_levels; ///< what is listed, by level
+    std::vector<std::vector<std::uint32_t>> orders; ///< of a block: by slot, places in those lists
+    std::vector<float> radii;                       ///< by slot, in cells
+    std::vector<float> margins;           ///< of sums of radii, by the levels of both discs
+    std::vector<std::uint8_t> is_of_ring; ///< by slot: its owner reports what happens to it
 };
 
 } // namespace carrom

@@ -31,14 +31,18 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     const std::size_t n = indices.size();
     discs.resize(n);
-    runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
+    if (!has_sizes)
+        runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
     past_events_of.assign(n, EventHistory{});
     if (ground.columns) columns.gather(*ground.columns, indices);
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
         if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
     }
     lanes = {x.data(), y.data(), vx.data(), vy.data()};
-    set_scales();
+    if constexpr (has_sizes)
+        set_scales_of_levels();
+    else
+        set_scales();
     for (std::uint32_t slot = 0; slot < n; ++slot) {
         if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
         if (ghost_at(slot)) continue;
@@ -49,6 +53,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     }
     if (is_whole)
         for (const Ghost& ghost : layout.ghosts()) place_ghost(ghost);
+    if constexpr (has_sizes) measure_radii();
     bound_squared = ground.window.speed_bound * ground.window.speed_bound;
     const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
@@ -185,6 +190,25 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(cons
     }
 }
 
+/// Reports an own disc or one of the ring.
+template <class Dynamics>
+[[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_disc(
+    std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
+    double& end_squared) {
+    const std::uint64_t history = past_events_of[slot].history;
+    if (is_own[slot] == 0) {
+        if (!is_whole) outcome->ring.push_back({indices[slot], history});
+        return;
+    }
+    if (!ground.is_alone) histories[indices[slot]] = history;
+    end_squared = std::max(end_squared, dynamics.squared_speed_at(discs[slot], ground.window.end));
+    if (history == 0) return;
+    outcome->hit[next] = indices[slot];
+    outcome->states.emplace_back(discs[slot]);
+    outcome->columns.copy(next, columns, slot);
+    ++next;
+}
+
 /// Writes the new states of the block's own discs and the histories of the ring to the outcome.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
@@ -197,22 +221,15 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->columns.resize(n_hit);
     double end_squared = 0;
     std::size_t next = 0;
-    for (int column = ring.first_column; column < ring.end_column; ++column) {
-        const SlotRange run = grid_run(column, ring.first_row, ring.end_row - 1);
-        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
-            const std::uint64_t history = past_events_of[slot].history;
-            if (is_own[slot] == 0) {
-                if (!is_whole) outcome->ring.push_back({indices[slot], history});
-                continue;
-            }
-            if (!ground.is_alone) histories[indices[slot]] = history;
-            end_squared = std::max(end_squared,
-                                   dynamics.squared_speed_at(discs[slot], ground.window.end));
-            if (history == 0) continue;
-            outcome->hit[next] = indices[slot];
-            outcome->states.emplace_back(discs[slot]);
-            outcome->columns.copy(next, columns, slot);
-            ++next;
+    if constexpr (has_sizes) {
+        for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
+            if (is_own[slot] != 0 || (!is_whole && is_of_ring[slot] != 0))
+                report_disc(slot, histories, next, end_squared);
+    } else {
+        for (int column = ring.first_column; column < ring.end_column; ++column) {
+            const SlotRange run = grid_run(column, ring.first_row, ring.end_row - 1);
+            for (std::uint32_t slot = run.begin; slot < run.end; ++slot)
+                report_disc(slot, histories, next, end_squared);
         }
     }
     ensure(next == n_hit, "a block's own discs lie in its own cells or next to them");

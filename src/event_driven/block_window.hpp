@@ -17,7 +17,7 @@ namespace carrom {
 /// What the choice depends on: lengths in the scene's unit, times in micro-steps.
 struct BlockNeeds {
     Box box;
-    double radius = 0;
+    double radius = 0; ///< the largest
     double n_discs = 0;
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
@@ -27,6 +27,7 @@ struct BlockNeeds {
     int more_halo = 0;         ///< reaches that Caution adds to the halo
     bool goes_round_x = false, goes_round_y = false; ///< the halo does not end with the box, but
                                                      ///< goes on with images of the discs
+    double radius_to_look_for = 0; ///< radius of equal discs that have as many others near them
 };
 
 struct BlockChoice {

@@ -37,7 +37,7 @@ struct Ghost {
     std::uint32_t slot = 0, disc = 0; ///< the ghost's own slot and the disc's
     std::uint32_t next = 0;           ///< number of the disc's next ghost, or none
     Image image;
-    float x_shift = 0, y_shift = 0; ///< from the disc to the ghost, in widths of a cell
+    float x_shift = 0, y_shift = 0; ///< from the disc to the ghost, in units of the lanes
 };
 
 class BoxLayout {
@@ -49,6 +49,20 @@ public:
     /// other ranks' discs follow. There may be several copies of a disc, one for each image.
     void lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
+
+    /// These three lay discs in levels, one after the other, each with its own cells. This forgets
+    /// the last layout.
+    void clear();
+    /// Returns the indices of the own discs, and of one copy of each other disc.
+    const std::vector<LocalIndex>& list_once(std::span<const Disc> discs, std::size_t n_own);
+    /// Gives slots to the discs with the indices `listed`; those before `n_own` lie in the box.
+    /// Shifts of ghosts are in units of `lane_unit`, which all levels share. Returns where the
+    /// level begins in `cell_starts`.
+    std::size_t add_level(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+                          std::size_t n_own, const BoxCells& cells, const Periods& periods,
+                          double time, double lane_unit);
+    /// For each slot of the last level, the place in its list.
+    const std::vector<std::uint32_t>& order() const { return sorted_; }
 
     /// For each slot, the index of its disc in `discs`. A ghost has the index of its disc.
     const std::vector<LocalIndex>& indices() const { return indices_; }
@@ -72,11 +86,10 @@ private:
         int home = 0; ///< the line of cells in the box whose images lie there
     };
 
-    void list_once(std::span<const Disc> discs, std::size_t n_own);
-    void sort(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
-              const Periods& periods, double time);
-    void add_ghosts(const BoxCells& cells, std::span<const Line> columns,
-                    std::span<const Line> rows);
+    void sort(std::span<const Disc> discs, std::span<const LocalIndex> listed, std::size_t n_own,
+              const BoxCells& cells, const Periods& periods, double time);
+    void add_ghosts(const BoxCells& cells, std::size_t first_start, std::span<const Line> columns,
+                    std::span<const Line> rows, double lane_unit);
     void lay_sliding(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
                      const Periods& periods, double time);
     static std::vector<Line> lines(int n_cells, int n_beyond);
@@ -86,7 +99,7 @@ private:
     std::vector<Ghost> ghosts_;
     std::vector<std::uint32_t> ghost_at_, first_ghost_; ///< by slot
     std::vector<LocalIndex> listed_;                    ///< each disc of the box once
-    std::vector<LocalIndex> sorted_;        ///< these, in the order of the cells of the box
+    std::vector<std::uint32_t> sorted_;     ///< places in the list, in the order of the cells
     std::vector<std::uint32_t> cell_of_;    ///< for each entry of `listed_`, its cell
     std::vector<std::uint32_t> box_starts_; ///< for each cell, where it begins in `sorted_`
     std::vector<LocalIndex> id_table_;

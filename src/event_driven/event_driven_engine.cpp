@@ -39,7 +39,10 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
                                                const Communicator& communicator,
                                                const Tuning& tuning,
                                                const BlockTuning& block_tuning)
-    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning) {
+    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
+      levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
+                                 static_cast<double>(scene.n_discs), scene.box.area(),
+                                 block_tuning.parts_sizes)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
     this->distribute();
@@ -151,6 +154,8 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
+    needs.radius_to_look_for = radius_to_look_for(levels_) * dynamics_.growth_at(time_) +
+                               dynamics_.slack();
     needs.n_discs = n;
     needs.speed_bound = speed_bound;
     needs.time = time_;
@@ -292,14 +297,6 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const
                                                  std::max(width, height) / n_blocks));
 }
 
-/// The share of all ranks' blocks that have to run. **Collective.**
-template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
-    std::uint64_t n[] = {0, blocks_.size()};
-    for (const Block& block : blocks_) n[0] += block.is_marked;
-    communicator_.sum(n);
-    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
-}
-
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
     const BlockGround ground{discs_.all(),
@@ -314,7 +311,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              box_cells_,
                              is_alone_,
                              this->pair_events_ != nullptr,
-                             static_cast<double>(this->micro_steps_)};
+                             static_cast<double>(this->micro_steps_),
+                             levels_,
+                             extent()};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;

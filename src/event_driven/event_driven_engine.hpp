@@ -32,6 +32,7 @@ struct BlockTuning {
     std::optional<double> block_side; ///< in reaches
     double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
     bool is_validated = true;         ///< false gives wrong results
+    bool parts_sizes = false;         ///< each octave of radii has a level of cells
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
@@ -97,6 +98,7 @@ private:
     }
 
     BlockTuning block_tuning_;
+    std::vector<SizeLevel> levels_;
     double jumped_ = 0; ///< the frame's motion along the strips' axis since the last migration
     double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
     double last_duration_ = 1;  ///< duration of the last window

@@ -60,4 +60,20 @@ void filter_column(const FlightLanes& lanes, const CellTable& cells, int column,
                    float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);
 
+/// Flights of discs of several sizes, with their radii in units of the lanes.
+struct SizedLanes : FlightLanes {
+    const float* radii = nullptr;
+};
+
+/// These find discs that might come as near as the sum of the two radii and a margin. `radius` is
+/// the radius of the flight plus the margin.
+std::size_t filter_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                         const Flight& flight, float radius, std::uint32_t* out);
+PartnerCounts filter_two_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                               const Flight& p, const Flight& q, float p_radius, float q_radius,
+                               std::uint32_t* p_out, std::uint32_t* q_out);
+void filter_sized_column(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                         float margin, std::vector<std::uint32_t>& partners,
+                         std::vector<std::uint32_t>& ends);
+
 } // namespace carrom

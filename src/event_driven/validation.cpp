@@ -101,6 +101,14 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalInde
         .store(1, std::memory_order_relaxed);
 }
 
+/// Returns the share of all ranks' blocks that have to run. **Collective.**
+template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
+    std::uint64_t n[] = {0, blocks_.size()};
+    for (const Block& block : blocks_) n[0] += block.is_marked;
+    communicator_.sum(n);
+    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
+}
+
 /// Doubles the halo of all marked blocks that do not have the whole box yet. Returns true if the
 /// rank's halo must then become deeper, so that all blocks have to run again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
@@ -229,6 +237,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate();         \
     template bool EventDrivenEngine<Dynamics>::widen_marked();                                     \
+    template double EventDrivenEngine<Dynamics>::share_marked() const;                             \
     template bool EventDrivenEngine<Dynamics>::sees_all(const Block&) const;
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
