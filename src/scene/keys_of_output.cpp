@@ -92,14 +92,15 @@ std::vector<Key> keys_of_recordings() {
                         "discs")
             .within(at_least_one),
         choice(
-            "output.trajectory.precision", "Of the numbers in the file.", {"single", "double"},
+            "output.trajectory.precision", "Precision of the numbers in the file.",
+            {"single", "double"},
             [](const Scene& s) {
                 return std::string(s.trajectory->is_single ? "single" : "double");
             },
             [](Scene& s, const std::string& word) { s.trajectory->is_single = word == "single"; }),
         collision_log(),
         choice(
-            "output.units.length", "What HDF5 files say of lengths; no number depends on it.",
+            "output.units.length", "Unit of lengths that HDF5 files name; no number depends on it.",
             {"m", "cm", "mm", "um", "nm", "pm"}, [](const Scene& s) { return s.length_unit; },
             [](Scene& s, const std::string& word) { s.length_unit = word; })
             .by_default("none"),

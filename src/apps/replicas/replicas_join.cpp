@@ -181,7 +181,7 @@ std::string join_replicas(const std::vector<Replica>& replicas, const std::strin
         const Mean mean = mean_of(values);
         if (!std::isfinite(mean.value)) continue; // a replica does not have it
         joined[quantity.name] = {{"value", mean.value}, {"error", or_null(mean.error)}};
-        text += fmt::format("{:<19}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
+        text += fmt::format("{:<20}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
     }
     write(folder, "replicas.json", joined.dump(2) + '\n');
     if (reports.front().contains("measurements"))

@@ -160,14 +160,10 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
     simulation.check_every_step(scene);
 }
 
-/// **Collective.**
 void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
     const std::string unheeded = are_chosen ? "" : warning_of_thread_variable();
-    const std::string crowded = warning_of_shared_cores(threads, ranks);
-    if (!ranks.is_root()) return;
-    if (!unheeded.empty())
+    if (ranks.is_root() && !unheeded.empty())
         print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
-    if (!crowded.empty()) print_message("warning: {}\n", crowded);
 }
 
 /// **Collective.**
