@@ -64,7 +64,7 @@ while read -r mistake rule; do
 done < <(student --mistakes)
 [ "$n_named" -ge 35 ] || complain "only $n_named wrong outputs were tried"
 
-# One decimal is enough where roundings do not decide; where they do, nothing is said of later steps.
+# One decimal is enough where roundings do not decide; where they do, later steps are not graded.
 printf '%s\n' 2 16 0.5 6 print '0 4 8.2 1 0' '1 8 8 -0.3 0.2' >pair.in
 student pair.in '' .1f >coarse.out
 compare 0 coarse.out pair.in
