@@ -378,11 +378,11 @@ def put(text, name, part):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, large*.csv, long*.csv, arithmetic*.csv, size*.csv and thin*.csv of a study, or any one table")
+    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, large*.csv, long*.csv, dilute*.csv, arithmetic*.csv, size*.csv and thin*.csv of a study, or any one table")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("."), help="folder for the figures")
     parser.add_argument("--page", type=pathlib.Path, help="a page to put tables into, between its markers")
     options = parser.parse_args()
-    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("large", "long", "arithmetic", "size", "thin")}
+    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("large", "long", "dilute", "arithmetic", "size", "thin")}
     errors = points_by_gas(read([p for p in options.tables if not p.name.startswith(tuple(named))]))
     options.output.mkdir(parents=True, exist_ok=True)
     if errors:
