@@ -22,6 +22,7 @@ const Curves = (() => {
     const least = (high - low) / most, power = 10 ** Math.floor(Math.log10(least));
     const apart = power * [1, 2, 5, 10].find((factor) => factor * power >= least * (1 - 1e-9));
     const found = [];
+    if (!(apart > 0)) return [low];
     for (let k = Math.ceil(low / apart - 1e-9); k * apart <= high + 1e-9 * apart; k++)
       found.push(k * apart);
     return found.length ? found : [low];
