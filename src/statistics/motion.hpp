@@ -52,10 +52,10 @@ MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* specie
                            double heaviest, std::uint64_t n_discs, int n_threads,
                            const Communicator& communicator);
 
-/// Adds the integrals up to now to `sample`: the sums of all ranks, and those over
-/// flights in `frame` since the last sync. **Collective.**
-void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
-                   const Communicator& communicator, MotionSample& sample);
+/// Adds the integrals that `mine` of all ranks have to `sample`. **Collective.**
+void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample);
+/// Adds the integrals over flights in `frame` since the last sync.
+void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample);
 
 /// Constants of the scene that averages need.
 struct AveragedSystem {

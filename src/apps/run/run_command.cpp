@@ -200,8 +200,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     double output_seconds = 0;
     const bool is_done = step_to_end(run, options, output_seconds);
     result.wall_seconds = run.seconds().steps;
-    if (run.sampler()) result.tables = run.sampler()->tables();
-    fill_end(result, simulation);
+    fill_end(result, run);
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);

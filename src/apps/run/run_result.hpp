@@ -9,6 +9,7 @@
 
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
+#include "run/run.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
@@ -31,8 +32,8 @@ struct RunResult {
     double peak_bytes_per_disc = 0;    ///< the sum of the ranks' peaks, per disc
 };
 
-/// Fills in the simulation's results at its end. **Collective.**
-void fill_end(RunResult& result, const Simulation& simulation);
+/// Fills in what the run has at its end. **Collective.**
+void fill_end(RunResult& result, const Run& run);
 /// Fills in times on the slowest rank, how even they are, and the machine. **Collective.**
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks);
 

@@ -9,7 +9,7 @@
 #include "measure/flights.hpp"
 #include "measure/measurement.hpp"
 #include "scene/limits.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 
 namespace carrom {
 

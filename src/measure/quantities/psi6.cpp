@@ -5,7 +5,7 @@
 
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 #include "statistics/hexatic_order.hpp"
 
 namespace carrom {

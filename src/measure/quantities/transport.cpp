@@ -43,7 +43,7 @@ public:
     ~Transport() override { run_.simulation.forget(*this); }
 
     void begin() override {
-        pressure_.emplace(run_.simulation, run_.ranks, sums_);
+        pressure_.emplace(run_.simulation, run_.ranks);
         speed_ = std::max(usual_speed(run_), 0x1p-200);
         const Totals totals = run_.simulation.energies();
         const double n = static_cast<double>(totals.n_discs);
@@ -90,14 +90,14 @@ public:
             change[heat_x + axis] = all.value();
             heat_[axis].clear();
         }
-        pressure_->sample(sums_, steps);
+        pressure_->sample(steps);
         const Tensor& stress = pressure_->last_integral();
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
         change[trace] -= usual_trace_; // so that the fluctuations are not lost beside the mean
-        temperature_ += sums_.pressures[3];
-        sums_.pressures.clear();
+        temperature_ += pressure_->pressures()[3];
+        pressure_->forget_pressures();
         for (std::size_t k = 0; k < n_components; ++k) change[k] += moments_[k];
         note(change);
         last_step_ = run_.simulation.step();
@@ -105,7 +105,7 @@ public:
 
     void keep(KeptNumbers& kept) override {
         kept.same(static_cast<std::int64_t>(scheme_.points()));
-        keep_pressure(kept, sums_, pressure_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, pressure_, run_.simulation, run_.ranks);
         kept(speed_), kept(drift_), kept(last_step_), kept(n_samples_), kept(temperature_);
         kept(usual_trace_), kept(moments_);
         if (kept.is_restored()) follow();
@@ -180,7 +180,6 @@ private:
     }
 
     MultipleTau scheme_;
-    PressureSums sums_;
     std::optional<PressureSampler> pressure_;
     double speed_ = 0;              ///< by which units are chosen
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step

@@ -5,7 +5,7 @@
 #include "engine/wall_impulses.hpp"
 #include "measure/measurement.hpp"
 #include "measure/speeds.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 
 namespace carrom {
 

@@ -271,23 +271,7 @@ TEST_CASE("measurements: psi6 goes on from what was stored, to the same tables")
     const Case each = cases()[1];
     const TestScene test = test_of(each);
     const Scene scene = with_psi6(test, each.method);
-    Simulation whole = simulation_of(scene, test, world);
-    Sampler whole_sampler(scene, whole, world);
-    advance_to(whole, whole_sampler, 60);
-
-    Simulation first = simulation_of(scene, test, world);
-    Sampler first_sampler(scene, first, world);
-    advance_to(first, first_sampler, 33);
-    StoredState state = {{first.discs().begin(), first.discs().end()},
-                         first.micro_steps_done(),
-                         SideColumns(first.side_columns())};
-    Simulation second(scene, std::move(state), world, {});
-    Sampler sampler(scene, second, world);
-    sampler.go_on(first_sampler.stored());
-    advance_to(second, sampler, 60);
-    for (const char* name :
-         {"psi6", "psi6_history", "psi6_distribution", "psi6_correlation", "neighbours"})
-        CHECK(table_of(sampler.tables(), name).rows == table_of(whole_sampler.tables(), name).rows);
+    check_going_on(scene, test, 33, 60, world);
 }
 
 TEST_CASE("measurements: in a square lattice psi6 is 0, each disc with four neighbours") {
