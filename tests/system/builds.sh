@@ -47,7 +47,7 @@ if command -v git >/dev/null && git -C "$CARROM_SOURCE_DIR" rev-parse HEAD >/dev
     for mark in '' -modified; do
         [ -z "$mark" ] || echo '# changed' >>clone/README.md
         configured clone -G Ninja || { complain 'the clone'; tail -n 5 log; }
-        grep -q "CARROM_COMMIT=.*$commit$mark[\\\\\"]" "$test_folder/build/build.ninja" ||
+        grep -q "CARROM_COMMIT=.*${commit}${mark}[\\\\\"]" "$test_folder/build/build.ninja" ||
             complain "--version would not show $commit$mark"
     done
 fi
