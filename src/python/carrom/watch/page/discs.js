@@ -172,5 +172,5 @@ const Discs = (() => {
     return frame;
   }
 
-  return { draw, drawGradient, drawShades, mapping, parse };
+  return { draw, drawGradient, drawShades, mapping, mix, parse };
 })();
