@@ -17,7 +17,7 @@ const Curves = (() => {
     return [low >= 0 && low - room < 0 ? 0 : low - room, high + room];
   }
 
-  // At most `most` + 1 round numbers from low to high: 1, 2 or 5 times a power of ten apart.
+  // Some `most` round numbers from low to high, two at least: 1, 2 or 5 times a power of ten apart.
   function ticks(low, high, most) {
     const least = (high - low) / most, power = 10 ** Math.floor(Math.log10(least));
     const apart = power * [1, 2, 5, 10].find((factor) => factor * power >= least * (1 - 1e-9));
@@ -25,14 +25,15 @@ const Curves = (() => {
     if (!(apart > 0)) return [low];
     for (let k = Math.ceil(low / apart - 1e-9); k * apart <= high + 1e-9 * apart; k++)
       found.push(k * apart);
-    return found.length ? found : [low];
+    return found.length > 1 || most > 8 ? found : ticks(low, high, 2 * most);
   }
 
   // With the digits in which neighbours differ.
   function tickNames(values) {
     const apart = values.length > 1 ? values[1] - values[0] : Math.abs(values[0]) || 1;
     const largest = Math.max(...values.map(Math.abs));
-    if (largest >= 1e7 || largest < 1e-4 && largest > 0) return values.map((v) => v.toExponential(1));
+    if (largest >= 1e7 || largest < 1e-4 && largest > 0)
+      return values.map((v) => v.toExponential(2));
     const digits = Math.min(12, Math.max(0, -Math.floor(Math.log10(apart) + 1e-9)));
     return values.map((v) => (v === 0 ? 0 : v).toFixed(digits));
   }
