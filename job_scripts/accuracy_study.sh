@@ -97,6 +97,7 @@ done
 cut -d, -f4,5,7,9-17 "$folder/distances.csv" >"$folder/distances.short"
 mv "$folder/distances.short" "$folder/distances.csv"
 "${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" \
-    "$folder"/{error,large,long,dilute,arithmetic,size,thin}.csv --output "$folder" ${PAGE:+--page "$PAGE"}
+    "$folder"/{error,large,long,dilute,arithmetic,size,thin}.csv \
+    --output "$folder" ${PAGE:+--page "$PAGE"}
 "${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder/distances.csv" \
     --output "$folder"
