@@ -66,8 +66,11 @@ void SegmentedFile::begin() {
 bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
                           const std::function<void(hid_t file)>& check) {
     std::uint64_t is_there = 0;
-    on_root(communicator_, path_, ExitCode::output_failure,
-            [&] { is_there = std::filesystem::exists(path_) ? 1 : 0; });
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        std::error_code error;
+        is_there = std::filesystem::exists(path_, error) ? 1 : 0;
+        if (error) throw FileError("cannot be found: " + error.message());
+    });
     communicator_.broadcast(is_there);
     if (is_there == 0) {
         on_root(communicator_, path_, ExitCode::bad_input, [&] { refuse_segments(); });

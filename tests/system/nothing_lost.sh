@@ -44,11 +44,46 @@ for how in '--resume' '--restart latest'; do
 done
 CARROM_FAIL_LISTING=/checkpoints LD_PRELOAD=$failing run 1 run -o kept --resume --steps 30 --quiet
 still_there 'a folder that cannot be listed, without a scene'
-if [ "$(id -u)" -ne 0 ]; then # root may read everything
-    chmod 000 kept/checkpoints
-    run 1 run "${scene[@]}" -o kept --steps 30 --resume
-    chmod 755 kept/checkpoints
-    still_there 'a folder without rights'
+
+# An ordinary user's folders without rights. Root may read everything, so it becomes nobody.
+nobody=()
+if [ "$(id -u)" -eq 0 ]; then
+    nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+    "${nobody[@]}" test -x "$CARROM_PROGRAM" || nobody=(no)
+    "${nobody[@]}" test -r "$CARROM_SOURCE_DIR/inputs/gas.toml" || nobody=(no)
+fi
+cp -r kept locked
+chown -R "$(id -u | sed 's/^0$/65534/')" locked
+sums_of locked >before_locked
+as_nobody() { # CASE TEXT WORD...
+    local case=$1 text=$2
+    shift 2
+    n_runs=$((n_runs + 1))
+    "${nobody[@]}" timeout 60 "$CARROM_PROGRAM" run "${scene[@]}" -o locked --steps 30 "$@" \
+        >"$test_folder/out" 2>"$test_folder/err"
+    code=$?
+    chmod 755 locked/*/
+    expect_code 2 "$case"
+    expect_told "$text" "$case"
+    sums_of locked | grep -v scene.toml | cmp - <(grep -v scene.toml before_locked) ||
+        complain "files have changed: $case"
+}
+if [ "${nobody[*]}" = no ]; then
+    echo 'skipped: nobody may not run the program there'
+else
+    for mode in 000 444; do
+        for name in checkpoints trajectory collisions measurements; do
+            chmod $mode locked/$name
+            as_nobody "$name $mode, --overwrite" "locked/$name" --overwrite
+        done
+        chmod $mode locked/trajectory
+        as_nobody "trajectory $mode, --resume" \
+            'trajectory.h5: its part trajectory/0001.h5: cannot be opened: Permission' --resume
+    done
+    chmod 000 locked/checkpoints
+    as_nobody 'checkpoints 000, --resume' 'cannot be listed: Permission denied' --resume
+    chmod 555 locked/measurements
+    as_nobody 'measurements 555, --overwrite' '--overwrite cannot remove' --overwrite
 fi
 
 # Each kind of recording alone is enough, and a run of which only the start is there begins anew.

@@ -2,9 +2,13 @@
 #include "run/files/run_folder.hpp"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -150,7 +154,7 @@ std::string recorded_beyond_start(const std::string& folder) {
     });
 }
 
-std::string foreign_table(const Scene& scene) {
+std::string problem_with_tables(const Scene& scene) {
     if (!scene.measurements) return {};
     const std::string& folder = scene.measurements->folder;
     std::error_code error;
@@ -161,7 +165,12 @@ std::string foreign_table(const Scene& scene) {
         return path.extension() == ".csv" && is_name_of_table(path.stem().string()) && !is_empty &&
                !is_written_by_run("measurements", path);
     });
-    return found.empty() ? found : in(folder, found);
+    if (error) return fmt::format("{} cannot be listed: {}", folder, error.message());
+    if (found.empty()) return {};
+    const bool is_readable = std::ifstream(in(folder, found)).good();
+    return fmt::format("{} {}, and this run may write a table of that name; move it away",
+                       in(folder, found),
+                       is_readable ? "is no table that a run has written" : "cannot be read");
 }
 
 std::string scene_copy_of(const std::string& folder) {
@@ -216,10 +225,17 @@ void remove_run(const std::string& folder) {
     }
 }
 
-std::string link_of_run(const std::string& folder) {
+std::string problem_of_removal(const std::string& folder) {
     std::error_code error;
-    for (const char* name : folders)
-        if (fs::is_symlink(fs::symlink_status(in(folder, name), error))) return in(folder, name);
+    for (const char* name : folders) {
+        const std::string path = in(folder, name);
+        if (fs::is_symlink(fs::symlink_status(path, error)))
+            return path + " is a symbolic link, and --overwrite removes nothing behind one; remove "
+                          "the link first, or name another folder";
+        if (fs::is_directory(path, error) && ::access(path.c_str(), R_OK | W_OK | X_OK) != 0)
+            return fmt::format("--overwrite cannot remove what is in {}: {}", path,
+                               std::strerror(errno));
+    }
     return {};
 }
 
