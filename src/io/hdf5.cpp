@@ -195,7 +195,9 @@ SharedFile::SharedFile(const std::string& path, Access access, const Communicato
 
 bool has(hid_t file, const std::string& path) {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-        if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+        // An error is no answer: HDF5 finds links of some damaged groups when it is asked again.
+        const std::string part = path.substr(0, end);
+        if (checked(H5Lexists(file, part.c_str(), H5P_DEFAULT), part) == 0) return false;
         if (end == std::string::npos) return true;
     }
 }
