@@ -121,6 +121,9 @@ unpack_debian() {
             tar -x --keep-directory-symlink --no-same-owner -C "$folder" || return 1
     done
     rm "$folder"/var/cache/apt/archives/*.deb
+    # Links to the top of that system would lead to this one.
+    find "$folder/usr" -type l -lname '/*' -printf '%l\0%p\0' |
+        xargs -0 -r -n 2 sh -c 'ln -snf "$0$1" "$2"' "$folder"
     touch "$folder/unpacked"
 }
 

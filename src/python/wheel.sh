@@ -55,18 +55,29 @@ libraries_of() {
 # cannot be had.
 old_system=
 link_with_old_system() {
-    local old=$build/old_system parts=$build/old_parts options
+    local old=$build/old_system parts=$build/old_parts place
     [ "$(id -u)" -eq 0 ] && install debootstrap &&
         unpack_debian "$old" bullseye "$(dpkg --print-architecture)" libc6-dev libgomp1 libstdc++6 ||
         { say "left out: the C library of Debian 11; see $old.log"; return 1; }
     mkdir -p "$parts"
-    # Newer C libraries have this variable; its 0 has counts of references be atomic.
-    echo 'char __libc_single_threaded = 0;' | gcc -fPIC -c -x c -o "$parts/threads.o" -
+    # What GCC's library takes from newer C libraries; 0 has counts of references be atomic.
+    gcc -O2 -fPIC -c -x c -o "$parts/newer.o" - <<'END'
+#include <sys/random.h>
+char __libc_single_threaded = 0;
+unsigned arc4random(void) {
+    unsigned bits = 0;
+    while (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) continue;
+    return bits;
+}
+END
     printf '#define %s\n' 'TOML_HEADER_ONLY 0' TOML_IMPLEMENTATION >"$parts/toml.cpp"
     echo '#include <toml++/toml.h>' >>"$parts/toml.cpp"
     g++ -std=c++20 -O2 -fPIC -c "$parts/toml.cpp" -o "$parts/toml.o"
-    options="--sysroot=$old -static-libstdc++ -Wl,--unresolved-symbols=ignore-in-shared-libs"
-    echo "link_options($options $parts/threads.o $parts/toml.o)" >"$parts/link.cmake"
+    place=$old/usr/lib/$(gcc -print-multiarch)
+    cat >"$parts/link.cmake" <<END
+link_options(--sysroot=$old -B$place -L$place -static-libstdc++
+             -Wl,--unresolved-symbols=ignore-in-shared-libs $parts/newer.o $parts/toml.o)
+END
     old_system=$old
 }
 
