@@ -75,8 +75,8 @@ END
     g++ -std=c++20 -O2 -fPIC -c "$parts/toml.cpp" -o "$parts/toml.o"
     place=$old/usr/lib/$(gcc -print-multiarch)
     cat >"$parts/link.cmake" <<END
-link_options(--sysroot=$old -B$place -L$place -static-libstdc++
-             -Wl,--unresolved-symbols=ignore-in-shared-libs $parts/newer.o $parts/toml.o)
+add_link_options(--sysroot=$old -B$place -L$place -static-libstdc++
+                 -Wl,--unresolved-symbols=ignore-in-shared-libs $parts/newer.o $parts/toml.o)
 END
     old_system=$old
 }
