@@ -57,7 +57,8 @@ old_system=
 link_with_old_system() {
     local old=$build/old_system parts=$build/old_parts place
     [ "$(id -u)" -eq 0 ] && install debootstrap &&
-        unpack_debian "$old" bullseye "$(dpkg --print-architecture)" libc6-dev libgomp1 libstdc++6 ||
+        unpack_debian "$old" bullseye "$(dpkg --print-architecture)" libc6-dev libgomp1 \
+            libstdc++6 ||
         { say "left out: the C library of Debian 11; see $old.log"; return 1; }
     mkdir -p "$parts"
     # What GCC's library takes from newer C libraries; 0 has counts of references be atomic.
