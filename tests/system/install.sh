@@ -83,8 +83,9 @@ if grep -qx 'CMAKE_BUILD_TYPE:[A-Z]*=Release' "$build/CMakeCache.txt"; then
     done
 fi
 
-# The archive fits into shared libraries of others: its code depends on no address.
-if [ -e "$library/libcarrom.a" ]; then
+# Built so, the archive fits into shared libraries of others: its code depends on no address.
+if [ -e "$library/libcarrom.a" ] &&
+    grep -qx 'CMAKE_POSITION_INDEPENDENT_CODE:[A-Z]*=ON' "$build/CMakeCache.txt"; then
     step into_a_library "$compiler" -shared -Wl,-z,text -o "$test_folder/embed/libother.so" \
         -Wl,--whole-archive "$library/libcarrom.a" -Wl,--no-whole-archive
 fi

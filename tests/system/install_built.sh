@@ -4,7 +4,8 @@
 #
 #   shared   libcarrom.so, which programs link by CMake and by pkg-config without naming its own
 #            libraries
-#   clang    an archive by clang; g++ gets a word about it from CMake, and links it by pkg-config
+#   clang    an archive by clang, for shared libraries of others too; g++ gets a word about it from
+#            CMake, and links it by pkg-config
 #
 # usage: install_built.sh KIND CMAKE CXX WORD...    words for cmake, as for this build
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
@@ -14,7 +15,7 @@ case $kind in
     shared) words+=(-DCARROM_SHARED=ON -DCMAKE_CXX_COMPILER="$compiler") ;;
     clang)
         clang=$(command -v clang++) || { echo 'skipped: there is no clang++'; exit 77; }
-        words+=(-DCMAKE_CXX_COMPILER="$clang")
+        words+=(-DCMAKE_CXX_COMPILER="$clang" -DCMAKE_POSITION_INDEPENDENT_CODE=ON)
         ;;
 esac
 "$cmake" -S "$CARROM_SOURCE_DIR" -B "$test_folder/build" "${words[@]}" >log 2>&1 &&
