@@ -5,7 +5,7 @@ pictures beside its CSV files.
 
   tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
 
-Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks)
+Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks)
 and peaks.txt (machine_peaks); measure_all.sh writes all four. Other machines' rates, as
 rates_xeon.csv, get a table each behind the first one's. A part whose file is missing keeps what it
 says. Words around the markers are the page's own. Needs the Python environment of
@@ -90,6 +90,23 @@ def edmd_part(files):
     beside = [[r for r in rows if r.get("over_edmd")] for rows in files]
     return by_case(
         [rows for rows in beside if rows], lambda r: f"{short(r['over_edmd'])} ({rate_text(r)})"
+    )
+
+
+def sizes_part(rows):
+    """Mixtures with their rate, its share of equal discs' and how it stands to EDMD."""
+    rate = {r["case"]: float(r["rate"]) for r in rows}
+
+    def share(row):
+        return rate[row["case"]] / rate[f"sizes 1 and 1, {row['case'].split(', ')[1]}"]
+
+    return table(
+        ["case", "million collisions per second", "share of equal discs' rate", "x EDMD"],
+        [
+            [r["case"], rate_text(r), f"{share(r):.2f}", short(r.get("over_edmd"))]
+            for r in rows
+            if r["case"].startswith("sizes")
+        ],
     )
 
 
@@ -324,6 +341,8 @@ def main():
         text = replace_part(text, "two cores", two_cores_part(files))
         text = replace_part(text, "edmd", edmd_part(files))
         draw_sizes(rows, folder)
+    if (folder / "sizes.csv").exists():
+        text = replace_part(text, "sizes", sizes_part(read_csv(folder / "sizes.csv")))
     if (folder / "cluster.csv").exists():
         rows = read_csv(folder / "cluster.csv")
         text = replace_part(text, "cluster", cluster_part(rows))

@@ -120,14 +120,24 @@ def beside_edmd():
 
 
 def unequal_sizes():
+    """Steps are for some two million collisions: at packing 0.4 a disc makes two in a step, or as
+    many as the ratio of sizes, and at packing 0.7 six times as many.
+    """
     found = {}
-    for ratio in (1, 3, 10, 30):
-        found[f"sizes 1 and {ratio}, packing 0.4"] = Case(
-            lambda s, r=ratio: mixture(10_000, r, 0.4, s(40)), unit="collisions", edmd=True
+    for packing, steps in ((0.4, 100), (0.7, 16)):
+        for ratio in (1, 3, 10, 30):
+            found[f"sizes 1 and {ratio}, packing {packing}"] = Case(
+                lambda s, r=ratio, p=packing, n=steps: mixture(
+                    10_000, r, p, max(2, s(2 * n // max(2, r)))
+                ),
+                unit="collisions",
+                edmd=True,
+            )
+        found[f"sizes of 23 %, packing {packing}"] = Case(
+            lambda s, p=packing, n=steps: polydisperse(10_000, p, s(n)),
+            unit="collisions",
+            edmd=True,
         )
-    found["sizes of 23 %, packing 0.4"] = Case(
-        lambda s: polydisperse(10_000, 0.4, s(40)), unit="collisions", edmd=True
-    )
     return found
 
 
