@@ -60,7 +60,7 @@ class Fields:
         """Return a field, (B, rows, columns)."""
         if name == "pressure":
             parts = ("xx", "yy", "contact_xx", "contact_yy")
-            total: Array = sum(self._grid(part) for part in parts) / 2
+            total: Array = np.sum([self._grid(part) for part in parts], axis=0) / 2
             return total
         if name not in self.names:
             raise NoDataError(f"profiles have no field {name!r}; they have {', '.join(self.names)}")
