@@ -215,8 +215,10 @@ void PlainRule::keep_from_start(const Candidate& candidate, double m) {
         disc.x = made.x;
         disc.y = made.y;
         disc.tau = made.tau;
-        disc.pair_collisions += made.pair_collisions - start.pair_collisions;
-        disc.wall_collisions += made.wall_collisions - start.wall_collisions;
+        if (made.pair_collisions != start.pair_collisions)
+            ++disc.pair_collisions;
+        else
+            ++disc.wall_collisions;
     };
     Disc p = start_[candidate.p];
     if (is_wall(candidate)) {
