@@ -8,8 +8,8 @@ pictures beside its CSV files.
 Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), kernels.json
 (carrom_benchmarks) and peaks.txt (machine_peaks); measure_all.sh writes all but sizes.csv. Other
 machines' rates, as rates_xeon.csv, get a table each behind the first one's. A part whose file is
-missing keeps what it says. Words around the markers are the page's own. Needs the Python environment of
-docs/tools/README.md.
+missing keeps what it says. Words around the markers are the page's own. Needs the Python
+environment of docs/tools/README.md.
 """
 
 import argparse
