@@ -80,7 +80,8 @@ void write(const std::string& folder, const std::string& name, const std::string
 std::string lines_of_replicas(const std::vector<Replica>& replicas,
                               const std::vector<Json>& reports) {
     std::string text = "replica,seed,state_hash";
-    for (const AveragedColumn& quantity : averaged_columns) text += fmt::format(",{}", quantity.name);
+    for (const AveragedColumn& quantity : averaged_columns)
+        text += fmt::format(",{}", quantity.name);
     for (std::size_t k = 0; k < reports.size(); ++k) {
         text += fmt::format("\n{},{},{}", k, replicas[k].seed,
                             reports[k].value("state_hash", std::string()));
