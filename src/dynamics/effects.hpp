@@ -38,15 +38,8 @@ struct ContactEffect {
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
 
-/// What a side of the box can be: scenes have the same words (scene/boundaries/boundary.hpp).
-#define CARROM_FOR_EACH_BOUNDARY(kind)                                                             \
-    kind(wall) kind(thermal) kind(moving) kind(oscillating) kind(open) kind(periodic) kind(sheared)
-
-enum class BoundaryKind {
-#define CARROM_NAME(kind) kind,
-    CARROM_FOR_EACH_BOUNDARY(CARROM_NAME)
-#undef CARROM_NAME
-};
+/// What a side of the box can be. Each kind has a file in scene/boundaries.
+enum class BoundaryKind { wall, thermal, moving, oscillating, open, periodic, sheared };
 
 /// What a wall or an obstacle does along its surface (rubbing.hpp).
 struct Surface {

@@ -57,10 +57,10 @@ inline constexpr std::array words_of<ContactKind>{
     Word{"restitution", ContactKind::restitution}, Word{"rough", ContactKind::rough}};
 template <>
 inline constexpr std::array words_of<BoundaryKind>{
-#define CARROM_WORD(kind) Word{std::string_view(#kind), BoundaryKind::kind},
-    CARROM_FOR_EACH_BOUNDARY(CARROM_WORD)
-#undef CARROM_WORD
-};
+    Word{"wall", BoundaryKind::wall},      Word{"thermal", BoundaryKind::thermal},
+    Word{"moving", BoundaryKind::moving},  Word{"oscillating", BoundaryKind::oscillating},
+    Word{"open", BoundaryKind::open},      Word{"periodic", BoundaryKind::periodic},
+    Word{"sheared", BoundaryKind::sheared}};
 template <>
 inline constexpr std::array words_of<Transfers>{Word{"independent", Transfers::independent},
                                                 Word{"collective", Transfers::collective}};

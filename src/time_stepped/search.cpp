@@ -20,8 +20,8 @@ constexpr std::size_t around_ahead = 4;
 constexpr std::size_t hits_per_batch = 128;
 /// States of pairs are prefetched so many pairs ahead, because they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
-/// A request to stop is checked for after so many pairs.
-constexpr std::size_t pairs_per_look = 65536;
+/// After this many pairs comes a check whether the run is asked to stop.
+constexpr std::size_t pairs_between_checks = 65536;
 
 /// Adds what was predicted for the micro-steps from `from` on.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
@@ -38,7 +38,7 @@ void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask
                     const Judge& judge) {
     for (std::size_t k = 0; k < std::min(pairs_ahead, n); ++k) ask(pairs[k]);
     for (std::size_t k = 0; k < n && !is_stop_overdue();) {
-        for (const std::size_t end = std::min(k + pairs_per_look, n); k < end; ++k) {
+        for (const std::size_t end = std::min(k + pairs_between_checks, n); k < end; ++k) {
             if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
             judge(pairs[k]);
         }
@@ -193,7 +193,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
             const std::span<const LocalIndex> batch = hit.subspan(
                 first, std::min(hits_per_batch, hit.size() - first));
-            look_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
+            find_pairs_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
             for_each_ahead(
                 lists.pairs, lists.n_pairs,
                 [&](const DiscPair& pair) { prefetch(population.discs, pair.second); },
@@ -213,9 +213,9 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
 
 /// Fills `lists.pairs` with the pairs of each disc of `hit` and the discs that it might touch.
 template <class Dynamics>
-void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, float from,
-                                   float half_reach, std::span<const LocalIndex> hit,
-                                   SearchLists& lists) const {
+void Search<Dynamics>::find_pairs_around(const CellGrid& grid, const Bounds& bounds, float from,
+                                         float half_reach, std::span<const LocalIndex> hit,
+                                         SearchLists& lists) const {
     lists.n_pairs = 0;
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
         // A disc needs a dozen cache lines: prefetch the cells first, then the flights

@@ -83,8 +83,8 @@ private:
                         int column, SearchLists&) const;
     void predict_apart(const Population&, const CellGrid&, const Window&, const Bounds&,
                        double reach, std::uint32_t k, SearchLists&) const;
-    void look_around(const CellGrid&, const Bounds&, float from, float half_reach,
-                     std::span<const LocalIndex> hit, SearchLists&) const;
+    void find_pairs_around(const CellGrid&, const Bounds&, float from, float half_reach,
+                           std::span<const LocalIndex> hit, SearchLists&) const;
     float half_reach(const CellGrid&, double reach) const;
     void predict_pair(const Population&, const Window&, int from, LocalIndex a, LocalIndex b,
                       SearchLists&) const;

@@ -8,20 +8,14 @@
 
 namespace carrom {
 
-namespace boundaries {
-#define CARROM_DECLARE(kind) BoundaryDeclaration kind();
-CARROM_FOR_EACH_BOUNDARY(CARROM_DECLARE)
-#undef CARROM_DECLARE
-} // namespace boundaries
-
 namespace {
 
 const BoundaryDeclaration& declaration_of(BoundaryKind kind) {
-    return all_boundaries()[static_cast<std::size_t>(kind)];
+    return *std::ranges::find(all_boundaries(), kind, &BoundaryDeclaration::kind);
 }
 
 std::string_view word_of(BoundaryKind kind) {
-    return words_of<BoundaryKind>[static_cast<std::size_t>(kind)].name;
+    return std::ranges::find(words_of<BoundaryKind>, kind, &Word<BoundaryKind>::value)->name;
 }
 
 /// Keys hold views of their texts.
@@ -48,15 +42,6 @@ Need reflecting(std::size_t side) {
 }
 
 } // namespace
-
-const std::vector<BoundaryDeclaration>& all_boundaries() {
-    static const std::vector<BoundaryDeclaration> all = {
-#define CARROM_LIST(kind) boundaries::kind(),
-        CARROM_FOR_EACH_BOUNDARY(CARROM_LIST)
-#undef CARROM_LIST
-    };
-    return all;
-}
 
 std::vector<Key> keys_of_boundaries() {
     std::vector<Key> all;
