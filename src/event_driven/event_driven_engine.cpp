@@ -249,38 +249,28 @@ template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(do
     return geometry;
 }
 
-/// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
+/// Cuts the own cells into blocks. A block that exists already keeps its halo.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
-    const double cell_width = discs_.grid().geometry().cell_width, side = block_side();
-    const auto cells_each = [](int n_cells, int n_parts) {
+    const CellGrid& grid = discs_.grid();
+    const double cell_width = grid.geometry().cell_width, side = block_side();
+    const auto cells_of_block = [&](int n_cells) {
+        const int n_parts = std::clamp(
+            static_cast<int>(std::ceil(n_cells * cell_width / side * (1 - 1e-9))), 1, n_cells);
         return (n_cells + n_parts - 1) / n_parts;
     };
-    const auto cells_of_block = [&](int n_cells) {
-        const double n_parts = std::ceil(n_cells * cell_width / side * (1 - 1e-9));
-        return cells_each(n_cells, std::clamp(static_cast<int>(n_parts), 1, n_cells));
+    const auto n_in = [&](int column, int first_row, int end_row) -> std::uint64_t {
+        const SlotRange run = grid.run(column, first_row, end_row - 1);
+        return run.end - run.begin;
     };
-    const int n_columns = own_cells_.end_column - own_cells_.first_column,
-              n_rows = own_cells_.end_row - own_cells_.first_row;
-    block_columns_ = cells_of_block(n_columns);
-    block_rows_ = cells_of_block(n_rows);
-    const int n_block_columns = cells_each(n_columns, block_columns_);
-    n_block_rows_ = cells_each(n_rows, block_rows_);
-    const auto n_blocks = static_cast<std::size_t>(n_block_columns) *
-                          static_cast<std::size_t>(n_block_rows_);
-    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != n_blocks;
-    blocks_.resize(n_blocks);
-    std::size_t next = 0;
-    for (int k = 0; k < n_block_columns; ++k) {
-        for (int j = 0; j < n_block_rows_; ++j) {
-            Block& block = blocks_[next++];
-            block.cells.first_column = own_cells_.first_column + k * block_columns_;
-            block.cells.end_column = std::min(block.cells.first_column + block_columns_,
-                                              own_cells_.end_column);
-            block.cells.first_row = own_cells_.first_row + j * block_rows_;
-            block.cells.end_row = std::min(block.cells.first_row + block_rows_, own_cells_.end_row);
-            block.is_marked = 1;
-            if (is_new) block.halo = choice_.halo;
-        }
+    cuts_.cut(own_cells_, cells_of_block(own_cells_.end_column - own_cells_.first_column),
+              cells_of_block(own_cells_.end_row - own_cells_.first_row), grid.geometry().n_reach,
+              n_in);
+    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != cuts_.n_blocks();
+    blocks_.resize(cuts_.n_blocks());
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        blocks_[k].cells = cuts_.block(k);
+        blocks_[k].is_marked = 1;
+        if (is_new) blocks_[k].halo = choice_.halo;
     }
 }
 
@@ -315,10 +305,13 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              levels_,
                              extent()};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
-    for (Block& block : blocks_) {
+    std::vector<std::size_t> noted;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        Block& block = blocks_[k];
         if (block.is_marked == 0) continue;
         ++(block.has_run ? counts_.blocks_redone : counts_.blocks);
         block.has_run = true;
+        if (block_tuning_.notes_work) noted.push_back(k);
     }
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
@@ -332,6 +325,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                           histories_, block.outcome);
         block.is_marked = 0;
     }
+    if (!block_tuning_.notes_work) return;
+    std::vector<BlockWork>& round = rounds_.emplace_back();
+    for (const std::size_t k : noted)
+        round.push_back({blocks_[k].outcome.n_carried, blocks_[k].outcome.n_seen});
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/engine_base.hpp"
@@ -33,6 +34,13 @@ struct BlockTuning {
     double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
     bool is_validated = true;         ///< false gives wrong results
     bool parts_sizes = false;         ///< each octave of radii has a level of cells
+    bool notes_work = false;          ///< `take_work()` has something to tell
+};
+
+/// What the run of a block has done, for studies of how threads share a window.
+struct BlockWork {
+    std::uint64_t n_carried = 0; ///< collisions carried out, those of the halo included
+    std::uint64_t n_seen = 0;    ///< discs, those of the halo included
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
@@ -42,6 +50,10 @@ public:
                       const Tuning& tuning, const BlockTuning& block_tuning = {});
 
     RollbackCounts rollback_counts() const override;
+
+    /// What the runs of this rank's blocks have done since the last call, round by round: a window
+    /// has one round, and another one for each rollback.
+    std::vector<std::vector<BlockWork>> take_work() { return std::exchange(rounds_, {}); }
 
 private:
     using Base = EngineBase<Dynamics>;
@@ -115,9 +127,9 @@ private:
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int halo_depth_ = 0;    ///< reaches that the rank's halo covers
     CellBlock own_cells_{0, 1, 0, 1};
-    int block_columns_ = 1, block_rows_ = 1; ///< size of a block in cells
-    int n_block_rows_ = 1;
+    BlockCuts cuts_; ///< of the own cells into blocks
     std::vector<Block> blocks_;
+    std::vector<std::vector<BlockWork>> rounds_;
     std::vector<std::uint64_t> histories_;       ///< for each disc, own discs before the halo
     std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };

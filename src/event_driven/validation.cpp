@@ -92,12 +92,9 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
     const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
-    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1) -
-                       own_cells_.first_column;
-    const int row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1) -
-                    own_cells_.first_row;
-    const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
-    std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked)
+    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1),
+              row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1);
+    std::atomic_ref(blocks_[cuts_.block_of(column, row)].is_marked)
         .store(1, std::memory_order_relaxed);
 }
 
