@@ -52,8 +52,18 @@ std::vector<int> cuts_by_weight(const std::vector<std::uint64_t>& weights, int n
     return cuts;
 }
 
+std::uint64_t pairs_in_cells(const CellBlock& cells, const CellCount& count) {
+    std::uint64_t pairs = 0;
+    for (int column = cells.first_column; column < cells.end_column; ++column)
+        for (int row = cells.first_row; row < cells.end_row; ++row) {
+            const std::uint64_t n = count(column, row, row + 1);
+            pairs += n * (n - 1);
+        }
+    return pairs;
+}
+
 void BlockCuts::cut(const CellBlock& cells, int block_columns, int block_rows, int least,
-                    const Count& count) {
+                    const CellCount& count) {
     columns_ = even_cuts(cells.first_column, cells.end_column, block_columns);
     rows_.assign(columns_.size() - 1, even_cuts(cells.first_row, cells.end_row, block_rows));
     if (n_blocks() == 1) return;

@@ -18,17 +18,21 @@ struct CellBlock {
     int first_row = 0, end_row = 0;
 };
 
+/// Returns the number of discs in the cells of one column from a first row to before an end.
+using CellCount = std::function<std::uint64_t(int column, int first_row, int end_row)>;
+
+/// How many others each disc has in its cell, summed over discs. Price: one call for each cell.
+std::uint64_t pairs_in_cells(const CellBlock& cells, const CellCount& count);
+
 class BlockCuts {
 public:
-    /// Returns the number of discs in the cells of one column from a first row to before a last one.
-    using Count = std::function<std::uint64_t(int column, int first_row, int end_row)>;
 
     /// Cuts `cells` into blocks of `block_columns` by `block_rows` cells. If the fullest of them has
     /// too many discs for its share, it cuts them into about as many blocks by number, of which none
     /// is narrower or lower than `least` cells. Price: one call of `count` for each block and column
     /// of cells, and where discs crowd one for each cell.
     void cut(const CellBlock& cells, int block_columns, int block_rows, int least,
-             const Count& count);
+             const CellCount& count);
 
     std::size_t n_blocks() const { return rows_.size() * n_rows(); }
     /// Blocks follow each other from below, column by column.

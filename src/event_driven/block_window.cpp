@@ -35,7 +35,7 @@ constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
 /// The mean distance of discs.
 double spacing_of(const BlockNeeds& needs) {
-    const double n = needs.n_discs + 1;
+    const double n = needs.n_discs * needs.crowding + 1;
     return needs.box.is_square() ? needs.box.x / std::sqrt(n)
                                  : std::sqrt(needs.box.x / n) * std::sqrt(needs.box.y);
 }
@@ -56,8 +56,11 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     if (side > needs.box.shortest()) // a block cannot be higher than the box, so it can be longer
         side = discs_in_cache * spacing * (spacing / needs.box.shortest()) - 2 * margin;
     const double longest = needs.box.longest();
+    // Where discs crowd, blocks there are as much smaller as cuts by numbers make them.
     choice.block_side = needs.is_one_block ? longest
-                                           : std::min(std::max(side, 1.5 * margin), longest);
+                                           : std::min(std::max(side, 1.5 * margin) *
+                                                          std::sqrt(needs.crowding),
+                                                      longest);
     return choice;
 }
 
@@ -65,14 +68,16 @@ double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double halo = choice.halo * choice.reach;
     // Along one axis, the discs of a run with its halo divided by its own discs.
     const auto share_along = [&](double length, bool goes_round) {
-        const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
+        const double own = std::min(choice.block_side / std::sqrt(needs.crowding), length),
+                     seen = own + 2 * halo;
         return (goes_round ? seen : std::min(seen, length)) / own;
     };
     const double share = needs.is_one_block ? 1
                                             : share_along(needs.box.x, needs.goes_round_x) *
                                                   share_along(needs.box.y, needs.goes_round_y);
     const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.radius_to_look_for));
-    const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
+    const double partners = needs.n_discs * needs.crowding *
+                            (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);
     const double events = needs.collision_rate * choice.duration;
     const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 +

@@ -19,6 +19,7 @@ struct BlockNeeds {
     Box box;
     double radius = 0; ///< the largest
     double n_discs = 0;
+    double crowding = 1; ///< how many times denser it is around a disc than in the mean of the box
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
     double time = 0;           ///< since the last sync

@@ -25,6 +25,8 @@ constexpr double blocks_per_thread = 4;
 /// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
 /// as fast from a thin gas to the densest liquid.
 constexpr double jam_heating = 64;
+/// Below the first one cells and windows by the mean density do as well.
+constexpr double least_crowding = 2, most_crowding = 400;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
 
@@ -163,10 +165,14 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.is_one_block = is_alone_;
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
-    if (n_windows_ > 0)
-        collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) /
-                          (std::max(n, 1.0) * last_duration_);
-    else if (const double largest = communicator_.max(largest_speed_); largest > 0)
+    if (n_windows_ > 0) {
+        constexpr double unit = 1024; // integers are summed, because they have no order
+        std::uint64_t sums[] = {n_events_, static_cast<std::uint64_t>(unit * crowding_)};
+        communicator_.sum(sums);
+        collision_rate_ = static_cast<double>(sums[0]) / (std::max(n, 1.0) * last_duration_);
+        const double crowding = static_cast<double>(sums[1]) / (unit * std::max(n, 1.0));
+        needs.crowding = crowding > least_crowding ? std::min(crowding, most_crowding) : 1;
+    } else if (const double largest = communicator_.max(largest_speed_); largest > 0)
         collision_rate_ = guessed_collision_rate(
             needs, survey_speeds(discs_.own(), largest, communicator_).mean());
     needs.collision_rate = collision_rate_;
@@ -258,10 +264,13 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
             static_cast<int>(std::ceil(n_cells * cell_width / side * (1 - 1e-9))), 1, n_cells);
         return (n_cells + n_parts - 1) / n_parts;
     };
-    const auto n_in = [&](int column, int first_row, int end_row) -> std::uint64_t {
+    const auto n_in = [&grid](int column, int first_row, int end_row) -> std::uint64_t {
         const SlotRange run = grid.run(column, first_row, end_row - 1);
         return run.end - run.begin;
     };
+    const double n_cells = dynamics_.box().area() / (cell_width * cell_width);
+    crowding_ = static_cast<double>(pairs_in_cells(own_cells_, n_in)) * n_cells /
+                static_cast<double>(std::max<std::uint64_t>(1, discs_.n_total()));
     cuts_.cut(own_cells_, cells_of_block(own_cells_.end_column - own_cells_.first_column),
               cells_of_block(own_cells_.end_row - own_cells_.first_row), grid.geometry().n_reach,
               n_in);

@@ -117,6 +117,10 @@ private:
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
                           ///< its blocks; equal on all ranks
     double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
+    /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
+    /// over own discs, in the last window. Even gases have less than 1 for each: discs keep others
+    /// away.
+    double crowding_ = 1;
     Caution caution_;
     std::uint64_t n_events_ = 0; ///< on this rank in the last window
     RollbackCounts counts_;      ///< its counts of blocks are of this rank alone

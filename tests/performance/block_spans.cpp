@@ -3,7 +3,8 @@
 // cores can tell what 128 would have to do. The work of a block's run is its collisions plus 0.14
 // for each disc that it sees, which is what they take on one core. Threads take blocks in turn, as
 // OpenMP's dynamic schedule does; a round ends when the last thread has finished, and rounds that
-// a rollback repeats count too. Speed-up is all the work of first rounds over these spans.
+// a rollback repeats count too. Speed-up is the work of one thread, with the blocks that it would
+// choose, over the spans of many.
 //
 //   block_spans [DISCS [THREADS]]        a million discs, 64 threads
 //
@@ -71,7 +72,12 @@ std::vector<InputDisc> crowded(std::vector<InputDisc> discs, const Box& corner, 
     return kept;
 }
 
-void study(const char* name, std::size_t n_discs, int n_threads, Crowd kind) {
+struct Shared {
+    double work = 0, span = 0;
+    std::size_t n_rounds = 0, n_blocks = 0;
+};
+
+Shared shared_by(int n_threads, std::size_t n_discs, Crowd kind) {
     const Communicator& world = Communicator::world();
     const double side = std::sqrt(static_cast<double>(n_discs) * 3.14159265 / 0.5);
     const std::string text = fmt::format(
@@ -97,23 +103,26 @@ void study(const char* name, std::size_t n_discs, int n_threads, Crowd kind) {
     BlockTuning blocks;
     blocks.notes_work = true;
     EventDrivenEngine<PlainDynamics> engine(scene, std::move(state), world, tuning, blocks);
-    double work = 0, span = 0, largest = 0;
-    std::size_t n_rounds = 0, n_blocks = 0;
+    Shared shared;
     while (engine.micro_steps_done() < scene.steps * scene.micro_steps) {
         engine.advance_towards(scene.steps);
         for (const std::vector<BlockWork>& round : engine.take_work()) {
-            for (const BlockWork& block : round) {
-                work += work_of(block);
-                largest = std::max(largest, work_of(block));
-            }
-            span += span_of(round, n_threads);
-            ++n_rounds;
-            n_blocks += round.size();
+            for (const BlockWork& block : round) shared.work += work_of(block);
+            shared.span += span_of(round, n_threads);
+            shared.n_rounds += 1;
+            shared.n_blocks += round.size();
         }
     }
-    std::printf("%s,%zu,%d,%zu,%.1f,%.4g,%.4g,%.2f\n", name, n_discs, n_threads, n_rounds,
-                static_cast<double>(n_blocks) / static_cast<double>(n_rounds), work, span,
-                work / span / n_threads);
+    return shared;
+}
+
+void study(const char* name, std::size_t n_discs, int n_threads, Crowd kind) {
+    const Shared one = shared_by(1, n_discs, kind), many = shared_by(n_threads, n_discs, kind);
+    std::printf("%s,%zu,%d,%zu,%.1f,%.4g,%.4g,%.4g,%.1f,%.2f\n", name, n_discs, n_threads,
+                many.n_rounds,
+                static_cast<double>(many.n_blocks) / static_cast<double>(many.n_rounds), one.work,
+                many.work, many.span, one.span / many.span, one.span / many.span / n_threads);
+    std::fflush(stdout);
 }
 
 } // namespace
@@ -123,7 +132,8 @@ int main(int argc, char** argv) {
     return run_on_all(Communicator::world(), [&](const Communicator&) {
         const auto n_discs = static_cast<std::size_t>(argc > 1 ? std::atof(argv[1]) : 1e6);
         const int n_threads = argc > 2 ? std::atoi(argv[2]) : 64;
-        std::printf("scene,discs,threads,rounds,blocks a round,work,span,efficiency\n");
+        std::printf("scene,discs,threads,rounds,blocks a round,work of one thread,work of all,span,"
+                    "speed-up,efficiency\n");
         study("even", n_discs, n_threads, Crowd::none);
         study("all in 1 %", n_discs, n_threads, Crowd::all);
         study("half in 1 %", n_discs, n_threads, Crowd::half);
