@@ -141,7 +141,12 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels
         level.farthest = static_cast<float>((level.largest_radius * (1 + 1e-6) + flown) *
                                                 cells_per_length +
                                             0x1p-18 * extent + 1e-6);
-    const double inner = 1e-3 * cell_width + 0x1p-18 * extent * cell_width;
+    // Bounds of open sides are those of the largest disc, less its radius. Smaller discs depart
+    // earlier, so the bounds begin where a disc of no radius would.
+    const double earlier = dynamics.has_open_sides()
+                               ? dynamics.radius() * dynamics.growth_at(window.end)
+                               : 0;
+    const double inner = earlier + 1e-3 * cell_width + 0x1p-18 * extent * cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
     y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
