@@ -67,6 +67,12 @@ study large 16384 0.7 10.31 --arithmetic default --starts 3 --collisions 100 --r
 study long 1024 0.3 2.063 --arithmetic default --starts 4 --collisions 400 --repetitions 1
 study long 1024 0.5 4.10 --arithmetic default --starts 4 --collisions 400 --repetitions 1
 study long 1024 0.7 10.31 --arithmetic default --starts 4 --collisions 400 --repetitions 1
+# Thinner gases, where flights are long.
+for gas in '0.1 1.236' '0.01 1.0204' '0.001 1.002'; do
+    read -r packing z <<<"$gas"
+    study dilute 16384 "$packing" "$z" --arithmetic default --starts 3 --collisions 40 \
+        --repetitions 1
+done
 # Everything: K, both rules, both precisions, all formulas.
 study arithmetic 1024 0.3 2.063 --starts 4 --collisions 50 --repetitions 2
 study arithmetic 1024 0.7 10.31 --starts 4 --collisions 50 --repetitions 2
@@ -84,10 +90,14 @@ study distances 256 0.3 2.063 --distances --arithmetic stable --starts 4 --colli
 study distances 256 0.5 4.10 --distances --arithmetic stable --starts 4 --collisions 75
 
 [ "$share" = 1/1 ] || exit 0
-for kind in error large long arithmetic size thin distances; do
+for kind in error large long dilute arithmetic size thin distances; do
     awk 'FNR == 1 && NR > 1 { next } { print }' "$folder/$kind"-*.csv >"$folder/$kind.csv"
 done
+# Half of a table of distances repeats its scene and its machine, which the other tables have.
+cut -d, -f4,5,7,9-17 "$folder/distances.csv" >"$folder/distances.short"
+mv "$folder/distances.short" "$folder/distances.csv"
 "${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" \
-    "$folder"/{error,large,long,arithmetic,size,thin}.csv --output "$folder" ${PAGE:+--page "$PAGE"}
+    "$folder"/{error,large,long,dilute,arithmetic,size,thin}.csv \
+    --output "$folder" ${PAGE:+--page "$PAGE"}
 "${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder/distances.csv" \
     --output "$folder"

@@ -41,6 +41,6 @@ use_mpi_settings() {
             *) continue ;;
         esac
         name=${setting%%=*}
-        [ -v "$name" ] || export "$setting"
+        [ -v "$name" ] || export "$name=${setting#*=}"
     done <"$(dirname "${BASH_SOURCE[0]}")/mpi_settings.txt"
 }

@@ -96,6 +96,37 @@ apt_get() {
         "$@" >&2 </dev/null
 }
 
+# debian_mirror: where apt takes this machine's own packages from, or MIRROR
+debian_mirror() {
+    local suite
+    suite=$(source /etc/os-release && echo "$VERSION_CODENAME")
+    [ -z "${MIRROR:-}" ] || { echo "$MIRROR"; return; }
+    apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
+        awk -v suite="$suite" '$1 == suite && $2 == "main" { print $3; exit }'
+}
+
+# unpack_debian FOLDER SUITE ARCHITECTURE PACKAGE...: these and all that they need, for compilers
+# and emulators. None of their scripts is run: that would take the system they are for. Needs root.
+unpack_debian() {
+    local folder=$1 suite=$2 architecture=$3 names package
+    [ ! -e "$folder/unpacked" ] || return 0
+    shift 3
+    mkdir -p "$folder"
+    printf -v names '%s,' "$@"
+    say "fetching libraries of $suite for $architecture"
+    debootstrap --foreign --variant=minbase --arch="$architecture" --include="${names%,}" \
+        "$suite" "$folder" "$(debian_mirror)" >"$folder.log" 2>&1 || return 1
+    for package in "$folder"/var/cache/apt/archives/*.deb; do
+        dpkg-deb --fsys-tarfile "$package" |
+            tar -x --keep-directory-symlink --no-same-owner -C "$folder" || return 1
+    done
+    rm "$folder"/var/cache/apt/archives/*.deb
+    # Links to the top of that system would lead to this one.
+    find "$folder/usr" -type l -lname '/*' -printf '%l\0%p\0' |
+        xargs -0 -r -n 2 sh -c 'ln -snf "$0$1" "$2"' "$folder"
+    touch "$folder/unpacked"
+}
+
 # mpi_words: cmake's words for the library that MPI names. Debian has several side by side, and an
 # HDF5 for each: all parts of one build must be of the same.
 mpi_words() {

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the scenes of docs/lessons/effects.md, docs/how-to and README, and draw a picture of each.
+"""Run the scenes of inputs/, and draw the picture of each that the pages show.
 
   build/python/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
 
-It takes some minutes. A picture has as many colours as 60 kB allow.
+It takes some minutes. A picture is 907 pixels wide, and has as many colours as 250 kB allow.
+docs/tools/flows.py draws those of driven discs.
 """
 import argparse
 import os
@@ -15,30 +16,35 @@ import tempfile
 
 from PIL import Image
 
-MOST_BYTES = 60_000
+MOST_BYTES = 250_000
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
 # The step that is shown, and words for `carrom-plot frame`.
 PICTURES = {
     "atmosphere": (20_000, "--view 0 0 200 200"),
-    "belt": (2_000, "--colour spin --fastest 0.2"),
-    "channel": (10_000, "--colour vx --fastest 0.3"),
+    "break": (250, "--view 20 10 100 90"),
     "conduction": (4_000, ""),
-    "cooling": (3_000, "--dpi 54"),
-    "crossing": (100, "--view 20 60 140 160"),
+    "cooling": (3_000, ""),
+    "crossing": (100, "--colour vx --view 20 60 140 160"),
+    "crystal": (100, ""),
+    "dense": (500, "--view 0 0 100 100"),
+    "dense_liquid": (100, "--view 0 0 100 100"),
     "drag": (200, ""),
-    "effusion": (150, "--scene --view 60 60 140 140"),
+    "effusion": (200, "--scene --colour vx --view 50 30 200 170"),
     "galton": (400, "--scene"),
-    "heated": (2_000, "--view 0 0 200 200"),
+    "gas": (100, "--view 0 0 100 100"),
+    "haff": (500, ""),
     "hopper": (140, "--scene"),
-    "jet": (700, "--view 150 380 700 870 --dpi 52"),
+    "jet": (700, "--view 150 380 700 870"),
     "lorentz": (25, "--scene --colour vx"),
     "mixture": (500, ""),
     "piston": (60, ""),
     "rain": (600, ""),
     "rough": (40, "--colour spin --fastest 0.08"),
-    "shear": (600, "--colour vx --view 0 50 200 250"),
-    "sheared": (10_000, "--colour vx"),
+    "shaker": (2_000, ""),
+    "single_file": (2_000, "--view 0 -15 45 15"),
+    "tiny": (5, ""),
+    "vibrated": (80_000, "--view 0 0 120 120"),
 }
 
 
@@ -51,7 +57,7 @@ def draw(program, name, folder, target):
     checkpoint = run / "checkpoints" / f"checkpoint-{step:012}.h5"
     tool = [sys.executable, "-m", "carrom.plot.commands", "frame"]
     picture = folder / f"{name}.png"
-    subprocess.run([*tool, checkpoint, "--dpi", "60", *words, "-o", picture], check=True,
+    subprocess.run([*tool, checkpoint, "--dpi", "126", *words, "-o", picture], check=True,
                    env=dict(os.environ, PYTHONPATH=TOP / "src/python"))
     shrink(picture, target)
 
@@ -60,12 +66,12 @@ def with_scene(word, scene):
     return [word, scene] if word == "--scene" else [word]
 
 
-def shrink(picture, target):
+def shrink(picture, target, most_bytes=MOST_BYTES):
     """As many colours as the size allows."""
     image = Image.open(picture).convert("RGB")
     for colours in (128, 96, 64, 48, 32, 24, 16, 12, 8):
         image.quantize(colours, dither=Image.Dither.NONE).save(target, optimize=True)
-        if target.stat().st_size < MOST_BYTES:
+        if target.stat().st_size < most_bytes:
             print(f"{target}: {colours} colours, {target.stat().st_size} bytes")
             return
     sys.exit(f"{target} has {target.stat().st_size} bytes")

@@ -11,13 +11,16 @@ import pathlib
 import subprocess
 import tempfile
 
-import matplotlib
-import numpy as np
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import numpy as np
+import plot_style
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+LABELS = {
+    "shear": "shear viscosity", "bulk": "bulk viscosity", "conductivity": "thermal conductivity",
+    "scattering": r"$F_s$ at $k = \pi/r$", "squares": "mean square displacement",
+    "chi_4": r"$\chi_4$ of the overlap",
+}
 
 
 def read(path):
@@ -49,8 +52,8 @@ def draw_transport(figure, measured):
         axes.errorbar(table["steps"], table[name], table[f"{name}_error"], color="#0060b0",
                       label="Helfand")
         axes.axhline(known, color="black", linewidth=0.8, linestyle="--")
-        axes.set(xlabel="steps", ylabel=name, ylim=(0, None))
-        axes.legend(fontsize=8)
+        axes.set(xlabel="steps", ylabel=LABELS[name], ylim=(0, None))
+    figure.axes[0].legend()
 
 
 def draw_slow_liquid(figure, measured):
@@ -63,8 +66,8 @@ def draw_slow_liquid(figure, measured):
             table = table[table["count"] >= 25]
             axes.plot(table["steps"], table[name], ".-", color=colour,
                       label=("small", "large")[kind - 1])
-        axes.set(xlabel="steps", ylabel=name, xscale="log", yscale=scale)
-        axes.legend(fontsize=8)
+        axes.set(xlabel="steps", ylabel=LABELS[name], xscale="log", yscale=scale)
+    figure.axes[0].legend()
 
 
 PICTURES = {"shock": draw_shock, "transport": draw_transport, "slow_liquid": draw_slow_liquid}
@@ -78,13 +81,14 @@ def main():
     parser.add_argument("names", nargs="*", metavar="NAME", choices=[*PICTURES, []])
     parser.add_argument("--output", type=pathlib.Path, default=TOP / "docs/pictures")
     options = parser.parse_args()
+    plot_style.use()
     for name in options.names or PICTURES:
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([options.program.resolve(), "run", TOP / f"inputs/{name}.toml",
                             "--quiet", "-o", f"{folder}/run"], check=True)
-            figure = plt.figure(figsize=(10, 3), layout="constrained")
+            figure = plt.figure(figsize=(11, 3.6))
             PICTURES[name](figure, pathlib.Path(folder, "run/measurements"))
-            figure.savefig(options.output / f"{name}.png", dpi=72)
+            figure.savefig(options.output / f"{name}.png", dpi=100)
 
 
 if __name__ == "__main__":

@@ -5,10 +5,8 @@ import argparse
 import csv
 import pathlib
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import plot_style
 
 
 def read(path):
@@ -39,7 +37,7 @@ def draw_haff(axes, table):
     for restitution, colour in ((0.98, "#0060b0"), (0.95, "#208040"), (0.9, "#c05000")):
         chosen = [k for k, e in enumerate(table["restitution"]) if e == restitution]
         axes.errorbar(*([table[name][k] for k in chosen] for name in ("time", "ratio", "ratio_error")), label=f"restitution {restitution}", color=colour,
-                      marker="o", markersize=3, capsize=2)
+                      marker="o", capsize=2)
     axes.set(xlabel="$t / t_0$", ylabel=r"$\sqrt{kT(0) / kT}$ over Haff's law")
     axes.axhline(1, color="black", linewidth=0.8)
     axes.legend()
@@ -62,10 +60,11 @@ def draw_melting(axes, table):
         axes.plot(*zip(*points), label=label, color="0.5", marker=marker, markerfacecolor="white", linestyle="none")
     order = axes.twinx()
     order.errorbar(table["packing"], table["psi6"], table["psi6_error"], label=r"$|\psi_6|$ of all discs, Carrom", color="#c05000", marker="D", linestyle=":")
-    order.set(ylabel=r"$|\psi_6|$", ylim=(0, 1))
-    axes.set(xlabel="packing fraction", ylabel="$P^*$", xticks=(0.69, 0.70, 0.71, 0.72, 0.73))
+    order.set(ylabel=r"$|\psi_6|$ of all discs", ylim=(0, 1))
+    order.grid(False)
+    axes.set(xlabel="packing fraction", ylabel=r"pressure $P^* = P (2r)^2 / kT$", xticks=(0.69, 0.70, 0.71, 0.72, 0.73))
     handles = [one for pair in (axes, order) for one in pair.get_legend_handles_labels()[0]]
-    axes.legend(handles=handles, fontsize="x-small")
+    axes.legend(handles=handles, fontsize="small", loc="upper center")
 
 
 DRAW = {
@@ -80,12 +79,13 @@ DRAW = {
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("tables", nargs="+", type=pathlib.Path, help=f"files {', '.join(f'{name}.csv' for name in DRAW)}")
+    plot_style.use()
     for path in parser.parse_args().tables:
         if path.stem not in DRAW:
             raise SystemExit(f"{path}: is none of {', '.join(f'{name}.csv' for name in DRAW)}")
-        figure, axes = plt.subplots(figsize=(5, 3.4), layout="constrained")
+        figure, axes = plt.subplots()
         DRAW[path.stem](axes, read(path))
-        figure.savefig(path.with_suffix(".png"), dpi=100)
+        figure.savefig(path.with_suffix(".png"))
         plt.close(figure)
 
 

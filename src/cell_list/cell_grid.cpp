@@ -252,8 +252,8 @@ void CellGrid::set_apart(double speed) {
     const auto longest = static_cast<float>(flight * flight);
     std::vector<float> kept; // four numbers for each disc
     float longest_squared = 0;
-    const auto look_through = [&](std::vector<float>& lanes, std::size_t length,
-                                  std::size_t n_slots, const auto& index_of) {
+    const auto take_apart = [&](std::vector<float>& lanes, std::size_t length, std::size_t n_slots,
+                                const auto& index_of) {
         if (n_slots == 0) return;
         float *x = lanes.data(), *y = x + length, *vx = y + length, *vy = vx + length;
         for (std::size_t slot = 0; slot < n_slots; ++slot) {
@@ -268,9 +268,9 @@ void CellGrid::set_apart(double speed) {
             vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
         }
     };
-    look_through(lanes_, lane_length_, n_own_, [](std::uint32_t slot) { return LocalIndex{slot}; });
-    look_through(halo_lanes_, halo_order_.size() + filter_padding, halo_order_.size(),
-                 [this](std::uint32_t slot) { return halo_index(slot); });
+    take_apart(lanes_, lane_length_, n_own_, [](std::uint32_t slot) { return LocalIndex{slot}; });
+    take_apart(halo_lanes_, halo_order_.size() + filter_padding, halo_order_.size(),
+               [this](std::uint32_t slot) { return halo_index(slot); });
     longest_flight_ = std::sqrt(static_cast<double>(longest_squared));
     const std::size_t apart_length = apart_.size() + filter_padding;
     apart_lanes_.assign(4 * apart_length, 0.0f);

@@ -12,19 +12,20 @@
 
 namespace carrom {
 
-/// In the order of the checks. The first broken one is reported.
+/// What must be true of each disc, in the order of the checks. The first broken one is reported.
 enum class Invariant : int {
     finite,     ///< every number of every state is finite
     owned_once, ///< each of the discs 0 .. N-1 is owned by exactly one rank
-    in_box,     ///< its centre is a radius from every wall, to within rounding
-    in_strip,   ///< its owner's strip holds it
-    in_cell,    ///< and the cell that it is filed under
-    clear,      ///< it is in no obstacle
-    counters,   ///< its counters have grown by the collisions that were carried out with
-                ///< it, for both discs of a pair
-    motion,     ///< its velocity and its spin have changed by collisions only
+    in_box,     ///< the disc's centre is a radius from every wall, to within rounding
+    in_strip,   ///< the disc is in the strip of the rank that owns it
+    in_cell,    ///< the disc is in the cell into which it was sorted
+    clear,      ///< the disc is in no obstacle
+    counters,   ///< the disc's counters have grown by the number of its collisions that were
+                ///< carried out, for both discs of a pair
+    motion,     ///< the disc's velocity and its spin have changed in collisions only
     overlap,    ///< no pair overlaps, except as the time-stepped method allows
-    energy, ///< discs that have collided have the same energy together as before; so have all discs
+    energy,     ///< the discs that have collided have the same energy together as before, and so
+                ///< have all discs
 };
 
 /// Thrown on every rank with the same contents; exit code 70. `discs_around`: the
@@ -40,7 +41,7 @@ public:
           spins(std::move(their_spins)) {}
 
     Invariant invariant;
-    std::int64_t step; ///< that ended with the broken invariant
+    std::int64_t step; ///< the step that ended with the broken invariant
     DiscId disc;
     int rank; ///< the disc's owner, or its last one
     std::vector<InputDisc> discs_around;

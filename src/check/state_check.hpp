@@ -46,10 +46,10 @@ public:
                const Communicator& communicator, const Frame& frame = {}, double time = 0,
                std::span<const double> spins = {}, double energy_given = 0);
 
-    /// Looks at the end of a step; `log` has this rank's share of the collisions since the last
-    /// look. If an invariant is broken every rank throws the same CheckFailure. `work_of_images` is
-    /// what Engine::add_work_to has found since then on this rank, `energy_given` is
-    /// Engine::energy_given, then and now. **Collective.**
+    /// Inspects the end of a step. `log` has this rank's share of the collisions since the last
+    /// inspection. If an invariant is broken every rank throws the same CheckFailure.
+    /// `work_of_images` is what Engine::add_work_to has found since then on this rank,
+    /// `energy_given` is Engine::energy_given, then and now. **Collective.**
     void inspect(const LocalView& now, std::int64_t micro_steps_done,
                  std::span<const Collision> log, std::span<const double> spins = {},
                  double work_of_images = 0, double energy_given = 0);
@@ -60,7 +60,7 @@ private:
         double spin = 0;
         std::int64_t free_from =
             0; ///< the end of the last micro-step with a collision, or the check's begin
-        std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
+        std::uint64_t walls = 0, pairs = 0; ///< collisions since the last inspection
         double wall_impulse = 0;            ///< sum over these collisions
         double work = 0; ///< that growing surfaces did in these collisions, per micro-step
         int owner = -1;
@@ -113,7 +113,7 @@ private:
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const;
-    /// Whether effects at syncs have changed velocities since the last look.
+    /// Whether effects at syncs have changed velocities since the last inspection.
     bool were_rewritten() const { return acts_at_syncs_ && n_syncs_since(micro_steps_before_) > 0; }
     void note_speeds();
     bool may_have_met_seam(std::size_t i) const;
@@ -129,8 +129,8 @@ private:
     double total_mass_ = 0, smallest_mass_ = 1;
     double wall_speed_ = 0, wall_pull_ = 0; ///< for oscillating walls: the largest speed, and the
                                             ///< largest acceleration with which one presses a disc
-    double work_of_images_ = 0;             ///< on this rank, since the last look
-    double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last look
+    double work_of_images_ = 0;             ///< on this rank, since the last inspection
+    double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last inspection
     bool may_lose_energy_ = false, walls_give_energy_ = false;
     bool surfaces_rub_ = false;  ///< of walls or obstacles: spins change there
     bool acts_at_syncs_ = false; ///< an effect does so: see CheckAllowance

@@ -186,8 +186,8 @@ void StateCheck::note_speeds() {
     for (const Known& known : known_) square = std::max(square, squared_speed_of(known.disc));
     if (effects_.are_sheared()) {
         double up = 0;
-        for (const std::vector<Known>* looked_at : {&before_, &known_})
-            for (const Known& known : *looked_at) up = std::max(up, std::fabs(known.disc.vy));
+        for (const std::vector<Known>* inspected : {&before_, &known_})
+            for (const Known& known : *inspected) up = std::max(up, std::fabs(known.disc.vy));
         fastest_up_ = communicator_.max(up);
     }
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
@@ -212,8 +212,8 @@ double StateCheck::twice_energy(const Known& known) const {
 }
 
 /// Under gravity along periodic sides: what a disc's height, counted in the box, has gained where
-/// it went round. That a disc flies less than a quarter of the box between two looks tells how
-/// often it did; otherwise nothing is known, and the number is infinite.
+/// it went round. That a disc flies less than a quarter of the box between two inspections tells
+/// how often it did; otherwise nothing is known, and the number is infinite.
 double StateCheck::energy_of_rounds(std::size_t i) const {
     const Disc &then = before_[i].disc, &now = known_[i].disc;
     const Periods periods = effects_.periods(scene_.box);

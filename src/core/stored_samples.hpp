@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a checkpoint keeps of a run's averages and of the measurements that its scene asks for:
-// plain numbers, made and read by Simulation and Sampler.
+// plain numbers, made and read by Sampler.
 #pragma once
 
 #include <cstdint>

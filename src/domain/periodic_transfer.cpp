@@ -107,7 +107,7 @@ Inside interior(const Strips& strips, int rank, double reach, const Periods& per
 }
 
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
-                                std::span<const PlaceRange> looked_at, double time, double reach,
+                                std::span<const PlaceRange> ranges, double time, double reach,
                                 const Periods& periods) {
     TransferPlan plan;
     const Axis axis = strips.axis();
@@ -128,7 +128,7 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     const Inside box = periods.inside();
     const double across_low = axis == Axis::x ? box.y_low : box.x_low;
     const double across_high = axis == Axis::x ? box.y_high : box.x_high;
-    const auto look_at = [&](LocalIndex i) {
+    const auto list_images = [&](LocalIndex i) {
         const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
         const Image home = image_of(own[i]);
         const Shifts at_rest(v, reach, across_low, across_high, period_across);
@@ -152,8 +152,9 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
             }
         }
     };
-    for (const PlaceRange range : looked_at) {
-        for (std::size_t i = range.begin; i < range.end; ++i) look_at(static_cast<LocalIndex>(i));
+    for (const PlaceRange range : ranges) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            list_images(static_cast<LocalIndex>(i));
     }
     return plan;
 }

@@ -49,6 +49,38 @@ double place_in_box(const Strips& strips, const Periods& periods, const Disc& di
     return strips.place_of(in_box, in_box.tau);
 }
 
+/// Moves each value to the rank `owner_of(place)`, which may read the value: it still stands in its
+/// place then. Values go in rounds, and what comes takes the places of what has left. With all at
+/// once, every rank would need the memory of its discs two or three times. **Collective.**
+template <Message T, class Owner>
+void hand_to_owners(const Communicator& communicator, std::vector<T>& values,
+                    const Owner& owner_of) {
+    constexpr std::size_t n_rounds = 32;
+    const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
+    std::vector<T> waiting; // for a place: where more has come than left
+    std::size_t n_kept = 0;
+    for (std::size_t round = 0; round < n_rounds; ++round) {
+        std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
+        const std::size_t end = n * (round + 1) / n_rounds;
+        for (std::size_t i = n * round / n_rounds; i < end; ++i) {
+            const std::size_t owner = owner_of(i);
+            if (owner == rank)
+                values[n_kept++] = values[i];
+            else
+                out[owner].push_back(values[i]);
+        }
+        const std::vector<T> arrived = send_to_owners(communicator, out).items;
+        waiting.insert(waiting.end(), arrived.begin(), arrived.end());
+        const std::size_t n_placed = std::min(waiting.size(), end - n_kept);
+        std::copy(waiting.end() - static_cast<std::ptrdiff_t>(n_placed), waiting.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(n_kept));
+        n_kept += n_placed;
+        waiting.resize(waiting.size() - n_placed);
+    }
+    values.resize(n_kept);
+    values.insert(values.end(), waiting.begin(), waiting.end());
+}
+
 } // namespace
 
 StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
@@ -59,25 +91,18 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::ve
     columns_ = std::move(columns);
     columns_.resize(discs.size());
     columns_.for_each([&](SideColumn column) { departed_columns_.add(column); });
-    if (communicator.size() == 1) {
-        discs_ = std::move(discs);
-    } else {
+    if (communicator.size() > 1) {
         const auto owner_of = [&](const Disc& disc) {
             return static_cast<std::size_t>(
                 strips_.owner(place_in_box(strips_, periods, disc, disc.tau)));
         };
-        const auto n_ranks = static_cast<std::size_t>(communicator.size());
         columns_.for_each([&](SideColumn column) {
-            std::vector<std::vector<double>> to_owner(n_ranks);
-            for (std::size_t i = 0; i < discs.size(); ++i)
-                to_owner[owner_of(discs[i])].push_back(columns_[column][i]);
-            columns_[column] = send_to_owners(communicator, to_owner).items;
+            hand_to_owners(communicator, columns_[column],
+                           [&](std::size_t i) { return owner_of(discs[i]); });
         });
-        std::vector<std::vector<Disc>> to_owner(n_ranks);
-        for (const Disc& disc : discs) to_owner[owner_of(disc)].push_back(disc);
-        discs = {};
-        discs_ = send_to_owners(communicator, to_owner).items;
+        hand_to_owners(communicator, discs, [&](std::size_t i) { return owner_of(discs[i]); });
     }
+    discs_ = std::move(discs);
     n_own_ = discs_.size();
     n_total_ = n_with_departed_ = communicator.sum(std::uint64_t{n_own_});
 }

@@ -23,35 +23,35 @@ template <class D>
 concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, Disc& q,
                                                 const Disc& disc, std::int64_t n, double time,
                                                 double m, double t, double* spin, Axis axis) {
-    // What may happen at all. Kernels leave out what does not.
+    // What can happen in a scene. Kernels compile no code for what cannot.
     { D::is_periodic } -> std::convertible_to<bool>;        // discs have images
-    { D::has_moving_images } -> std::convertible_to<bool>;  // which move with the row they are in
+    { D::has_moving_images } -> std::convertible_to<bool>;  // images move with their row
     { D::has_species } -> std::convertible_to<bool>;        // radii and masses differ
-    { D::has_spin } -> std::convertible_to<bool>;           // collisions take and change spins
+    { D::has_spin } -> std::convertible_to<bool>;           // collisions use and change spins
     { D::has_mirror_walls } -> std::convertible_to<bool>;   // walls only reverse a velocity
     { D::may_have_obstacles } -> std::convertible_to<bool>; // fixed bodies stand in the box
     { D::may_lose_discs } -> std::convertible_to<bool>;     // discs leave through open sides
     { D::has_elastic_pairs } -> std::convertible_to<bool>;  // they keep the kinetic energy
     { D::is_for_study } -> std::convertible_to<bool>;       // states are rounded, contacts missed
     { d.has_pairs() } -> std::same_as<bool>;                // discs collide with each other
-    { d.has_walls() } -> std::same_as<bool>;                // there is anything fixed to meet
+    { d.has_walls() } -> std::same_as<bool>;                // discs can meet walls or obstacles
     { d.has_obstacles() } -> std::same_as<bool>;
     { d.has_open_sides() } -> std::same_as<bool>;
     { d.parts_overlaps() } -> std::same_as<bool>; // overlapping discs collide if they approach
-    // Thousands of collisions of a disc within so many micro-steps are a cascade without end.
+    // Thousands of collisions of a disc within this many micro-steps are an endless cascade.
     { D::cascade_interval } -> std::convertible_to<double>;
 
     // Sizes. The radius is the largest one.
     { d.box() } -> std::same_as<const Box&>;
     { d.radius() } -> std::same_as<double>;
     { d.diameter() } -> std::same_as<double>;
-    { d.tolerance() } -> std::same_as<double>;       // a deeper overlap is one
-    { d.slack() } -> std::convertible_to<double>;    // how far apart discs may be in a contact
-    { d.search_diameter() } -> std::same_as<double>; // no contact is farther apart
-    // All of these are of radii that have not grown; they are larger by this factor.
+    { d.tolerance() } -> std::same_as<double>;       // rounding makes no deeper overlap than this
+    { d.slack() } -> std::convertible_to<double>;    // largest gap between discs in a contact
+    { d.search_diameter() } -> std::same_as<double>; // largest distance of centres in a contact
+    // These lengths are for radii that have not grown. Radii have grown by this factor:
     { d.growth_at(time) } -> std::convertible_to<double>;
 
-    // Speeds that searches allow for: of the disc as it is, and at home in the box at a time.
+    // Speeds that searches allow for: the disc's own, and that of its image in the box at a time.
     { d.squared_speed(disc) } -> std::same_as<double>;
     { d.squared_speed_at(disc, time) } -> std::same_as<double>;
 
@@ -64,15 +64,15 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.jump_at(axis, time) } -> std::same_as<double>; // how far the frame moves at a sync
     { d.flight_integral_at(time) } -> std::same_as<FlightIntegral>; // see StressSums
     { d.pair_weight_at(time) } -> std::convertible_to<double>;
-    { d.speed_gained_at(time) } -> std::same_as<double>; // the frame's, at most
+    { d.speed_gained_at(time) } -> std::same_as<double>; // bound on the frame's gain
     d.restart_frame(p, time); // the state in the frame of the next interval
     D::advance(p, time);      // free flight
 
-    // The time-stepped method: one candidate of a pair, and one with what stands still.
+    // The time-stepped method: the candidate of a pair, and the one of a disc and a fixed body.
     { d.contact(disc, disc).exists() } -> std::same_as<bool>;
     { d.wall_time(disc, m) } -> std::same_as<double>; // t of the first bounce in m, or never
-    d.bounce(p, m, t, spin); // carries out the bounce at wall_time; null where discs do not turn
-    { d.met_walls(disc, m, t) }; // which walls that is at
+    d.bounce(p, m, t, spin); // carries out the bounce at wall_time; spin is null without rotation
+    { d.met_walls(disc, m, t) }; // the walls that it bounces off
 
     // The event-driven method: times of the next events.
     { d.event_contact(disc, disc).exists() } -> std::same_as<bool>;

@@ -146,8 +146,8 @@ template <class What> void Obstacles::visit_cells(const Cells& cells, const What
 }
 
 /// The body's number; in a periodic box a number for each of nine images. The image
-/// follows from the box that holds the centre (x, y) of the touching disc, so the
-/// number is a function of the disc's state, wherever that is stored.
+/// follows from the box that holds the centre (x, y) of the touching disc, the way that it has
+/// fallen included, so the number is a function of the disc's state, wherever that is stored.
 std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -155,17 +155,18 @@ std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     return image.body * n_images + static_cast<std::uint32_t>(3 * (dx + 1) + (dy + 1));
 }
 
-/// The image of a code, for a disc that is there now.
-Obstacles::Entry Obstacles::image_of(std::uint32_t code, const Disc& disc) const {
+/// The image of a code, for a disc whose centre is at (x, y) now.
+Obstacles::Entry Obstacles::image_of(std::uint32_t code, double x, double y) const {
     if (!periods_.are_any()) return {code, 0, 0};
     const auto image = static_cast<int>(code % n_images);
-    const int x = periods_.x == 0
-                      ? 0
-                      : image / 3 - 1 + static_cast<int>(std::floor(disc.x / periods_.x));
-    const int y = periods_.y == 0
-                      ? 0
-                      : image % 3 - 1 + static_cast<int>(std::floor(disc.y / periods_.y));
-    return {code / n_images, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
+    const int boxes_x = periods_.x == 0
+                            ? 0
+                            : image / 3 - 1 + static_cast<int>(std::floor(x / periods_.x));
+    const int boxes_y = periods_.y == 0
+                            ? 0
+                            : image % 3 - 1 + static_cast<int>(std::floor(y / periods_.y));
+    return {code / n_images, static_cast<std::int16_t>(boxes_x),
+            static_cast<std::int16_t>(boxes_y)};
 }
 
 /// `dx`, `dy` are from the line's beginning, `wx`, `wy` in the box.
@@ -240,7 +241,8 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
             if (!(time <= times.to) || time < times.from ||
                 (time == times.from && !times.hold_from) || time > best.time)
                 return;
-            const std::uint32_t code = code_of(image, disc.x_at(time), disc.y_at(time));
+            const std::uint32_t code = code_of(image, disc.x_at(time) + fallen(0, time),
+                                               disc.y_at(time) + fallen(1, time));
             if (code == times.except && time == disc.tau) return;
             if (time < best.time || code < best.body) best = {time, code};
         });
@@ -252,11 +254,11 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
 
 void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_touched,
                         const Turning& turning) const {
-    const Entry image = image_of(code, disc);
+    const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
+    const Entry image = image_of(code, x, y);
     const Body& at = bodies_[image.body];
     const Shift shift = shift_of(image);
-    const double dx = ((disc.x + fallen(0, time)) - at.x) - shift.x,
-                 dy = ((disc.y + fallen(1, time)) - at.y) - shift.y;
+    const double dx = (x - at.x) - shift.x, dy = (y - at.y) - shift.y;
     double nx, ny; // away from the body
     if (at.is_line()) {
         const double side = at.ux * dy - at.uy * dx < 0 ? -1 : 1;

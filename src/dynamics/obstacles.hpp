@@ -106,7 +106,7 @@ private:
     void sort_into_cells();
     template <class What> void visit_cells(const Cells& cells, const What& what) const;
     std::uint32_t code_of(const Entry& image, double x, double y) const;
-    Entry image_of(std::uint32_t code, const Disc& disc) const;
+    Entry image_of(std::uint32_t code, double x, double y) const;
     Shift shift_of(const Entry& image) const {
         return {image.x * periods_.x, image.y * periods_.y};
     }

@@ -14,12 +14,14 @@ constexpr double disc = 30;       ///< for each disc in a window of any length
 constexpr double partner = 1.3;   ///< for each partner within a square of one reach
 constexpr double hit = 85;        ///< for predicting a disc again that was hit inside the window
 constexpr double hit_partner = 3; ///< for each partner of such a disc within a square of one reach
-constexpr double disc_in_part =
-    65; ///< for each disc in a part of a micro-step, the part's end included
-constexpr double partner_in_part = 0.7; ///< most pairs are rejected at little cost
-/// For a fast disc in a part of a micro-step, and for each disc that it is tried with: those in
-/// cells along its path, which come in runs, and the other fast discs, which lie side by side.
-constexpr double fast_disc = 200, fast_partner = 1, fast_pair = 0.1;
+/// For each disc in a part of a micro-step, the end of the part included.
+constexpr double disc_in_part = 65;
+/// For each partner in a part of a micro-step. It is small because most pairs are rejected early.
+constexpr double partner_in_part = 0.7;
+constexpr double fast_disc = 200;  ///< for each fast disc in a part of a micro-step
+constexpr double fast_partner = 1; ///< for each disc in the cells along a fast disc's path
+/// For each pair of fast discs. It is small because fast discs lie side by side in memory.
+constexpr double fast_pair = 0.1;
 constexpr double largest_fast_share = 0.1;
 
 double cost_per_micro_step(const WindowNeeds& needs, double duration) {

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Collisions within `Dynamics::cascade_interval` that are a cascade: of a block, and per disc.
+/// More collisions of a block, and per disc, within `Dynamics::cascade_interval` are a cascade.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
@@ -35,9 +35,14 @@ template <class Dynamics>
 void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, int halo,
                              std::span<std::uint64_t> histories, BlockOutcome& outcome) {
     scratch_->begin(ground, outcome);
-    scratch_->list_discs(block, halo);
-    scratch_->gather();
-    scratch_->mark_own(block);
+    if constexpr (Scratch::has_sizes) {
+        scratch_->list_levels(block, halo);
+        scratch_->gather();
+    } else {
+        scratch_->list_discs(block, halo);
+        scratch_->gather();
+        scratch_->mark_own(block);
+    }
     run_gathered(histories);
 }
 
@@ -45,7 +50,10 @@ template <class Dynamics>
 void BlockRun<Dynamics>::run_whole(const BlockGround& ground, const CellBlock& block,
                                    std::span<std::uint64_t> histories, BlockOutcome& outcome) {
     scratch_->begin(ground, outcome);
-    scratch_->list_all_discs();
+    if constexpr (Scratch::has_sizes)
+        scratch_->list_levels_of_all();
+    else
+        scratch_->list_all_discs();
     scratch_->gather();
     scratch_->mark_own_of_all(block);
     run_gathered(histories);
@@ -67,24 +75,8 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     s.report(histories);
 }
 
-/// The flight of a disc that has just collided.
-template <class Dynamics> Flight BlockRun<Dynamics>::Scratch::flight_of(std::uint32_t slot) const {
-    const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) * windows_per_time);
-    return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
-}
-
-/// No branches on signs, which are anything: a flight ends where it began or on either side of it.
-template <class Dynamics>
-FlightBox BlockRun<Dynamics>::Scratch::box_of(const Flight& flight) const {
-    const float half = (1 - flight.now) / 2;
-    const float dx = flight.vx * half, dy = flight.vy * half;
-    const float x_middle = flight.x + dx, y_middle = flight.y + dy;
-    const float wide = std::abs(dx) + farthest, high = std::abs(dy) + farthest;
-    return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
-}
-
-/// Fills `runs` with the slots of discs that were in the box at the window's start, and makes room
-/// for all of them in the lists of partners.
+/// Fills `runs` with the slots of the cells that the flight box covers, and makes room for all of
+/// them in the lists of partners.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const FlightBox& box) {
     const auto cell = [](float place, float last) {
         const float above = place > 0 ? place : 0;
@@ -114,6 +106,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
             if (!ghost_at(slot)) predict_walls(slot);
     if (!dynamics.has_pairs()) return;
+    if constexpr (has_sizes) return predict_levels();
     if (Dynamics::has_moving_images && is_whole) return predict_pairs_of_all();
     const CellTable table{cell_starts.data(),
                           cell_rows,
@@ -133,30 +126,23 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     }
 }
 
-/// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the seam
-/// neither disc may come first. So all partners of each disc are looked for, and a pair may be
-/// found twice.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs_of_all() {
-    for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
-        if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
-}
-
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const Flight& flight) {
     const std::uint32_t slot = flight.slot;
-    look_around(box_of(flight));
+    look_around(box_of(flight, farthest));
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
                                                   touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
 }
 
-/// Of two discs that have just collided: they touch, so both look at nearly the same cells. Whether
-/// they meet again is asked once and of the predicate alone; who comes near either of them lies in
-/// the box that holds both of theirs.
+/// Predicts for two discs that have just collided. They touch, so one search of the box around both
+/// flights is faster than two searches. The filter leaves out the pair itself, so the predicate
+/// alone decides whether these two meet again.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
     if (!dynamics.has_pairs()) return;
+    if constexpr (has_sizes) return predict_two_sized(p, q);
     const Flight p_flight = flight_of(p), q_flight = flight_of(q);
-    const FlightBox a = box_of(p_flight), b = box_of(q_flight);
+    const FlightBox a = box_of(p_flight, farthest), b = box_of(q_flight, farthest);
     const auto least = [](float u, float v) { return u < v ? u : v; };
     const auto most = [](float u, float v) { return u > v ? u : v; };
     look_around({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom),
@@ -169,28 +155,43 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
+/// `b` displaced by `image`, if there is one.
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
-    const Ghost* const ghost = ghost_at(b);
-    if (ghost) [[unlikely]] {
-        b = ghost->disc;
-        move_image(discs[b], ghost->image);
-    }
+[[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::predict_shifted(
+    std::uint32_t a, std::uint32_t b, const Image* image) {
+    if (image) [[unlikely]]
+        move_image(discs[b], *image);
     const auto contact = dynamics.event_contact(discs[a], discs[b]);
-    if (ghost) [[unlikely]]
-        move_image(discs[b], -ghost->image);
+    if (image) [[unlikely]]
+        move_image(discs[b], -*image);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
     // Two discs that have just collided with each other do not collide again at the same time. The
     // rest of their approach, a rounding, is too small for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
-    push(time, a, b, ghost);
+    push(time, a, b, image);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
+    if (const Ghost* const ghost = ghost_at(b)) [[unlikely]]
+        return predict_shifted(a, ghost->disc, &ghost->image);
+    predict_shifted(a, b, nullptr);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b,
+                                                const Image& image) {
+    predict_shifted(a, b, &image);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     predict_obstacle(slot);
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
-    if (x_end > x_inner_low && x_end < x_inner_high && y_end > y_inner_low && y_end < y_inner_high)
+    float radius = 0; // equal discs have theirs in the bounds
+    if constexpr (has_sizes) radius = radii[slot];
+    if (x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
+        y_end - radius > y_inner_low && y_end + radius < y_inner_high)
         return;
     const Disc& disc = discs[slot];
     if (!dynamics.may_meet_wall(disc, ground.window.end)) return;
@@ -198,8 +199,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     push(dynamics.y_wall_time(disc), slot, y_wall);
 }
 
-/// The obstacle that the disc comes to first. One that it has just left is left out at that time,
-/// as with pairs.
+/// Predicts the first obstacle that the disc meets. At the time of its last collision the obstacle
+/// that it has just left does not count, for the same reason as a pair that has just collided.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std::uint32_t slot) {
     if constexpr (Dynamics::may_have_obstacles) {
         if (!dynamics.has_obstacles()) return;
@@ -216,7 +217,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std
 
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b,
-                                       [[maybe_unused]] const Ghost* ghost) {
+                                       [[maybe_unused]] const Image* image) {
     const BlockWindow& window = ground.window;
     if (!(time <= window.end) || time < window.begin ||
         (time == window.begin && !window.holds_begin))
@@ -233,8 +234,8 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
         raise(b);
         const bool is_turned = discs[b].id < discs[a].id;
         if (is_turned) std::swap(a, b);
-        if (Dynamics::is_periodic && ghost) [[unlikely]]
-            event.set_image(is_turned ? -ghost->image : ghost->image);
+        if (Dynamics::is_periodic && image) [[unlikely]]
+            event.set_image(is_turned ? -*image : *image);
     }
     event.p = a;
     event.q = b;
@@ -249,15 +250,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     }
     if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
     const bool is_corner = event.q == x_wall && dynamics.y_wall_time(discs[event.p]) == event.time;
-    const double vy_before = discs[event.p].vy; // a thermal wall changes it, and so what comes next
+    const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy
     carry_out(event);
-    const bool has_left =
-        Dynamics::may_lose_discs &&
-        discs[event.p].has_departed(); // through the first side: then the other one is none
+    const bool has_left = Dynamics::may_lose_discs &&
+                          discs[event.p].has_departed(); // the disc left through the first side
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // nothing may come between the two walls: x and y are alike
+             vy_before)) { // no other event may come in between, because x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -274,7 +274,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     predict_pairs_of(event.p, event.q);
 }
 
-/// Rewrites the states of an event's discs and writes down what has happened to them.
+/// Changes the states of an event's discs, and adds the event to their histories and the sums.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Event& event) {
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
@@ -303,7 +303,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     }
 }
 
-/// Two discs, the second one where the event's image has it.
+/// Collides two discs, with the second one at the place of the event's image.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     Disc &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
@@ -324,8 +324,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }
 
-/// Of a disc that an own one has met. Nobody compares what happens beyond the ring. Who comes from
-/// there has got further than the bound on speeds allows, in truth or because the run is wrong.
+/// Reports a disc from beyond the ring that an own disc has met, because its history is not
+/// compared. It has come further than the speed bound allows, or the run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;
     outcome->far_partner = std::max({outcome->far_partner,
@@ -333,7 +333,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::u
                                      ground.window.speed_bound * (1 + 1e-6)});
 }
 
-/// Writes down what has happened to one of an event's discs.
+/// Adds an event to the history of one of its discs.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
                                        const Event& event) {
@@ -360,10 +360,10 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
         layout.for_ghosts_of(slot, [this](const Ghost& ghost) { place_ghost(ghost); });
 }
 
-/// What makes a window exact is that no disc gets further from its place at the start than the
-/// bound on speeds would take it until then. So one that is faster for a while is none the worse
-/// for it, if it was slower before. It is given up if it might get too far before the window ends,
-/// or if it collides again when it is not back on schedule.
+/// A window is exact if no disc is ever further from its place at the start than the speed bound
+/// would have taken it by then. So a disc may exceed the bound for a while without harm if it was
+/// slower before. The run is void if the disc might get too far before the window ends, or if it
+/// collides again while it is too far away.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const Disc &disc = discs[slot], &at_start = ground.discs[indices[slot]];
@@ -371,14 +371,15 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
     const double elapsed = time - window.begin;
     double dx = disc.x - at_start.x_at(window.begin);
     const double dy = disc.y - at_start.y_at(window.begin);
-    if constexpr (Dynamics::has_moving_images) // of the fastest image next to the disc
+    if constexpr (Dynamics::has_moving_images) // the fastest image next to the disc counts
         dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
              std::fabs(periods().speed) * elapsed;
     const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
                         8 * 0x1p-53 * dynamics.box().longest();
     const double speed = std::sqrt(dynamics.squared_speed(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
-    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision
+    // Only then does its next collision call this function again.
+    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
         away + speed * (window.end - time) <= window.speed_bound * window.duration())
         return;

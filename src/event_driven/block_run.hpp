@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A speculative run of a window of time in one block of cells, alone. It carries out every
-// collision of its own discs and of those around them, in the total order of the event-driven
-// method (docs/understanding/method.md, sections 3.3 and 8).
+// A speculative run of one block of cells over a window of time, without the other blocks. It
+// carries out every collision of the block's own discs and of the discs in its halo, in the total
+// order of the event-driven method (docs/understanding/method.md, sections 3.3 and 8).
 //
-// A run does not see what happens beyond its halo, and may be wrong without noticing. So it also
-// reports the event histories of the ring, the discs within one reach of its own cells. It is right
-// if their owners have found the same, and if own discs have met no others. Block-local copies in
-// the order of cells, a line of 64 bytes and four floats a disc, stay in the L2 cache. Whole runs
-// of cells are rejected in single precision; the double predicate decides on the rest.
+// A run does not know what happens beyond its halo, so its result may be wrong. Therefore it also
+// reports the event histories of the ring, which are the discs within one reach of its own cells.
+// The result is right if the owners of these discs have found the same histories, and if own discs
+// have collided with no disc from beyond the ring.
+//
+// The run works on copies in the order of cells, 64 bytes and four floats a disc, so that they stay
+// in the L2 cache. Most pairs are rejected in single precision, many at a time. The predicate in
+// double precision decides on the rest.
 #pragma once
 
 #include <cstdint>
@@ -22,23 +25,25 @@
 #include "engine/pair_event.hpp"
 #include "engine/stress_sums.hpp"
 #include "event_driven/box_layout.hpp"
+#include "event_driven/size_levels.hpp"
 
 namespace carrom {
 
-/// Times since the last sync. An event belongs to the window if begin < time <= end; the first
-/// window after a sync also holds its begin. What happened at `begin` is done: contacts of that
-/// time are those of pairs that have just collided.
+/// Times since the last sync. An event belongs to the window if begin < time <= end. The first
+/// window after a sync also holds its begin. In all others the events at `begin` have been carried
+/// out by the window before, and a contact at that time is one of a pair that has just collided.
 struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
-    double speed_bound = 0; ///< no disc is faster at the start, none gets further than this takes
-                            ///< it, or the run is void
+    /// No disc is faster than this at the start. The run is void if a disc gets further from its
+    /// place at the start than this speed would take it.
+    double speed_bound = 0;
 
     double duration() const { return end - begin; }
 };
 
-/// How far apart two discs can be at a window's start that meet in it. Cells n_reach wide must
-/// cover it.
+/// The largest distance that two discs can have at the start of a window in which they meet.
+/// `n_reach` cells must cover it.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
 /// Cells [first, end) of a grid's frame.
@@ -47,44 +52,47 @@ struct CellBlock {
     int first_row = 0, end_row = 0;
 };
 
-/// What all blocks of a rank share: its discs, own ones first, and the grid built for the window's
-/// start.
+/// The data that all blocks of a rank share.
 struct BlockGround {
-    std::span<const Disc> discs;
+    std::span<const Disc> discs; ///< the rank's own discs, then the halo
     std::size_t n_own = 0;
-    const CellGrid* grid = nullptr;
-    CellBlock own_cells; ///< own discs that rounding puts outside belong to the nearest of them
+    const CellGrid* grid = nullptr; ///< of the discs at the window's start
+    CellBlock own_cells; ///< an own disc that rounding puts outside belongs to the nearest cell
     BlockWindow window;
     bool is_logged = false;
-    const SideColumns* columns = nullptr; ///< by disc
-    StressSums no_stress{0x1p900};        ///< where sums begin
-    double flown_before = 0;              ///< how long flights had gathered at the last sync
-    BoxCells box_cells{};                 ///< for runs of the whole box
-    bool is_alone = false; ///< there is one run, of the whole box: nobody compares histories, and
-                           ///< the grid says nothing
-    bool notes_pairs = false;
-    double velocity_unit = 1; ///< of the pairs that are noted
+    const SideColumns* columns = nullptr; ///< rows in the order of `discs`
+    StressSums no_stress{0x1p900};        ///< sums of zero in the engine's unit
+    double flown_before = 0; ///< time over which the stress of flights was summed, at the last sync
+    BoxCells box_cells{};    ///< for runs of the whole box
+    /// There is only one run, of the whole box. Then histories are not compared, and the grid is
+    /// not built.
+    bool is_alone = false;
+    bool notes_pairs = false;            ///< collisions of pairs go to BlockOutcome::pairs
+    double velocity_unit = 1;            ///< of the velocities in these
+    std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
+    Extent extent{};                     ///< the box, for runs of the whole box
 };
 
-/// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
-/// and results.
+/// The event history of a disc of a block's ring. It is 0 if the disc had no event, and otherwise a
+/// hash of times, partners and results.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
 };
 
-/// A collision as the log has it; times since the last sync, impulse per micro-step.
+/// A collision for the log. The time counts from the last sync, and the impulse is per micro-step.
 struct LoggedEvent {
     double time = 0;
     std::uint32_t generation = 0;
     bool is_wall = false;
-    DiscId p = 0, q = 0; ///< q of a wall: 0 along x, 1 along y, else an obstacle
+    DiscId p = 0, q = 0; ///< if `is_wall`, q is 0 for a wall across x, 1 for one across y, and
+                         ///< otherwise an obstacle
     double impulse = 0;
-    double normal_impulse = 0; ///< of a wall: along x or y, with its sign
+    double normal_impulse = 0; ///< along x or y with its sign, if the disc met a wall
 };
 
-/// What has become of a disc in a window: three quarters of a state, since many are kept until a
-/// window is validated.
+/// The state of a disc at the end of a window. It leaves out what a window does not change, and so
+/// takes three quarters of a state's memory, because many are kept until the window is validated.
 class NewState {
 public:
     NewState() = default;
@@ -93,7 +101,8 @@ public:
           wall_collisions_(disc.wall_collisions & wall_bits), is_departed_(disc.is_departed),
           pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
 
-    /// `disc` is as it was at the window's start; its counters grow by less than 2^31.
+    /// Requires that `disc` is as it was at the window's start, and that its counters grow by less
+    /// than 2^31.
     void overwrite(Disc& disc) const {
         disc.x = x_;
         disc.y = y_;
@@ -109,28 +118,28 @@ private:
     static constexpr std::uint64_t wall_bits = 0x7fffffff;
 
     double x_, y_, vx_, vy_, tau_;
-    std::uint32_t wall_collisions_ : 31; ///< the counters' low parts
+    std::uint32_t wall_collisions_ : 31; ///< the low bits of the counter
     std::uint32_t is_departed_ : 1;
-    std::uint32_t pair_collisions_;
+    std::uint32_t pair_collisions_; ///< the low bits of the counter
 };
 static_assert(sizeof(NewState) == 48);
 
 struct BlockOutcome {
     std::vector<LocalIndex> hit;  ///< own discs that have collided
-    std::vector<NewState> states; ///< what has become of them
-    SideColumns columns;          ///< likewise
+    std::vector<NewState> states; ///< the new states of the discs in `hit`
+    SideColumns columns;          ///< their new values
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::vector<PairEvent> pairs; ///< times are since the last sync
-    std::uint64_t n_events = 0;   ///< whose first disc is own
-    StressSums stress{1};         ///< of these
-    double work = 0;              ///< that moving images have done in them, if they are logged
-    double too_fast = 0;          ///< the largest speed of an own disc that got too far, else 0
+    std::uint64_t n_events = 0;   ///< number of events whose first disc is own
+    StressSums stress{1};         ///< of these events
+    double work = 0;              ///< done by moving images in these events
+    double too_fast = 0;          ///< the largest speed of an own disc that got too far, or 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
-                            ///< has met, else 0
+                            ///< has met, or 0
     double largest_speed_at_end = 0;
-    bool is_cascade = false; ///< the run was given up in a collision cascade of this disc
-    DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if it is a wall that it meets
+    bool is_cascade = false;                      ///< the run was given up in a collision cascade
+    DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
 };
 
@@ -141,18 +150,18 @@ public:
     ~BlockRun();
     BlockRun(BlockRun&&) noexcept;
 
-    /// Runs the own discs in `block` and what lies `halo` cells around it. Writes the history of
-    /// each own disc of the block to its place in `histories`. **Not collective**: many threads may
-    /// run blocks at once.
+    /// Runs the own discs in `block` with the discs of `halo` cells around it. Writes the history
+    /// of each own disc of the block to its place in `histories`. **Not collective**: threads may
+    /// run different blocks at the same time.
     void run(const BlockGround& ground, const CellBlock& block, int halo,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// The same for all discs of the box, which the rank has: each is there once, and periodic
-    /// sides are looked through. Such a run is right.
+    /// Runs all discs of the box, which the rank must have. Each disc is there once, and its images
+    /// are ghosts. The result is always right, because nothing is missing.
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Another one of the same kind from now on: walls that move are elsewhere after a sync.
+    /// Uses these dynamics from now on. After a sync they differ, because walls have moved.
     void change_dynamics(const Dynamics& dynamics);
 
     std::size_t bytes() const;

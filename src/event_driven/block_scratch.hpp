@@ -19,9 +19,9 @@ namespace carrom {
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    std::uint64_t history = 0;      ///< 0: none
-    std::uint32_t generation = 0;   ///< that of the last collision
-    std::uint32_t partner = nobody; ///< that in the last collision
+    std::uint64_t history = 0;      ///< hash of all events, or 0 if there was none
+    std::uint32_t generation = 0;   ///< generation of the last collision
+    std::uint32_t partner = nobody; ///< partner in the last collision
 
     /// Adds a collision: its time, the other's id and the velocities after it. The
     /// place follows from these and the state before.
@@ -46,7 +46,24 @@ struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
 
+/// The cells of a level of sizes.
+struct LevelCells {
+    BoxCells cells;
+    double smallest_radius = 0, largest_radius = 0; ///< at the window's end
+    std::size_t first_start = 0;                    ///< in `cell_starts`
+    std::uint32_t end_slot = 0;
+    float columns_per_unit = 1, rows_per_unit = 1; ///< the unit is that of lanes
+    float left = 0, bottom = 0;                    ///< where cells begin, in units of lanes
+    float farthest = 0; ///< see Scratch; without the radius of the disc that searches
+
+    int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
+    int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
+};
+
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
+    /// Discs have several radii, and lie in levels of cells. Not if images move.
+    static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
+
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
 
     void begin(const BlockGround& of_rank, BlockOutcome& of_run);
@@ -93,21 +110,77 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
-    FlightBox box_of(const Flight& flight) const;
+    /// The flight of a disc that has just collided.
+    Flight flight_of(std::uint32_t slot) const {
+        const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) *
+                                            windows_per_time);
+        return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
+    }
+    /// No branches on signs, which are anything: a flight ends where it began or on either side of
+    /// it.
+    FlightBox box_of(const Flight& flight, float half_side) const {
+        const float half = (1 - flight.now) / 2;
+        const float dx = flight.vx * half, dy = flight.vy * half;
+        const float x_middle = flight.x + dx, y_middle = flight.y + dy;
+        const float wide = std::abs(dx) + half_side, high = std::abs(dy) + half_side;
+        return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
+    }
     void look_around(const FlightBox& box);
     void predict_pairs(std::uint32_t slot) {
-        if (dynamics.has_pairs()) predict_pairs(flight_of(slot));
+        if (!dynamics.has_pairs()) return;
+        if constexpr (has_sizes)
+            predict_sized(slot);
+        else
+            predict_pairs(flight_of(slot));
     }
     void predict_pairs(const Flight& flight);
-    void predict_pairs_of_all();
+    /// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the
+    /// seam neither disc may come first. So all partners of each disc are looked for, and a pair
+    /// may be found twice.
+    void predict_pairs_of_all() {
+        for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
+            if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
+    }
     void predict_pairs_of(std::uint32_t p, std::uint32_t q);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
     void predict_obstacle(std::uint32_t slot);
-    void push(double time, std::uint32_t a, std::uint32_t b, const Ghost* ghost = nullptr);
+    void predict_shifted(std::uint32_t a, std::uint32_t b, const Image* image);
+    void predict_image(std::uint32_t a, std::uint32_t b, const Image& image);
+    void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
     void report(std::span<std::uint64_t> histories);
+    void report_disc(std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
+                     double& end_squared);
 
-    Flight flight_of(std::uint32_t slot) const;
+    // Of discs of several sizes (block_levels.cpp):
+    void list_levels(const CellBlock& own, int halo);
+    void list_levels_of_all();
+    void lay_levels(const Extent& extent, const Periods& across, std::size_t n_at_home);
+    void set_scales_of_levels();
+    void measure_radii();
+    void predict_levels();
+    void look_into(const LevelCells& level, const FlightBox& box, bool with_ghosts);
+    void predict_in_level(const Flight& flight, std::size_t own, std::size_t other);
+    void predict_seen(const Flight& flight, float radius, const Image* image);
+    void predict_sized(std::uint32_t slot);
+    void predict_two_sized(std::uint32_t p, std::uint32_t q);
+    std::size_t level_of_slot(std::uint32_t slot) const {
+        std::size_t level = 0;
+        while (slot >= levels[level].end_slot) ++level;
+        return level;
+    }
+    /// Before it has grown.
+    double first_radius_of(const Disc& disc) const {
+        if constexpr (has_sizes)
+            return dynamics.species_table().of(disc.id).radius;
+        else
+            return dynamics.radius();
+    }
+    SizedLanes sized_lanes() const { return {lanes, radii.data()}; }
+    float margin_of(std::size_t own, std::size_t other) const {
+        return margins[own * levels.size() + other];
+    }
+
     /// Null where discs do not turn.
     double* spin_of([[maybe_unused]] std::uint32_t slot) {
         if constexpr (Dynamics::has_spin) return &columns[SideColumn::spin][slot];
@@ -123,7 +196,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     const Ghost* ghost_at(std::uint32_t slot) const {
         return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
-    /// With each other at this time, and with no other disc since; perhaps as other images.
+    /// Whether the two discs collided with each other at this time and with no other disc since.
+    /// They may have been other images than now.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
@@ -171,6 +245,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     /// Whether the disc's owner reports its events: it is own or in the ring.
     bool is_compared(std::uint32_t slot) const {
+        if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
         const auto cell = static_cast<std::size_t>(behind - cell_starts.begin()) - 1;
         const int column = cells.first_column + static_cast<int>(cell / cell_rows),
@@ -186,7 +261,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         outcome->cascade_time = event.time;
     }
 
-    /// After the collision, while the second disc is where the event's image has it.
+    /// Must be called after the collision, while the second disc is at the place of the event's
+    /// image.
     [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before) {
         const Disc &p = discs[event.p], &q = discs[event.q];
         outcome->pairs.push_back(pair_event(dynamics, p, dynamics.separation(p, q), p, q,
@@ -211,15 +287,15 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     CellBlock ring;        ///< own cells and those within one reach of them
     CellBlock firsts;      ///< cells of a pair's first disc, from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the grid's axis: corners, lanes and walls in cells have it as x
+    Axis axis = Axis::x; ///< the grid's axis, which is x in lanes, corners and walls in cells
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
     float rows_per_cell = 1; ///< rows may be higher than columns are wide
     float touching_squared = 0,
-          farthest = 0; ///< farthest: the error of a partner's place at the start, in cells
+          farthest = 0; ///< farthest: half width of a flight box beyond its flight, in cells
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
-          y_inner_high = 0;                 ///< in between no wall is near, in cells
+          y_inner_high = 0;                 ///< no wall is near between these, in cells
     std::size_t cell_rows = 0;              ///< entries of `cell_starts` for a column
     std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
@@ -232,19 +308,26 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
-    std::vector<SlotRange> runs; ///< only the first n_runs count; room for all columns
+    std::vector<SlotRange> runs; ///< has room for all columns; only the first n_runs count
     std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the one that it has met
     std::vector<std::uint32_t> later,
-        later_ends;           ///< for a column: partners behind its discs, and where each one's end
+        later_ends;           ///< partners of a column's discs, and where each disc's end
     double cascade_begin = 0; ///< the begin of the present collision cascade, if there is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
-    StressTerms stress_terms;     ///< waiting to be added to the outcome's sums
+    StressTerms stress_terms;     ///< terms that wait to be added to the outcome's sums
     double bound_squared = 0;     ///< square of the speed bound
-    float bound_lane_squared = 0; ///< this square in cells per window, somewhat less
+    float bound_lane_squared = 0; ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;          ///< see BlockOutcome
+    // Of discs of several sizes:
+    std::vector<LevelCells> levels;                 ///< smallest discs first
+    std::vector<std::vector<LocalIndex>> in_levels; ///< what is listed, by level
+    std::vector<std::vector<std::uint32_t>> orders; ///< of a block: by slot, places in those lists
+    std::vector<float> radii;                       ///< by slot, in cells
+    std::vector<float> margins;           ///< of sums of radii, by the levels of both discs
+    std::vector<std::uint8_t> is_of_ring; ///< by slot: its owner reports what happens to it
 };
 
 } // namespace carrom

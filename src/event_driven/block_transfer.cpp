@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block takes over from its rank before a run, and what it gives back afterwards.
+// How a block copies discs from its rank before a run, and returns their new states afterwards.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -27,18 +27,22 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->far_partner = 0;
 }
 
-/// Copies the discs that are listed, cell by cell, into slots of our own.
+/// Copies the listed discs into the block's slots, cell by cell.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     const std::size_t n = indices.size();
     discs.resize(n);
-    runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
+    if (!has_sizes)
+        runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
     past_events_of.assign(n, EventHistory{});
     if (ground.columns) columns.gather(*ground.columns, indices);
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
         if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
     }
     lanes = {x.data(), y.data(), vx.data(), vy.data()};
-    set_scales();
+    if constexpr (has_sizes)
+        set_scales_of_levels();
+    else
+        set_scales();
     for (std::uint32_t slot = 0; slot < n; ++slot) {
         if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
         if (ghost_at(slot)) continue;
@@ -49,6 +53,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     }
     if (is_whole)
         for (const Ghost& ghost : layout.ghosts()) place_ghost(ghost);
+    if constexpr (has_sizes) measure_radii();
     bound_squared = ground.window.speed_bound * ground.window.speed_bound;
     const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
@@ -58,7 +63,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     cascade = 0;
 }
 
-/// The cells that the run sees, and the rank's discs in them.
+/// Lists the cells of the block and its halo, and the rank's discs in them.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
     const CellGrid& grid = *ground.grid;
@@ -99,7 +104,7 @@ void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
     }
 }
 
-/// All discs of the box, each once.
+/// Lists all discs of the box once, and their ghosts.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_all_discs() {
     const BoxCells& box = ground.box_cells;
     is_whole = true;
@@ -118,8 +123,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_all_discs() {
     cell_starts = layout.cell_starts();
 }
 
-/// What the filter's single-precision lanes measure in: cells from a corner, windows, and their
-/// margins.
+/// Sets the units of the filter's lanes, which are cells and windows, and the margins that cover
+/// the errors of single precision.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     column_limit = static_cast<float>(cells.end_column - cells.first_column - 1);
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
@@ -135,8 +140,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
                           8.0;
     const double reach = block_reach(window, diameter, dynamics.box()) * cells_per_length;
     // Separations carry an error of 2^-21 of the block's size. The rounding of the filter's other
-    // terms acts like a longer diameter by 2^-20 d^2 / diameter, with the largest distance d that
-    // is looked at.
+    // terms acts like a diameter that is longer by 2^-20 d^2 / diameter, where d is the largest
+    // distance of a disc that is tried.
     const double looked_at = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
                             0x1p-20 * looked_at * looked_at / sigma;
@@ -185,35 +190,46 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(cons
     }
 }
 
-/// Writes down what has become of the block's own discs, and what has been seen of those of its
-/// ring.
+/// Reports an own disc or one of the ring.
+template <class Dynamics>
+[[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_disc(
+    std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
+    double& end_squared) {
+    const std::uint64_t history = past_events_of[slot].history;
+    if (is_own[slot] == 0) {
+        if (!is_whole) outcome->ring.push_back({indices[slot], history});
+        return;
+    }
+    if (!ground.is_alone) histories[indices[slot]] = history;
+    end_squared = std::max(end_squared, dynamics.squared_speed_at(discs[slot], ground.window.end));
+    if (history == 0) return;
+    outcome->hit[next] = indices[slot];
+    outcome->states.emplace_back(discs[slot]);
+    outcome->columns.copy(next, columns, slot);
+    ++next;
+}
+
+/// Writes the new states of the block's own discs and the histories of the ring to the outcome.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
-    // Memory for what a block has, not for twice as much: all blocks keep theirs until the window
-    // is validated.
+    // Reserving the exact size saves memory, because all blocks keep their outcomes until the
+    // window is validated.
     outcome->hit.resize(n_hit);
     outcome->states.reserve(n_hit);
     outcome->columns = side_columns_of<Dynamics>();
     outcome->columns.resize(n_hit);
     double end_squared = 0;
     std::size_t next = 0;
-    for (int column = ring.first_column; column < ring.end_column; ++column) {
-        const SlotRange run = grid_run(column, ring.first_row, ring.end_row - 1);
-        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
-            const std::uint64_t history = past_events_of[slot].history;
-            if (is_own[slot] == 0) {
-                if (!is_whole) outcome->ring.push_back({indices[slot], history});
-                continue;
-            }
-            if (!ground.is_alone) histories[indices[slot]] = history;
-            end_squared = std::max(end_squared,
-                                   dynamics.squared_speed_at(discs[slot], ground.window.end));
-            if (history == 0) continue;
-            outcome->hit[next] = indices[slot];
-            outcome->states.emplace_back(discs[slot]);
-            outcome->columns.copy(next, columns, slot);
-            ++next;
+    if constexpr (has_sizes) {
+        for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
+            if (is_own[slot] != 0 || (!is_whole && is_of_ring[slot] != 0))
+                report_disc(slot, histories, next, end_squared);
+    } else {
+        for (int column = ring.first_column; column < ring.end_column; ++column) {
+            const SlotRange run = grid_run(column, ring.first_row, ring.end_row - 1);
+            for (std::uint32_t slot = run.begin; slot < run.end; ++slot)
+                report_disc(slot, histories, next, end_squared);
         }
     }
     ensure(next == n_hit, "a block's own discs lie in its own cells or next to them");

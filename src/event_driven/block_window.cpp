@@ -13,23 +13,24 @@ namespace carrom {
 namespace {
 
 // Measured on one core, in nanoseconds (docs/log/performance.md).
-constexpr double cost_per_disc = 40; ///< of a disc: to sort, copy and return it, once a window
+constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc, once a window
 constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
 constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tries
-constexpr double discs_in_cache =
-    24000; ///< in a block with its halo, because most of them are compared once only
+/// Discs in a block with its halo. They need not all stay in the cache, because most of them are
+/// compared only once.
+constexpr double discs_in_cache = 24000;
 constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision rate is estimated
-/// Changes spread by collisions. If discs fly far compared with their size, few
-/// changes go further than two reaches in a window.
-constexpr double thin_gas = 0.2; ///< diameter to reach
+/// Ratio of diameter to reach below which two reaches of halo are enough: if discs fly far compared
+/// with their size, few chains of collisions lead further than that in a window.
+constexpr double thin_gas = 0.2;
 
-// Repeating a block's run with twice the halo costs two or three runs, a reach more of
-// halo a tenth: docs/log/performance.md.
+// Repeating a block's run with twice the halo costs as much as two or three runs. One more reach of
+// halo costs a tenth of a run (docs/log/performance.md).
 constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of the windows before the last one
 constexpr int most_more = 2;   ///< reaches
-constexpr int long_calm = 200; ///< after so many windows a smaller halo is tried
+constexpr int long_calm = 200; ///< windows without a repeated run before a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
 /// The mean distance of discs.
@@ -52,7 +53,7 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
                                       needs.more_halo);
     const double margin = choice.halo * choice.reach;
     double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
-    if (side > needs.box.shortest()) // blocks as high as the box may be longer
+    if (side > needs.box.shortest()) // a block cannot be higher than the box, so it can be longer
         side = discs_in_cache * spacing * (spacing / needs.box.shortest()) - 2 * margin;
     const double longest = needs.box.longest();
     choice.block_side = needs.is_one_block ? longest
@@ -62,7 +63,7 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
 
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double halo = choice.halo * choice.reach;
-    // Discs in the run, halo included, over own ones, along one axis.
+    // Along one axis, the discs of a run with its halo divided by its own discs.
     const auto share_along = [&](double length, bool goes_round) {
         const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
         return (goes_round ? seen : std::min(seen, length)) / own;
@@ -70,7 +71,7 @@ double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double share = needs.is_one_block ? 1
                                             : share_along(needs.box.x, needs.goes_round_x) *
                                                   share_along(needs.box.y, needs.goes_round_y);
-    const double around = 1.6 * choice.reach;
+    const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.radius_to_look_for));
     const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);
     const double events = needs.collision_rate * choice.duration;
@@ -115,11 +116,12 @@ void Caution::learn(double repeated, double hits) {
 
 double guessed_collision_rate(const BlockNeeds& needs, double mean_speed) {
     const double number_density = needs.n_discs / needs.box.area();
-    const double packing = std::min(densest_gas, number_density * std::numbers::pi * needs.radius *
-                                                     needs.radius);
+    const double packing = std::min(densest_gas, number_density * std::numbers::pi *
+                                                     needs.radius_to_look_for *
+                                                     needs.radius_to_look_for);
     const double contact_value = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
     const double relative_speed = std::numbers::sqrt2 * mean_speed;
-    return number_density * 2 * needs.radius * relative_speed * contact_value;
+    return number_density * 2 * needs.radius_to_look_for * relative_speed * contact_value;
 }
 
 } // namespace carrom

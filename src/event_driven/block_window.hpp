@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a window of the event-driven method should be, how large its blocks. Pure arithmetic on
-// numbers that all ranks know; the choice affects the run's time, not its bits.
+// Chooses how long a window of the event-driven method is and how large its blocks are. The choice
+// is pure arithmetic on numbers that all ranks know. It affects the run's time, not its bits.
 //
-// Long windows share the cost of sorting and copying discs, short ones look less far; large blocks
-// have less halo, small ones stay in the cache.
+// A long window shares the cost of sorting and copying discs among more collisions, but a disc then
+// has more possible partners. Large blocks have less halo for each disc, small blocks stay in the
+// cache.
 #pragma once
 
 #include <limits>
@@ -16,51 +17,50 @@ namespace carrom {
 /// What the choice depends on: lengths in the scene's unit, times in micro-steps.
 struct BlockNeeds {
     Box box;
-    double radius = 0;
+    double radius = 0; ///< the largest
     double n_discs = 0;
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
     double time = 0;           ///< since the last sync
-    std::optional<int>
-        halo; ///< reaches that blocks look beyond their own cells at first, if that is wanted
+    std::optional<int> halo;   ///< halo of a block's first run, in reaches, if a test has set it
     bool is_one_block = false; ///< all discs in one block, whatever their number
-    int more_halo = 0;         ///< reaches more than where few runs are repeated
-    bool goes_round_x = false, goes_round_y = false; ///< a halo does not end with the box: it has
-                                                     ///< images, if need be many of each disc
+    int more_halo = 0;         ///< reaches that Caution adds to the halo
+    bool goes_round_x = false, goes_round_y = false; ///< the halo does not end with the box, but
+                                                     ///< goes on with images of the discs
+    double radius_to_look_for = 0; ///< radius of equal discs that have as many others near them
 };
 
 struct BlockChoice {
     double duration = 0; ///< of the window
     double reach = 0;
     int halo = 3;          ///< in reaches
-    double block_side = 0; ///< wanted
+    double block_side = 0; ///< the engine rounds it to whole cells
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 
-/// Learns from windows whose block runs had to be repeated. Changes spread by collisions: where
-/// discs are dense, or lie in a heap, they go further in a window than its cells suggest. Then
-/// blocks look further around, and if that is not enough windows are shorter.
+/// Learns from windows whose block runs had to be repeated. One collision changes the next, and in
+/// a dense gas or a heap such a chain leads further in a window than the reach suggests. Then
+/// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:
-    /// Of a window: block runs that were repeated, as a share of its blocks, and its collisions per
-    /// disc.
+    /// Takes in a window with `hits` collisions per disc. `repeated` is the number of its block
+    /// runs that were repeated, divided by the number of its blocks.
     void learn(double repeated, double hits);
     int more_halo() const { return more_halo_; }
-    double most_hits() const {
-        return most_hits_;
-    } ///< collisions per disc that a window should have at most
+    /// The largest number of collisions per disc that a window should have.
+    double most_hits() const { return most_hits_; }
 
 private:
     int more_halo_ = 0, n_calm_ = 0;
-    double lately_ = 0; ///< repeated, a mean that forgets
+    double lately_ = 0; ///< mean of `repeated` in which older windows count less and less
     double most_hits_ = std::numeric_limits<double>::infinity();
 };
 
-/// Collisions per disc and time in a gas of this density and mean speed, to begin with: Enskog's
-/// rate, with the contact value of Henderson (1975).
+/// Estimates the collisions per disc and time in a gas of this density and mean speed, for the
+/// first window: Enskog's rate, with the contact value of Henderson (1975).
 double guessed_collision_rate(const BlockNeeds& needs, double mean_speed);
 
 } // namespace carrom

@@ -37,30 +37,47 @@ BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach
 
 void BoxLayout::lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
                     const Periods& periods, double time) {
+    clear();
     list_once(discs, n_own);
     if (periods.are_moving()) return lay_sliding(discs, n_own, cells, periods, time);
-    sort(discs, n_own, cells, periods, time);
-    const std::vector<Line> columns = lines(cells.n_columns, cells.n_beside),
-                            rows = lines(cells.n_rows, cells.n_above);
+    add_level(discs, listed_, n_own, cells, periods, time, cells.width);
+}
+
+void BoxLayout::clear() {
     starts_.clear();
     indices_.clear();
+    ghosts_.clear();
+    ghost_at_.clear();
+    first_ghost_.clear();
+}
+
+std::size_t BoxLayout::add_level(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+                                 std::size_t n_own, const BoxCells& cells, const Periods& periods,
+                                 double time, double lane_unit) {
+    sort(discs, listed, n_own, cells, periods, time);
+    const std::size_t first_start = starts_.size();
+    const std::vector<Line> columns = lines(cells.n_columns, cells.n_beside),
+                            rows = lines(cells.n_rows, cells.n_above);
     for (const Line column : columns) {
         const std::uint32_t* const box_column = box_starts_.data() + column.home * cells.n_rows;
         for (const Line row : rows) {
             starts_.push_back(static_cast<std::uint32_t>(indices_.size()));
             for (std::uint32_t k = box_column[row.home]; k < box_column[row.home + 1]; ++k)
-                indices_.push_back(sorted_[k]);
+                indices_.push_back(listed[sorted_[k]]);
         }
         starts_.push_back(static_cast<std::uint32_t>(indices_.size()));
     }
-    add_ghosts(cells, columns, rows);
+    add_ghosts(cells, first_start, columns, rows, lane_unit);
+    return first_start;
 }
 
-/// Each disc of the box: the rank's own ones, and one copy of each other one.
-void BoxLayout::list_once(std::span<const Disc> discs, std::size_t n_own) {
+/// Lists each disc of the box once: the rank's own discs, and the first copy of each other disc. A
+/// hash table of ids finds further copies.
+const std::vector<LocalIndex>& BoxLayout::list_once(std::span<const Disc> discs,
+                                                    std::size_t n_own) {
     listed_.resize(n_own);
     std::iota(listed_.begin(), listed_.end(), LocalIndex{0});
-    if (discs.size() == n_own) return;
+    if (discs.size() == n_own) return listed_;
     const std::size_t size = std::bit_ceil(2 * discs.size() + 1);
     id_table_.assign(size, none);
     for (LocalIndex index = 0; index < discs.size(); ++index) {
@@ -72,11 +89,13 @@ void BoxLayout::list_once(std::span<const Disc> discs, std::size_t n_own) {
         id_table_[place] = index;
         if (index >= n_own) listed_.push_back(index);
     }
+    return listed_;
 }
 
-/// Brings what is listed into the order of the cells of the box, by column and row.
-void BoxLayout::sort(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
-                     const Periods& periods, double time) {
+/// Sorts the listed discs into the order of the cells of the box, by column and row.
+void BoxLayout::sort(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+                     std::size_t n_own, const BoxCells& cells, const Periods& periods,
+                     double time) {
     const auto n_rows = static_cast<std::uint32_t>(cells.n_rows);
     const double columns_per_length = 1 / cells.width, rows_per_length = 1 / cells.height;
     const auto cell_along = [](double place, int n) { // rounding may put a disc beside the box
@@ -84,10 +103,10 @@ void BoxLayout::sort(std::span<const Disc> discs, std::size_t n_own, const BoxCe
         return static_cast<std::uint32_t>(cell);
     };
     box_starts_.assign(static_cast<std::size_t>(cells.n_columns) * n_rows + 1, 0);
-    cell_of_.resize(listed_.size());
-    for (std::size_t k = 0; k < listed_.size(); ++k) {
-        const Disc& disc = discs[listed_[k]];
-        const bool is_at_home = listed_[k] < n_own || !periods.are_any();
+    cell_of_.resize(listed.size());
+    for (std::size_t k = 0; k < listed.size(); ++k) {
+        const Disc& disc = discs[listed[k]];
+        const bool is_at_home = listed[k] < n_own || !periods.are_any();
         const Image home = is_at_home ? image_of(disc) : periods.home(disc, time);
         const Shift shift = periods.shift_of(home, time);
         const double x = disc.x_at(time) + shift.x - cells.x_low,
@@ -97,8 +116,9 @@ void BoxLayout::sort(std::span<const Disc> discs, std::size_t n_own, const BoxCe
         ++box_starts_[cell_of_[k]];
     }
     std::partial_sum(box_starts_.begin(), box_starts_.end(), box_starts_.begin());
-    sorted_.resize(listed_.size());
-    for (std::size_t k = listed_.size(); k-- > 0;) sorted_[--box_starts_[cell_of_[k]]] = listed_[k];
+    sorted_.resize(listed.size());
+    for (std::size_t k = listed.size(); k-- > 0;)
+        sorted_[--box_starts_[cell_of_[k]]] = static_cast<std::uint32_t>(k);
 }
 
 /// The lines of cells along an axis, those beyond the sides included.
@@ -111,13 +131,15 @@ std::vector<BoxLayout::Line> BoxLayout::lines(int n_cells, int n_beyond) {
     return lines;
 }
 
-void BoxLayout::add_ghosts(const BoxCells& cells, std::span<const Line> columns,
-                           std::span<const Line> rows) {
-    ghosts_.clear();
-    ghost_at_.assign(indices_.size(), none);
-    first_ghost_.assign(indices_.size(), none);
+void BoxLayout::add_ghosts(const BoxCells& cells, std::size_t first_start,
+                           std::span<const Line> columns, std::span<const Line> rows,
+                           double lane_unit) {
+    const double x_period = cells.n_columns * (cells.width / lane_unit),
+                 y_period = cells.n_rows * (cells.height / lane_unit);
+    ghost_at_.resize(indices_.size(), none);
+    first_ghost_.resize(indices_.size(), none);
     const auto slots_of = [&](std::size_t column, std::size_t row) {
-        const std::size_t cell = column * (rows.size() + 1) + row;
+        const std::size_t cell = first_start + column * (rows.size() + 1) + row;
         return SlotRange{starts_[cell], starts_[cell + 1]};
     };
     const auto beside = static_cast<std::size_t>(cells.n_beside),
@@ -132,9 +154,8 @@ void BoxLayout::add_ghosts(const BoxCells& cells, std::span<const Line> columns,
                                      .begin;
             Ghost ghost;
             ghost.image = image;
-            ghost.x_shift = static_cast<float>(image.x * cells.n_columns);
-            ghost.y_shift = static_cast<float>(image.y *
-                                               (cells.n_rows * (cells.height / cells.width)));
+            ghost.x_shift = static_cast<float>(image.x * x_period);
+            ghost.y_shift = static_cast<float>(image.y * y_period);
             for (ghost.slot = seen.begin; ghost.slot < seen.end; ++ghost.slot, ++disc) {
                 ghost.disc = disc;
                 ghost.next = first_ghost_[disc];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole box cut into cells, for a run that has all of its discs. Each is there once. Beyond
-// periodic sides are cells with ghosts: slots where discs are seen, with flights but no states.
+// The whole box cut into cells, for a run that has all discs of the box. Each disc has one slot.
+// Cells beyond periodic sides hold ghosts. A ghost is a slot where an image of a disc is found. It
+// has a flight of its own, so that the filter can test it, but its state is the disc's.
 #pragma once
 
 #include <cstdint>
@@ -14,50 +15,66 @@
 
 namespace carrom {
 
-/// How wide cells should be at least in a box of this height and length. Cells of about two
-/// spacings hold a vector's worth of discs in three rows.
+/// The least width of cells in a box of this height and length. Three rows of cells that are about
+/// two spacings wide hold as many discs as a vector has lanes.
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs);
 
 /// Cells of the box. Between periodic sides they fill it exactly.
 struct BoxCells {
     double x_low = 0, y_low = 0, width = 1, height = 1;
     int n_columns = 1, n_rows = 1;
-    int n_reach_columns = 1, n_reach_rows = 1; ///< in which partners of a cell's discs can be
+    int n_reach_columns = 1, n_reach_rows = 1; ///< partners are at most this many cells away
     int n_beside = 0, n_above = 0;             ///< columns and rows beyond each side
 };
 
-/// Their width and height are at least `least_width`, if the box is so large.
+/// Cuts the box into cells that are at least `least_width` wide and high, or into one cell along an
+/// axis on which the box is shorter than that.
 BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach,
                       double least_width);
 
-/// Where a disc is seen beyond a periodic side.
+/// An image of a disc beyond a periodic side.
 struct Ghost {
-    std::uint32_t slot = 0, disc = 0; ///< its own slot and the disc's
-    std::uint32_t next = 0;           ///< of the same disc, or none
+    std::uint32_t slot = 0, disc = 0; ///< the ghost's own slot and the disc's
+    std::uint32_t next = 0;           ///< number of the disc's next ghost, or none
     Image image;
-    float x_shift = 0, y_shift = 0; ///< from the disc, in widths of a cell
+    float x_shift = 0, y_shift = 0; ///< from the disc to the ghost, in units of the lanes
 };
 
 class BoxLayout {
 public:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    /// Gives slots to all discs of the box as they are at `time`, by column and row, and to their
-    /// ghosts. `discs` are the rank's own ones, which lie in the box, and then copies of others,
-    /// perhaps several of each.
+    /// Gives slots to all discs of the box and to their ghosts, by the column and row in which they
+    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. The copies of
+    /// other ranks' discs follow. There may be several copies of a disc, one for each image.
     void lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
-    /// By slot: the place among the discs that were given. Of a ghost the one of its disc.
+    /// These three lay discs in levels, one after the other, each with its own cells. This forgets
+    /// the last layout.
+    void clear();
+    /// Returns the indices of the own discs, and of one copy of each other disc.
+    const std::vector<LocalIndex>& list_once(std::span<const Disc> discs, std::size_t n_own);
+    /// Gives slots to the discs with the indices `listed`; those before `n_own` lie in the box.
+    /// Shifts of ghosts are in units of `lane_unit`, which all levels share. Returns where the
+    /// level begins in `cell_starts`.
+    std::size_t add_level(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+                          std::size_t n_own, const BoxCells& cells, const Periods& periods,
+                          double time, double lane_unit);
+    /// For each slot of the last level, the place in its list.
+    const std::vector<std::uint32_t>& order() const { return sorted_; }
+
+    /// For each slot, the index of its disc in `discs`. A ghost has the index of its disc.
     const std::vector<LocalIndex>& indices() const { return indices_; }
-    /// Where the slots of each cell begin, cells beyond the sides included; one more to a column.
+    /// Where the slots of each cell begin, cells beyond the sides included. Each column has one
+    /// more entry, where its last cell ends.
     const std::vector<std::uint32_t>& cell_starts() const { return starts_; }
     const std::vector<Ghost>& ghosts() const { return ghosts_; }
     /// The ghost in the slot, or null.
     const Ghost* ghost_at(std::uint32_t slot) const {
         return ghost_at_[slot] == none ? nullptr : &ghosts_[ghost_at_[slot]];
     }
-    /// Calls visit(ghost) for each of a disc's.
+    /// Calls visit(ghost) for each ghost of a disc.
     template <class Visit> void for_ghosts_of(std::uint32_t slot, const Visit& visit) const {
         for (std::uint32_t k = first_ghost_[slot]; k != none; k = ghosts_[k].next)
             visit(ghosts_[k]);
@@ -65,15 +82,14 @@ public:
 
 private:
     struct Line {
-        int away = 0; ///< in box lengths
-        int home = 0; ///< the line of cells in the box that is seen there
+        int away = 0; ///< distance of the line from the box, in box lengths
+        int home = 0; ///< the line of cells in the box whose images lie there
     };
 
-    void list_once(std::span<const Disc> discs, std::size_t n_own);
-    void sort(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
-              const Periods& periods, double time);
-    void add_ghosts(const BoxCells& cells, std::span<const Line> columns,
-                    std::span<const Line> rows);
+    void sort(std::span<const Disc> discs, std::span<const LocalIndex> listed, std::size_t n_own,
+              const BoxCells& cells, const Periods& periods, double time);
+    void add_ghosts(const BoxCells& cells, std::size_t first_start, std::span<const Line> columns,
+                    std::span<const Line> rows, double lane_unit);
     void lay_sliding(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
                      const Periods& periods, double time);
     static std::vector<Line> lines(int n_cells, int n_beyond);
@@ -82,8 +98,10 @@ private:
     std::vector<std::uint32_t> starts_;
     std::vector<Ghost> ghosts_;
     std::vector<std::uint32_t> ghost_at_, first_ghost_; ///< by slot
-    std::vector<LocalIndex> listed_, sorted_;           ///< each disc once; by cells of the box
-    std::vector<std::uint32_t> cell_of_, box_starts_;   ///< of `listed_`; of `sorted_`
+    std::vector<LocalIndex> listed_;                    ///< each disc of the box once
+    std::vector<std::uint32_t> sorted_;     ///< places in the list, in the order of the cells
+    std::vector<std::uint32_t> cell_of_;    ///< for each entry of `listed_`, its cell
+    std::vector<std::uint32_t> box_starts_; ///< for each cell, where it begins in `sorted_`
     std::vector<LocalIndex> id_table_;
 };
 

@@ -20,12 +20,12 @@ namespace carrom {
 
 namespace {
 
-/// Blocks that each thread has at least, so that none waits for long.
+/// Each thread gets at least this many blocks, so that no thread waits long for the others.
 constexpr double blocks_per_thread = 4;
-/// Of the largest speed, from a sync to the next one. From a thin gas to the densest liquid discs
-/// that grow become some 30 times as fast.
+/// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
+/// as fast from a thin gas to the densest liquid.
 constexpr double jam_heating = 64;
-/// Up to here one thread does best with a single block and no halo.
+/// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
 
 int cells_along(double length, double width) {
@@ -39,11 +39,15 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
                                                const Communicator& communicator,
                                                const Tuning& tuning,
                                                const BlockTuning& block_tuning)
-    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning) {
+    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
+      levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
+                                 static_cast<double>(scene.n_discs), scene.box.area(),
+                                 block_tuning.parts_sizes)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
     this->distribute();
-    // Later on the run itself may have come to overlaps.
+    // A later state is checked only if its dynamics part overlapping discs, because in other
+    // dynamics the run itself may have made discs overlap.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_, scene.name);
@@ -58,7 +62,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
     n_micro_done_ = target;
 }
 
-/// One window, to `target` at most.
+/// Runs one window, which ends at `target` or before.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double target) {
     this->set_departed_aside();
     migrate();
@@ -112,8 +116,8 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     return window;
 }
 
-/// Largest speeds come and go: the last window's bound may be needed again. Discs at rest on a
-/// floor become faster as the frame falls.
+/// The largest speed goes up and down, so the last window's bound is kept for a while. Speeds in
+/// the falling frame grow, also those of discs at rest on a floor.
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double now = communicator_.max(largest_speed_) * block_tuning_.speed_allowance;
@@ -122,8 +126,8 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
            (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
 }
 
-/// Discs that grow into a jam become ever faster, and collide ever more often: no step would end.
-/// **Collective.**
+/// Ends the run if discs grow into a jam: they become ever faster and collide ever more often, so
+/// that the step would never end. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() {
     const double growth = dynamics_.growth_at(time_);
     const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
@@ -140,7 +144,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() {
         growth, jam_heating));
 }
 
-/// Takes what the last window teaches into account.
+/// The numbers for the choice of the next window, some of them learned from the last one.
 template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     const auto n = static_cast<double>(discs_.n_total());
     const bool is_few = tuning_.threads == 1 ||
@@ -150,6 +154,8 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
+    needs.radius_to_look_for = radius_to_look_for(levels_) * dynamics_.growth_at(time_) +
+                               dynamics_.slack();
     needs.n_discs = n;
     needs.speed_bound = speed_bound;
     needs.time = time_;
@@ -170,8 +176,8 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     return needs;
 }
 
-/// The same reach at a higher speed: a shorter window. Where all were at rest until a wall came, a
-/// flight of a diameter.
+/// Makes the window shorter for a higher speed, so that the reach stays the same. If all discs were
+/// at rest until a wall came, the window becomes as long as a flight over a diameter.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
@@ -184,8 +190,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     window_.speed_bound = bound;
 }
 
-/// Brings the halo to every strip, all discs into cells and the own cells into blocks, which are
-/// all to run. A single run of the whole box has cells of its own.
+/// Fetches the halo of every strip, sorts all discs into cells, and cuts the own cells into blocks
+/// that are all marked to run. A single run of the whole box makes its own cells.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
     const Box box = dynamics_.box();
@@ -278,7 +284,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
     }
 }
 
-/// How long a block's sides should be.
+/// The length that a block's sides should have, in the unit of the scene.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const double width = (own_cells_.end_column - own_cells_.first_column) * geometry.cell_width,
@@ -289,14 +295,6 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const
     if (tuning_.threads == 1) return choice_.block_side;
     return std::min(choice_.block_side, std::max(std::sqrt(width * height / n_blocks),
                                                  std::max(width, height) / n_blocks));
-}
-
-/// The share of all ranks' blocks that have to run. **Collective.**
-template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
-    std::uint64_t n[] = {0, blocks_.size()};
-    for (const Block& block : blocks_) n[0] += block.is_marked;
-    communicator_.sum(n);
-    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
@@ -313,7 +311,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              box_cells_,
                              is_alone_,
                              this->pair_events_ != nullptr,
-                             static_cast<double>(this->micro_steps_)};
+                             static_cast<double>(this->micro_steps_),
+                             levels_,
+                             extent()};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;

@@ -2,16 +2,17 @@
 // Event-driven molecular dynamics on ranks and threads, by speculative runs of blocks of cells
 // (docs/understanding/method.md, section 8). A window of time goes through these phases:
 //
-//   redistribute  own discs to their strips, halo discs from the neighbours, all into cells; the
-//                 own cells into blocks
-//   run           each block with its halo, alone, by whichever thread is free
-//   validate      each block's ring has the histories that its owners found, own discs have met
-//                 no others, and none got too far; else rollback: blocks that differ run again with
-//                 twice the halo, in the end with the whole box
-//   commit        new states for the discs that were hit
+//   redistribute  discs go to the strips that own them, the halo comes from the neighbours, and
+//                 all are sorted into cells; the own cells are cut into blocks
+//   run           a free thread runs each block with its halo, without the other blocks
+//   validate      the histories of each block's ring are compared with those that the owners
+//                 found; own discs may have met no disc from beyond the ring, and none may have
+//                 got too far; otherwise the blocks that differ run again with twice the halo,
+//                 in the end with the whole box (rollback)
+//   commit        the discs that were hit get their new states
 //
-// A rollback costs only the repeated run, because states are rewritten at the commit. Few
-// discs on one rank and thread have a single run of the whole box, without halo and histories.
+// A rollback costs only the repeated run, because no state changes before the commit. A single run
+// of the whole box, without halo and histories, serves few discs on one rank and thread.
 #pragma once
 
 #include <cstdint>
@@ -27,10 +28,11 @@ namespace carrom {
 
 /// Settings that tests vary. Only the validation affects the bits.
 struct BlockTuning {
-    std::optional<int> halo;          ///< reaches that a block's first run sees beyond its cells
+    std::optional<int> halo;          ///< halo of a block's first run, in reaches
     std::optional<double> block_side; ///< in reaches
     double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
     bool is_validated = true;         ///< false gives wrong results
+    bool parts_sizes = false;         ///< each octave of radii has a level of cells
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
@@ -87,8 +89,8 @@ private:
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
 
-    /// Fetch the double halo now for blocks at the strip's ends, because fetching it
-    /// later makes all ranks run all blocks again.
+    /// Twice a block's halo is fetched at once for the blocks at the strip's ends, because fetching
+    /// more of it later makes all ranks run all blocks again.
     int first_halo_depth() const { return 2 * choice_.halo; }
     double reach() const {
         return block_reach(window_, dynamics_.search_diameter() * dynamics_.growth_at(window_.end),
@@ -96,6 +98,7 @@ private:
     }
 
     BlockTuning block_tuning_;
+    std::vector<SizeLevel> levels_;
     double jumped_ = 0; ///< the frame's motion along the strips' axis since the last migration
     double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
     double last_duration_ = 1;  ///< duration of the last window
@@ -104,19 +107,19 @@ private:
     double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
     Caution caution_;
     std::uint64_t n_events_ = 0; ///< on this rank in the last window
-    RollbackCounts counts_;      ///< blocks: on this rank
+    RollbackCounts counts_;      ///< its counts of blocks are of this rank alone
 
     BlockChoice choice_;
     BlockWindow window_;
-    bool is_alone_ = false; ///< one run of the whole box, for lack of threads and ranks
-    BoxCells box_cells_;    ///< for runs that see the whole box
-    int halo_depth_ = 0;    ///< reaches that the halo covers
+    bool is_alone_ = false; ///< one run of the whole box serves, on one rank and with few discs
+    BoxCells box_cells_;    ///< cells for runs of the whole box
+    int halo_depth_ = 0;    ///< reaches that the rank's halo covers
     CellBlock own_cells_{0, 1, 0, 1};
-    int block_columns_ = 1, block_rows_ = 1; ///< cells to a block
+    int block_columns_ = 1, block_rows_ = 1; ///< size of a block in cells
     int n_block_rows_ = 1;
     std::vector<Block> blocks_;
-    std::vector<std::uint64_t> histories_;       ///< by disc, own then halo
-    std::vector<BlockRun<Dynamics>> block_runs_; ///< by thread
+    std::vector<std::uint64_t> histories_;       ///< for each disc, own discs before the halo
+    std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };
 
 /// The engine of the event-driven method with the scene's dynamics. **Collective.**

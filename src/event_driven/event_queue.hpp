@@ -19,8 +19,8 @@
 
 namespace carrom {
 
-/// Values for a fixed body in the place of a second disc: obstacles by their numbers,
-/// then the walls, x before y.
+/// Values of `q` for a fixed body in the place of a second disc: first the obstacles by their
+/// numbers, then the walls across x and across y.
 inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe,
                                y_wall = 0xffffffff;
 inline bool is_wall(std::uint32_t partner) { return partner >= first_obstacle; }
@@ -34,7 +34,7 @@ struct Event {
     std::uint32_t p = 0, q = x_wall;       ///< slots; p has the lower id
     std::int16_t image_x = 0, image_y = 0; ///< q's image: box lengths from where its slot has q
     std::uint32_t versions = 0;            ///< sum of the versions of the states that predict it
-    std::uint32_t next = 0;                ///< for the queue
+    std::uint32_t next = 0;                ///< the next entry of its bucket in the queue
 
     bool has_image() const { return image_x != 0 || image_y != 0; }
     Image image() const { return {image_x, image_y}; }
@@ -139,8 +139,8 @@ private:
         return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
     }
 
-    /// Forgets all events that are not current. Costs a check of each, after at least
-    /// as many pushes since the last sweep.
+    /// Forgets all events that are not current. It checks each event, but at least as many events
+    /// were pushed since the last sweep, so it does not change the order of the total cost.
     template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
         std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
         std::make_heap(now_.begin(), now_.end(), after(before));
@@ -183,9 +183,8 @@ private:
     std::vector<std::uint32_t> heads_;
     std::vector<Event> pool_;
     std::uint32_t first_free_ = none;
-    std::size_t most_now_ = least_to_sweep,
-                most_waiting_ =
-                    least_to_sweep; ///< a sweep is due at these sizes of `now_` and `pool_`
+    /// A sweep is due if `now_` or `pool_` is larger than these.
+    std::size_t most_now_ = least_to_sweep, most_waiting_ = least_to_sweep;
 };
 
 } // namespace carrom

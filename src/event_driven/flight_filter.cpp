@@ -31,11 +31,12 @@ struct SpreadFlight {
           touching(hold(Lanes(), touching_squared)) {}
 };
 
-/// Which of the discs might touch the flight in what is left of the window: those that are near
-/// already, and those that approach, do not pass by, and arrive in time. Each condition is a number
-/// that is negative where it holds, so that one comparison does for all of them.
-/// The others are at x and y, and fly with vx and vy.
-HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
+/// Tells which of the discs at x and y with velocities vx and vy might touch the flight in the rest
+/// of the window. These are the discs that are near already, and those that approach, do not pass
+/// by and arrive in time. Each condition is a number that is negative if the condition holds, so
+/// that one comparison decides on all of them.
+/// `touching` is a squared distance.
+HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy, Vector touching,
                                        const SpreadFlight& p) {
     const Lanes d;
     const auto dx = hn::Sub(x, vector_of(d, p.x)), dy = hn::Sub(y, vector_of(d, p.y));
@@ -43,8 +44,8 @@ HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
     const auto rest = vector_of(d, p.rest);
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
-    const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, vector_of(d, p.touching)));
-    // where c > 0: they approach, and b^2 > a c
+    const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, touching));
+    // if c > 0, negative for discs that approach and have b^2 > a c
     const auto passes_by = hn::MulAdd(b, hn::Abs(b), hn::Mul(a, c));
     const auto minus_b_end = hn::NegMulSub(a, rest, b); // b and c at the window's end
     const auto c_end = hn::MulAdd(hn::Sub(b, minus_b_end), rest, c);
@@ -52,8 +53,19 @@ HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
     return hn::Lt(misses, hn::Zero(d));
 }
 
+/// The squared distance at which the flight touches the discs of a vector of lanes: one for all, or
+/// the sum of radii.
+HWY_INLINE Vector touching_of(const FlightLanes&, std::uint32_t, const SpreadFlight& p) {
+    return vector_of(Lanes(), p.touching);
+}
+HWY_INLINE Vector touching_of(const SizedLanes& lanes, std::uint32_t slot, const SpreadFlight& p) {
+    const auto sum = hn::Add(vector_of(Lanes(), p.touching),
+                             hn::LoadU(Lanes(), lanes.radii + slot));
+    return hn::Mul(sum, sum);
+}
+
 #if HWY_TARGET == HWY_AVX2
-/// For each mask of eight lanes those that are set, a byte each, first ones first.
+/// For each mask of eight lanes, the numbers of its set lanes in ascending order, one in each byte.
 constexpr auto set_lanes = [] {
     std::array<std::uint64_t, 256> lanes{};
     for (std::size_t mask = 0; mask < lanes.size(); ++mask) {
@@ -64,7 +76,7 @@ constexpr auto set_lanes = [] {
     return lanes;
 }();
 
-/// Highway's own (1.0.3) copies a table of a kilobyte to the stack each time.
+/// Replaces Highway's Compress, which in 1.0.3 copies a table of a kilobyte to the stack each time.
 HWY_INLINE SlotVector compress(SlotVector slots, hn::Mask<Slots> kept) {
     const hn::Rebind<std::uint8_t, Slots> bytes;
     std::uint8_t mask[8];
@@ -82,22 +94,23 @@ HWY_INLINE SlotVector spread_slot(std::uint32_t slot) {
     return hn::Set(Slots(), static_cast<std::int32_t>(slot));
 }
 
-/// Appends the slots that are kept to `next`; returns the new end. Writes a whole vector: what is
-/// beyond the end says nothing. (Compressing into memory is microcode on some processors, a hundred
-/// cycles each.)
+/// Appends the slots that are kept to `next`, and returns the new end. It writes a whole vector, so
+/// the memory beyond the end is overwritten. (The instruction that compresses into memory takes a
+/// hundred cycles on some processors.)
 HWY_INLINE std::uint32_t* append(SlotVector slots, hn::Mask<Slots> kept, std::uint32_t* next) {
     const hn::RebindToUnsigned<Lanes> d;
     hn::StoreU(hn::BitCast(d, compress(slots, kept)), d, next);
     return next + hn::CountTrue(Slots(), kept);
 }
 
-/// Where the flights of a vector of lanes are at the time `now`.
+/// The places of a vector of flights at the time `now`.
 HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector now) {
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
 /// Appends to `next` the slots of `run` that might touch the flight; returns the new end.
-HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, const SpreadFlight& p,
+template <class SomeLanes>
+HWY_INLINE std::uint32_t* filter_run(const SomeLanes lanes, SlotRange run, const SpreadFlight& p,
                                      Vector now, std::uint32_t* next) {
     const auto steps = hn::Iota(Slots(), 0);
     const auto end = spread_slot(run.end);
@@ -108,28 +121,41 @@ HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, con
                    y = places(lanes.y + slot, lanes.vy + slot, now);
         const auto vx = hn::LoadU(Lanes(), lanes.vx + slot),
                    vy = hn::LoadU(Lanes(), lanes.vy + slot);
-        const auto touch = hn::RebindMask(Slots(), might_touch(x, y, vx, vy, p));
+        const auto touch = hn::RebindMask(
+            Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, p), p));
         next = append(slots, hn::And(touch, hn::Lt(slots, end)), next);
     }
     return next;
 }
 
-std::size_t FilterFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs,
-                          const Flight& flight, float touching_squared, std::uint32_t* out) {
-    const FlightLanes lanes =
-        all_lanes; // nothing else points to these pointers: they stay in registers
-    const SpreadFlight spread(flight, touching_squared);
+template <class SomeLanes>
+HWY_INLINE std::size_t filter_runs(const SomeLanes& all_lanes, std::span<const SlotRange> runs,
+                                   const Flight& flight, float touching, std::uint32_t* out) {
+    const SomeLanes lanes =
+        all_lanes; // a local copy, so that the compiler can keep the pointers in registers
+    const SpreadFlight spread(flight, touching);
     const auto now = hn::Set(Lanes(), flight.now);
     std::uint32_t* next = out;
     for (const SlotRange& run : runs) next = filter_run(lanes, run, spread, now, next);
     return static_cast<std::size_t>(std::remove(out, next, flight.slot) - out);
 }
 
-PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs,
-                               const Flight& p, const Flight& q, float touching_squared,
-                               std::uint32_t* p_out, std::uint32_t* q_out) {
-    const FlightLanes lanes = all_lanes;
-    const SpreadFlight p_spread(p, touching_squared), q_spread(q, touching_squared);
+std::size_t FilterFlights(const FlightLanes& lanes, std::span<const SlotRange> runs,
+                          const Flight& flight, float touching_squared, std::uint32_t* out) {
+    return filter_runs(lanes, runs, flight, touching_squared, out);
+}
+std::size_t FilterSized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                        const Flight& flight, float radius, std::uint32_t* out) {
+    return filter_runs(lanes, runs, flight, radius, out);
+}
+
+template <class SomeLanes>
+HWY_INLINE PartnerCounts filter_two_runs(const SomeLanes& all_lanes,
+                                         std::span<const SlotRange> runs, const Flight& p,
+                                         const Flight& q, float p_touching, float q_touching,
+                                         std::uint32_t* p_out, std::uint32_t* q_out) {
+    const SomeLanes lanes = all_lanes;
+    const SpreadFlight p_spread(p, p_touching), q_spread(q, q_touching);
     const auto now = hn::Set(Lanes(), p.now);
     const auto p_slot = spread_slot(p.slot), q_slot = spread_slot(q.slot);
     const auto steps = hn::Iota(Slots(), 0);
@@ -145,19 +171,42 @@ PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const Slo
                        y = places(lanes.y + slot, lanes.vy + slot, now);
             const auto vx = hn::LoadU(Lanes(), lanes.vx + slot),
                        vy = hn::LoadU(Lanes(), lanes.vy + slot);
-            const auto p_touch = hn::RebindMask(Slots(), might_touch(x, y, vx, vy, p_spread));
+            const auto p_touch = hn::RebindMask(
+                Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, p_spread), p_spread));
             p_next = append(slots, hn::And(p_touch, inside), p_next);
-            const auto q_touch = hn::RebindMask(Slots(), might_touch(x, y, vx, vy, q_spread));
+            const auto q_touch = hn::RebindMask(
+                Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, q_spread), q_spread));
             q_next = append(slots, hn::And(q_touch, inside), q_next);
         }
     }
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int column, CellRows rows,
-                  float touching_squared, std::vector<std::uint32_t>& partners,
-                  std::vector<std::uint32_t>& ends) {
-    const FlightLanes lanes = all_lanes;
+PartnerCounts FilterTwoFlights(const FlightLanes& lanes, std::span<const SlotRange> runs,
+                               const Flight& p, const Flight& q, float touching_squared,
+                               std::uint32_t* p_out, std::uint32_t* q_out) {
+    return filter_two_runs(lanes, runs, p, q, touching_squared, touching_squared, p_out, q_out);
+}
+PartnerCounts FilterTwoSized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                             const Flight& p, const Flight& q, float p_radius, float q_radius,
+                             std::uint32_t* p_out, std::uint32_t* q_out) {
+    return filter_two_runs(lanes, runs, p, q, p_radius, q_radius, p_out, q_out);
+}
+
+/// What the flight of a slot has in place of `touching`: the margin of a sum of radii and its own.
+HWY_INLINE float touching_in(const FlightLanes&, std::uint32_t, float touching_squared) {
+    return touching_squared;
+}
+HWY_INLINE float touching_in(const SizedLanes& lanes, std::uint32_t slot, float margin) {
+    return lanes.radii[slot] + margin;
+}
+
+template <class SomeLanes>
+HWY_INLINE void filter_cells_of_column(const SomeLanes& all_lanes, const CellTable& cells,
+                                       int column, CellRows rows, float touching,
+                                       std::vector<std::uint32_t>& partners,
+                                       std::vector<std::uint32_t>& ends) {
+    const SomeLanes lanes = all_lanes;
     const std::uint32_t* const own = cells.starts +
                                      static_cast<std::size_t>(column) * cells.column_length;
     const int n_right = HWY_MIN(cells.n_reach_columns, cells.n_columns - 1 - column);
@@ -178,7 +227,8 @@ void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int colu
         std::uint32_t* next = partners.data() + n_partners;
         for (std::uint32_t slot = own[row]; slot < own[row + 1]; ++slot) {
             const SpreadFlight spread(
-                {lanes.x[slot], lanes.y[slot], lanes.vx[slot], lanes.vy[slot]}, touching_squared);
+                {lanes.x[slot], lanes.y[slot], lanes.vx[slot], lanes.vy[slot]},
+                touching_in(lanes, slot, touching));
             next = filter_run(lanes, {slot + 1, own[high + 1]}, spread, start, next);
             for (int k = 1; k <= n_right; ++k) {
                 const std::uint32_t* const other = own + static_cast<std::size_t>(k) *
@@ -189,6 +239,17 @@ void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int colu
         }
         n_partners = static_cast<std::size_t>(next - partners.data());
     }
+}
+
+void FilterColumn(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                  float touching_squared, std::vector<std::uint32_t>& partners,
+                  std::vector<std::uint32_t>& ends) {
+    filter_cells_of_column(lanes, cells, column, rows, touching_squared, partners, ends);
+}
+void FilterSizedColumn(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                       float margin, std::vector<std::uint32_t>& partners,
+                       std::vector<std::uint32_t>& ends) {
+    filter_cells_of_column(lanes, cells, column, rows, margin, partners, ends);
 }
 
 } // namespace carrom::HWY_NAMESPACE
@@ -220,6 +281,30 @@ void filter_column(const FlightLanes& lanes, const CellTable& cells, int column,
                    std::vector<std::uint32_t>& ends) {
     HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, rows, touching_squared, partners,
                                        ends);
+}
+
+HWY_EXPORT(FilterSized);
+
+std::size_t filter_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                         const Flight& flight, float radius, std::uint32_t* out) {
+    return HWY_DYNAMIC_DISPATCH(FilterSized)(lanes, runs, flight, radius, out);
+}
+
+HWY_EXPORT(FilterTwoSized);
+
+PartnerCounts filter_two_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                               const Flight& p, const Flight& q, float p_radius, float q_radius,
+                               std::uint32_t* p_out, std::uint32_t* q_out) {
+    return HWY_DYNAMIC_DISPATCH(FilterTwoSized)(lanes, runs, p, q, p_radius, q_radius, p_out,
+                                                q_out);
+}
+
+HWY_EXPORT(FilterSizedColumn);
+
+void filter_sized_column(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                         float margin, std::vector<std::uint32_t>& partners,
+                         std::vector<std::uint32_t>& ends) {
+    HWY_DYNAMIC_DISPATCH(FilterSizedColumn)(lanes, cells, column, rows, margin, partners, ends);
 }
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of partners in a block run, many lanes at a time: which flights in
-// some runs of slots might touch a given one before the window ends. It may keep pairs
-// that never touch, but loses none that do.
+// Rejects most partners in a block run, many lanes at a time: it finds the flights in some runs of
+// slots that might touch a given flight before the window ends. It may keep pairs that never touch,
+// but loses none that do.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@
 
 namespace carrom {
 
-/// A disc in flight: position in cells at the time `now`, cells per window. Times run from 0 to 1
-/// in a window.
+/// A disc in flight. Its position at the time `now` is in cells, its velocity in cells per window,
+/// and times go from 0 to 1 in a window.
 struct Flight {
     float x = 0, y = 0, vx = 0, vy = 0;
     float now = 0;
     std::uint32_t slot = 0;
 };
 
-/// Writes the slots of `runs`, other than the flight's own, that might come within the
-/// square root of `touching_squared` of `flight`; returns their number. Lanes hold
-/// positions extrapolated to the window's start. `out` has room for all slots of the
-/// runs and `filter_padding` more, and lanes can be read as far beyond the last slot.
+/// Writes the slots of `runs`, other than the flight's own, that might come within the square root
+/// of `touching_squared` of `flight`, and returns their number. Lanes hold positions extrapolated
+/// to the window's start. `out` must have room for all slots of the runs and `filter_padding` more,
+/// and lanes must be readable up to `filter_padding` entries beyond the last slot.
 std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
                            const Flight& flight, float touching_squared, std::uint32_t* out);
 
@@ -32,8 +32,8 @@ struct PartnerCounts {
     std::size_t p = 0, q = 0;
 };
 
-/// Filters for two flights with the same `now` at once, into a list each: all slots
-/// but those of the two.
+/// Filters for two flights with the same `now` at once, into a list for each. The slots of the two
+/// flights are in neither list.
 PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
                                  const Flight& p, const Flight& q, float touching_squared,
                                  std::uint32_t* p_out, std::uint32_t* q_out);
@@ -52,12 +52,28 @@ struct CellRows {
     int first = 0, end = 0;
 };
 
-/// Finds every pair that might touch in the window, of a disc in `rows` of a column
-/// and one that comes after it: later in its own column, or in a column to the right,
-/// within the table's reach. Appends the second discs to `partners`, which only grows,
-/// and to `ends` where the partners of each disc of the rows end there.
+/// Finds every pair that might touch in the window, of a disc in `rows` of a column and a disc that
+/// comes after it. That one is later in the same column or in a column to the right, within the
+/// table's reach. Appends the second discs of the pairs to `partners`, whose size never shrinks.
+/// Appends to `ends`, for each disc of the rows, where its partners end in that list.
 void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
                    float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);
+
+/// Flights of discs of several sizes, with their radii in units of the lanes.
+struct SizedLanes : FlightLanes {
+    const float* radii = nullptr;
+};
+
+/// These find discs that might come as near as the sum of the two radii and a margin. `radius` is
+/// the radius of the flight plus the margin.
+std::size_t filter_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                         const Flight& flight, float radius, std::uint32_t* out);
+PartnerCounts filter_two_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
+                               const Flight& p, const Flight& q, float p_radius, float q_radius,
+                               std::uint32_t* p_out, std::uint32_t* q_out);
+void filter_sized_column(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                         float margin, std::vector<std::uint32_t>& partners,
+                         std::vector<std::uint32_t>& ends);
 
 } // namespace carrom

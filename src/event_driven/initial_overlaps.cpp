@@ -25,7 +25,7 @@ struct Overlap {
     }
 };
 
-/// The first pairs of a rank, or of all ranks; the number also counts those not listed.
+/// The first pairs of a rank, or of all ranks. The number also counts pairs that are not listed.
 struct FirstOverlaps {
     std::uint64_t number = 0;
     std::array<Overlap, n_named> pairs; ///< ascending, empty places last
@@ -46,7 +46,7 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
     FirstOverlaps mine;
     visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
         if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
-        if (a >= population.n_own) return; // the owner of the lower id counts the pair
+        if (a >= population.n_own) return; // the rank that owns the lower id counts the pair
         const Disc& p = population.discs[a];
         const Disc& q = population.discs[b];
         const Shift shift = touching.periods.between(p, q, time);

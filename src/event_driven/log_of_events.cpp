@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the event-driven engine logs of its events, where somebody follows them.
+// Passes events of the event-driven engine on to the log, the sums of wall impulses and the pair
+// followers that want them.
 #include "event_driven/event_driven_engine.hpp"
 
 namespace carrom {
@@ -25,7 +26,7 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
     }
 }
 
-// What the engine's own file calls. The class itself is compiled there.
+// These members are called from event_driven_engine.cpp, where the class itself is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome&);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The layout of a box whose rows of images slide along x. Ghosts do not lie in their
-// cells as their discs do in theirs, so each ghost is sorted by its own place.
+// The layout of a box whose rows of images slide along x. A ghost lies elsewhere in its cell than
+// its disc in the disc's cell, because the shift is not a whole number of cells. So each ghost is
+// sorted by its own place.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a window's block runs are the truth (docs/understanding/method.md, sections 8.2 and 9),
-// and what to do where they may not be.
+// Decides whether a window's block runs are right (docs/understanding/method.md, sections 8.2 and
+// 9), and marks the blocks that have to run again.
 #include <algorithm>
 #include <atomic>
 
@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// Marks the blocks that have to run again, on all ranks.
+/// Marks the blocks that have to run again, on all ranks. **Collective.**
 template <class Dynamics>
 typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
     const PhaseClock::Scope scope(phases_, Phase::resolve);
@@ -48,8 +48,8 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     return Verdict::repeat;
 }
 
-/// Marks the blocks whose own discs have met others from beyond the ring. If the block has seen the
-/// whole box, it is right, and the other disc was too fast.
+/// Marks the blocks whose own discs have met a disc from beyond the ring. If the run had the whole
+/// box, its result is right, and the other disc was faster than the bound.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     for (Block& block : blocks_) {
         BlockOutcome& outcome = block.outcome;
@@ -61,8 +61,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     }
 }
 
-/// Marks both blocks wherever a ring disc has another history than its owner has seen; `foreign`
-/// are those of other ranks.
+/// If a disc of a ring has another history than its owner has found, marks the block of the ring
+/// and the block of the owner. Discs that other ranks own are appended to `foreign`.
 template <class Dynamics>
 void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& foreign) {
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
@@ -101,22 +101,30 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalInde
         .store(1, std::memory_order_relaxed);
 }
 
-/// Doubles the halo of all marked blocks that do not see the whole box yet. True if that takes more
-/// of the rank's halo; then all blocks run again. **Collective.**
+/// Returns the share of all ranks' blocks that have to run. **Collective.**
+template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
+    std::uint64_t n[] = {0, blocks_.size()};
+    for (const Block& block : blocks_) n[0] += block.is_marked;
+    communicator_.sum(n);
+    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
+}
+
+/// Doubles the halo of all marked blocks that do not have the whole box yet. Returns true if the
+/// rank's halo must then become deeper, so that all blocks have to run again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
     std::uint64_t n_widened = 0;
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
         if (sees_all(block)) {
-            block.is_marked = 0; // another run would end the same
+            block.is_marked = 0; // another run would have the same result
             continue;
         }
         block.halo *= 2;
         ++n_widened;
         deepest = std::max(deepest, halo_depth_for(block));
     }
-    if (discs_.periods().are_any()) { // once around there is nothing new
+    if (discs_.periods().are_any()) { // a halo that goes once around the box has all discs
         const int around = static_cast<int>(std::ceil(dynamics_.box().longest() / reach())) + 3;
         deepest = std::max(halo_depth_, std::min(deepest, around));
     }
@@ -128,7 +136,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     return true;
 }
 
-/// The rank's halo that the block's halo takes, in reaches. There is none beyond a wall.
+/// The depth of the rank's halo that the block's halo needs, in reaches. A block needs none on a
+/// side where a wall ends the box.
 template <class Dynamics>
 int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
     const int n_reach = discs_.grid().geometry().n_reach;
@@ -165,7 +174,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
     return has_all_cells && rank_has_all;
 }
 
-/// Along a periodic axis: once around from the block's own cells, and one reach more at both ends.
+/// Along a periodic axis a block has all images that matter if its cells go once around the box
+/// from its own cells, and one reach further at both ends.
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridGeometry& geometry = discs_.grid().geometry();
@@ -193,7 +203,7 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
                    discs_.periods().along(other_axis(axis)) != 0, true);
 }
 
-/// Ends the run on all ranks if a block that has seen the whole box has found no end.
+/// Ends the run on all ranks if a block that had the whole box was given up in a collision cascade.
 /// **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() const {
     std::string text;
@@ -223,10 +233,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
     agree(communicator_, text.empty(), text);
 }
 
-// What the engine's own file calls. The class itself is compiled there.
+// These members are called from event_driven_engine.cpp, where the class itself is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate();         \
     template bool EventDrivenEngine<Dynamics>::widen_marked();                                     \
+    template double EventDrivenEngine<Dynamics>::share_marked() const;                             \
     template bool EventDrivenEngine<Dynamics>::sees_all(const Block&) const;
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

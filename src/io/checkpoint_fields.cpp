@@ -67,7 +67,7 @@ void write_header(hid_t group, const CheckpointHeader& header) {
 CheckpointHeader read_header(hid_t file) {
     const h5::Group group(h5::checked(H5Gopen2(file, run_path, H5P_DEFAULT), run_path));
     const auto read = reader_of(group.id());
-    const auto has = [&](const char* name) { return H5Lexists(group.id(), name, H5P_DEFAULT) > 0; };
+    const auto has = [&](const char* name) { return h5::has(group.id(), name); };
     CheckpointHeader header;
     visit_header(header, read);
     header.box_height = header.box_size;

@@ -127,6 +127,7 @@ UnfinishedFile::~UnfinishedFile() {
 
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write) {
+    refuse_special(path);
     std::random_device random;
     const std::string name = fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(),
                                          unfinished_suffix);

@@ -104,7 +104,7 @@ Selection select(hid_t dataset, const RowRange& rows) {
     start[axis] = rows.begin;
     count[axis] = rows.end - rows.begin;
     Selection selected{space(count),
-                       Space(checked(H5Dget_space(dataset), "cannot look at a dataset"))};
+                       Space(checked(H5Dget_space(dataset), "cannot inspect a dataset"))};
     if (rows.begin == rows.end) {
         checked(H5Sselect_none(selected.memory.id()), "cannot select no rows");
         checked(H5Sselect_none(selected.file.id()), "cannot select no rows");
@@ -195,7 +195,9 @@ SharedFile::SharedFile(const std::string& path, Access access, const Communicato
 
 bool has(hid_t file, const std::string& path) {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-        if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+        // An error is no answer: HDF5 finds links of some damaged groups when it is asked again.
+        const std::string part = path.substr(0, end);
+        if (checked(H5Lexists(file, part.c_str(), H5P_DEFAULT), part) == 0) return false;
         if (end == std::string::npos) return true;
     }
 }
@@ -220,7 +222,7 @@ Dataset open_dataset(hid_t parent, const std::string& name) {
 }
 
 Type stored_type(hid_t dataset) {
-    return Type(checked(H5Dget_type(dataset), "cannot look at a dataset"));
+    return Type(checked(H5Dget_type(dataset), "cannot inspect a dataset"));
 }
 
 void write_attribute(hid_t object, const std::string& name, const std::string& text) {
@@ -285,11 +287,11 @@ void read_scalar(hid_t parent, const std::string& name, std::string& text) {
 }
 
 std::vector<hsize_t> dimensions_of(hid_t dataset) {
-    const Space shape(checked(H5Dget_space(dataset), "cannot look at a dataset"));
+    const Space shape(checked(H5Dget_space(dataset), "cannot inspect a dataset"));
     std::vector<hsize_t> dimensions(static_cast<std::size_t>(
-        checked(H5Sget_simple_extent_ndims(shape.id()), "cannot look at a dataset")));
+        checked(H5Sget_simple_extent_ndims(shape.id()), "cannot inspect a dataset")));
     checked(H5Sget_simple_extent_dims(shape.id(), dimensions.data(), nullptr),
-            "cannot look at a dataset");
+            "cannot inspect a dataset");
     return dimensions;
 }
 

@@ -66,16 +66,29 @@ void SegmentedFile::begin() {
 bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
                           const std::function<void(hid_t file)>& check) {
     std::uint64_t is_there = 0;
-    on_root(communicator_, path_, ExitCode::output_failure,
-            [&] { is_there = std::filesystem::exists(path_) ? 1 : 0; });
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        std::error_code error;
+        is_there = std::filesystem::exists(path_, error) ? 1 : 0;
+        if (error) throw FileError("cannot be found: " + error.message());
+    });
     communicator_.broadcast(is_there);
     if (is_there == 0) {
+        on_root(communicator_, path_, ExitCode::bad_input, [&] { refuse_segments(); });
         begin();
         return false;
     }
     on_root(communicator_, path_, ExitCode::bad_input, [&] { take_over(step, last, check); });
     commit();
     return true;
+}
+
+/// Segments without the file that joins them are what somebody's run has recorded.
+void SegmentedFile::refuse_segments() const {
+    const std::string name = segment_name(path_, 1);
+    std::error_code error;
+    if (std::filesystem::exists(segment_path(path_, name), error))
+        throw FileError("is not there, and its segment " + name +
+                        " is; bring it back, or move its segments away");
 }
 
 void SegmentedFile::take_over(const std::string& step, std::int64_t last,

@@ -84,6 +84,7 @@ public:
 private:
     void take_over(const std::string& step, std::int64_t last,
                    const std::function<void(hid_t file)>& check);
+    void refuse_segments() const;
     void make_segment();
     void check_columns(hid_t file, const Index& index) const;
     void cut(std::uint64_t n_rows);

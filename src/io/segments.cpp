@@ -140,7 +140,8 @@ std::optional<Index> read_checked_index(const std::string& path, bool are_rows_w
     for (const FileSegment& segment : index.segments) {
         try {
             const std::string part = segment_path(path, segment.name);
-            if (!std::filesystem::exists(part))
+            std::error_code error; // a part that may not be seen is an error when it is opened
+            if (!std::filesystem::exists(part, error) && !error)
                 throw FileError(fmt::format("is not there; copy the folder {}/ together with {}",
                                             folder_of(segment.name),
                                             std::filesystem::path(path).filename().string()));

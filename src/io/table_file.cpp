@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/table_file.hpp"
 
-#include <cstdio>
-#include <filesystem>
-#include <system_error>
+#include <fcntl.h>
 
 #include "io/files.hpp"
 #include "io/hdf5.hpp"
@@ -26,19 +24,17 @@ void write_table(hid_t file, const MeasuredTable& table) {
 } // namespace
 
 std::string write_table_file(const std::string& path, std::span<const MeasuredTable> tables) {
-    const std::string partial = path + ".partial";
-    std::error_code error;
-    std::filesystem::remove(partial, error); // of a run that was killed
     try {
-        h5::create_file(partial, [&](hid_t file) {
-            for (const MeasuredTable& table : tables) write_table(file, table);
+        replace_file(path, [&](const std::string& beside) {
+            h5::create_file(beside, [&](hid_t file) {
+                for (const MeasuredTable& table : tables) write_table(file, table);
+            });
+            Descriptor(beside, O_WRONLY).sync();
         });
     } catch (const FileError& failure) {
-        std::filesystem::remove(partial, error);
         return path + ": " + failure.what();
     }
-    std::filesystem::rename(partial, path, error);
-    return error ? "cannot write " + path + ": " + error.message() : "";
+    return {};
 }
 
 } // namespace carrom

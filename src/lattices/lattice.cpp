@@ -87,9 +87,9 @@ void place(Shape& shape, const Box& box, double radius) {
     lattice.y0 = shape.y_spans > 0 ? low : height / 2;
 }
 
-/// Searches for a wider lattice whose rows lie along that axis.
-void look_along(Axis axis, std::uint64_t n_discs, const Box& box, double radius,
-                std::optional<Lattice>& widest) {
+/// Tries lattices whose rows lie along that axis, and keeps the widest.
+void try_rows_along(Axis axis, std::uint64_t n_discs, const Box& box, double radius,
+                    std::optional<Lattice>& widest) {
     const auto [length, height] = turned(axis, box.x, box.y);
     const double n = static_cast<double>(n_discs);
     const auto side = static_cast<std::uint64_t>(std::min(n, std::sqrt(n * (height / length))));
@@ -110,8 +110,9 @@ void look_along(Axis axis, std::uint64_t n_discs, const Box& box, double radius,
 
 std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, double radius) {
     std::optional<Lattice> widest;
-    look_along(longer_axis(box), n_discs, box, radius, widest);
-    if (!box.is_square()) look_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
+    try_rows_along(longer_axis(box), n_discs, box, radius, widest);
+    if (!box.is_square())
+        try_rows_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
     // Neighbours may touch. A rounding error of L that makes them overlap is within
     // the method's tolerance.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;

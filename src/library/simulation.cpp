@@ -136,16 +136,15 @@ Totals Simulation::totals() const {
 }
 Averages Simulation::averages() const {
     meet(live().run.ranks(), "Simulation::averages");
-    return live().run.simulation().averages();
+    return live().run.sampler().averages();
 }
 void Simulation::restart_averages() {
     meet(live().run.ranks(), "Simulation::restart_averages");
-    live().run.simulation().average_anew();
+    live().run.sampler().average_anew();
 }
 
 std::vector<MeasuredTable> Simulation::measurements() const {
-    const Sampler* const sampler = live().run.sampler();
-    return sampler ? sampler->tables() : std::vector<MeasuredTable>{};
+    return live().run.sampler().tables();
 }
 
 void Simulation::write_checkpoint(const std::string& path) const {

@@ -164,19 +164,6 @@ std::string warning_of_thread_variable() {
            std::to_string(most_threads) + " and is not heeded";
 }
 
-std::string warning_of_shared_cores(int threads, const Communicator& ranks) {
-    const AllowedCores mine = allowed_cores();
-    const int sharers = sharers_of(mine.key, ranks);
-    const bool is_wait_chosen = std::getenv("OMP_WAIT_POLICY") != nullptr ||
-                                std::getenv("GOMP_SPINCOUNT") != nullptr;
-    if (is_wait_chosen || sharers == 1 || threads == 1 || sharers * threads <= mine.count)
-        return {};
-    return std::to_string(sharers) + " ranks of " + std::to_string(threads) + " threads share " +
-           std::to_string(mine.count) +
-           " cores and wait for each other busily; take fewer threads, or set "
-           "OMP_WAIT_POLICY=passive";
-}
-
 std::uint64_t memory_per_rank(const Communicator& ranks) {
     const auto sharers = static_cast<std::uint64_t>(
         sharers_of(std::hash<std::string>{}(host_name()), ranks));

@@ -38,12 +38,6 @@ void check_threads(int threads, const Communicator& ranks);
 /// empty.
 std::string warning_of_thread_variable();
 
-/// A warning if threads of several ranks share cores and wait for each other in the
-/// default way of GNU's OpenMP library: they spin for milliseconds, on the very core
-/// that the awaited thread needs. (Within one process the library detects this, and
-/// sleeps.) Else empty. **Collective.**
-std::string warning_of_shared_cores(int threads, const Communicator& ranks);
-
 /// The bytes of memory that this rank may take: those of its node, or as many as its
 /// control group or limits allow, divided by the ranks of the node; the largest number
 /// if the system does not report it. **Collective.**

@@ -22,23 +22,20 @@ FieldSums::FieldSums(std::size_t n_cells, double speed, double length)
 void FieldSums::clear() {
     counts_.assign(counts_.size(), 0);
     sums_.clear();
-    const auto add = [this](double usual, std::size_t n) {
-        sums_.insert(sums_.end(), n, ExactSum(usual * headroom));
+    std::vector<ExactSum> of_cell;
+    const auto add = [&of_cell](double usual, std::size_t n) {
+        of_cell.insert(of_cell.end(), n, ExactSum(usual * headroom));
     };
-    for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
-        add(1, 1);
-        add(speed_, 2);
-        add(speed_ * speed_, 3);
-        add(speed_ * length_, 3);
-    }
-}
-
-std::array<std::int64_t, 3> FieldSums::stress_in_units(double xx, double xy, double yy) const {
-    const double scale = sums_[field_stress_xx].scale();
-    const auto units = [scale](double term) { // of the hardest blows 2^62 units remain
-        return static_cast<std::int64_t>(std::clamp(term * scale, -0x1p62, 0x1p62));
-    };
-    return {units(xx), units(xy), units(yy)};
+    add(1, 1);
+    add(speed_, 2);
+    add(speed_ * speed_, 3);
+    add(speed_ * speed_ * speed_, 2);
+    add(speed_ * length_, 3);
+    add(speed_ * speed_ * length_, 2);
+    for (std::size_t k = 0; k < n_contact_moments; ++k)
+        contact_scales_[k] = of_cell[field_stress_xx + k].scale();
+    for (std::size_t cell = 0; cell < counts_.size(); ++cell)
+        sums_.insert(sums_.end(), of_cell.begin(), of_cell.end());
 }
 
 /// Each sum is four words of 32 bits, so that carries stay apart.

@@ -2,7 +2,7 @@
 // Sums over the cells of a grid, for fields such as density, flow and stress.
 //
 // All sums are exact, and ranks are joined only when somebody asks. So they have the same bits on
-// any number of ranks, and the sum over all cells is that of all discs to the last bit. Memory: 152
+// any number of ranks, and the sum over all cells is that of all discs to the last bit. Memory: 424
 // bytes for each cell on each rank.
 #pragma once
 
@@ -18,8 +18,9 @@
 
 namespace carrom {
 
-/// What is summed in each cell. The first six are of discs, and the others of collisions: impulse
-/// times distance, which over time and area is the collisions' part of the pressure tensor.
+/// What is summed in each cell. The first eight are of discs, and the others of collisions: impulse
+/// times distance, which over time and area is the collisions' part of the pressure tensor, and
+/// energy times distance, which is that of the flow of energy.
 enum FieldMoment : std::uint8_t {
     field_mass,
     field_momentum_x,
@@ -27,11 +28,19 @@ enum FieldMoment : std::uint8_t {
     field_flux_xx,
     field_flux_xy,
     field_flux_yy,
+    field_energy_x,
+    field_energy_y,
     field_stress_xx,
     field_stress_xy,
     field_stress_yy,
+    field_heat_x,
+    field_heat_y,
     n_field_moments
 };
+
+/// Stress xx, xy, yy, and flow of energy along x and y.
+inline constexpr std::size_t n_contact_moments = 5;
+using ContactUnits = std::array<std::int64_t, n_contact_moments>;
 
 class FieldSums {
 public:
@@ -50,11 +59,21 @@ public:
         sums[field_flux_xx].add(mass * vx * vx);
         sums[field_flux_xy].add(mass * vx * vy);
         sums[field_flux_yy].add(mass * vy * vy);
+        const double energy = mass * (vx * vx + vy * vy) / 2;
+        sums[field_energy_x].add(energy * vx);
+        sums[field_energy_y].add(energy * vy);
     }
-    /// A stress in whole units of the sums, so that its parts add up to it.
-    std::array<std::int64_t, 3> stress_in_units(double xx, double xy, double yy) const;
-    void add_stress(std::size_t cell, const std::array<std::int64_t, 3>& units) {
-        for (std::size_t k = 0; k < 3; ++k)
+    /// What a collision adds, in whole units of the sums, so that its parts add up to it.
+    ContactUnits in_units(const std::array<double, n_contact_moments>& of_contact) const {
+        ContactUnits units{};
+        for (std::size_t k = 0; k < n_contact_moments;
+             ++k) // of the hardest blows 2^62 units remain
+            units[k] = static_cast<std::int64_t>(
+                std::clamp(of_contact[k] * contact_scales_[k], -0x1p62, 0x1p62));
+        return units;
+    }
+    void add_contact(std::size_t cell, const ContactUnits& units) {
+        for (std::size_t k = 0; k < n_contact_moments; ++k)
             sums_[n_field_moments * cell + field_stress_xx + k].add_units(units[k]);
     }
 
@@ -74,6 +93,7 @@ public:
 
 private:
     double speed_, length_;
+    std::array<double, n_contact_moments> contact_scales_{};
     std::vector<std::uint64_t> counts_;
     std::vector<ExactSum> sums_;
 };
@@ -82,7 +102,10 @@ private:
 /// widths of cells. `from` and `to` are shares of the line, in order; columns and rows may lie
 /// outside the grid.
 template <class Act> void for_each_part_of_line(double u, double v, double du, double dv, Act act) {
-    const auto cell = [](double place) { return static_cast<std::int64_t>(std::floor(place)); };
+    const auto cell = [](double place) { // std::floor is a call
+        const auto whole = static_cast<std::int64_t>(place);
+        return static_cast<double>(whole) > place ? whole - 1 : whole;
+    };
     std::int64_t column = cell(u), row = cell(v);
     const std::int64_t last_column = cell(u + du), last_row = cell(v + dv);
     double from = 0;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <carrom/measured_table.hpp>
@@ -109,7 +110,12 @@ using Measurements = std::vector<std::unique_ptr<Measurement>>;
 struct MeasuredQuantity {
     Quantity declared;
     std::unique_ptr<Measurement> (*make)(MeasuredRun&, const Measurements& others);
+    /// Names of its tables other than its own name. "profiles_1" is one of "profiles".
+    std::vector<std::string_view> other_tables = {};
 };
+
+/// Whether a table can have this name.
+bool is_name_of_table(std::string_view name);
 
 template <class M>
 std::unique_ptr<Measurement> make_measurement(MeasuredRun& run, const Measurements& /*others*/) {

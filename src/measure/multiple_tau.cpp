@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measure/multiple_tau.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace carrom {
@@ -19,6 +21,17 @@ void check_correlation_points(const Check& check) {
         check.refuse({correlation_points.key_name(), quantities_key},
                      fmt::format("'{}' must be 4, 8, 16, 32 or 64, not {}",
                                  correlation_points.key_name(), points));
+}
+
+void warn_without_lags(const Check& check) {
+    const MeasurementOutput& output = *check.scene.measurements;
+    const std::int64_t steps = check.scene.steps - output.from_step;
+    if (check.scene.steps == 0 || steps < 0 || steps >= output.every_steps) return;
+    check.scene.warnings.push_back(fmt::format(
+        "no lags of \"correlations\" and \"transport\": the shortest one takes {} steps, "
+        "and from step {} to the last one are {}; try: output.measurements.every_steps "
+        "= {} or less",
+        output.every_steps, output.from_step, steps, std::max<std::int64_t>(steps, 1)));
 }
 
 } // namespace carrom

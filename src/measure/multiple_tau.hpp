@@ -22,6 +22,8 @@ namespace carrom {
 inline constexpr QuantitySetting correlation_points{"correlation_points", 8};
 Key correlation_points_key();
 void check_correlation_points(const Check& check);
+/// Warns of a run that has no lag at all. A restart may go on to one, so this is no error.
+void warn_without_lags(const Check& check);
 
 class MultipleTau {
 public:

@@ -9,6 +9,18 @@
 
 namespace carrom {
 
+bool is_name_of_table(std::string_view name) {
+    if (const std::size_t line = name.rfind('_');
+        line + 1 < name.size() &&
+        name.find_first_not_of("0123456789", line + 1) == std::string_view::npos)
+        name = name.substr(0, line);
+    for (const MeasuredQuantity& one : measured_quantities())
+        if (name == one.declared.name ||
+            std::ranges::find(one.other_tables, name) != one.other_tables.end())
+            return true;
+    return false;
+}
+
 void count(std::vector<std::uint64_t>& counts, double place) {
     if (place >= 0 && place < static_cast<double>(counts.size()))
         ++counts[static_cast<std::size_t>(place)];

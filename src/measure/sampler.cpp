@@ -15,10 +15,14 @@ namespace {
 
 constexpr std::int64_t format = 3;
 
+/// What a scene asks for that has no [output.measurements].
+const MeasurementOutput nothing;
+
 } // namespace
 
 Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)
-    : run_{scene, *scene.measurements, simulation, ranks} {
+    : run_{scene, scene.measurements ? *scene.measurements : nothing, simulation, ranks},
+      averages_(run_) {
     for (const MeasuredQuantity& quantity : measured_quantities()) {
         if (!run_.output.measures(quantity.declared.name)) continue;
         measurements_.push_back(quantity.make(run_, measurements_));
@@ -41,6 +45,14 @@ void Sampler::keep_counts(KeptNumbers& kept) const {
 }
 
 void Sampler::go_on(const StoredSamples& stored) {
+    if (!stored.averages.empty()) {
+        KeptNumbers kept(stored.averages);
+        averages_.keep(kept);
+    }
+    if (run_.scene.measurements) go_on_measuring(stored);
+}
+
+void Sampler::go_on_measuring(const StoredSamples& stored) {
     const std::int64_t step = run_.simulation.step();
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     const std::vector<std::int64_t> words = in_present_form(stored.sums, step);
@@ -71,12 +83,19 @@ void Sampler::go_on(const StoredSamples& stored) {
 }
 
 std::int64_t Sampler::next_due(std::int64_t step) const {
+    const std::int64_t average = averages_.next_due(step);
+    if (!run_.scene.measurements) return average;
     const std::int64_t first = run_.counts.first_step, every = run_.output.every_steps;
-    if (!has_begun_) return std::max(step + 1, run_.output.from_step);
-    return first + ((step - first) / every + 1) * every;
+    if (!has_begun_) return std::min(average, std::max(step + 1, run_.output.from_step));
+    return std::min(average, first + ((step - first) / every + 1) * every);
 }
 
 void Sampler::sample_if_due() {
+    averages_.sample_if_due();
+    if (run_.scene.measurements) measure_if_due();
+}
+
+void Sampler::measure_if_due() {
     const std::int64_t step = run_.simulation.step();
     if (!has_begun_ && step >= run_.output.from_step) {
         run_.counts.first_step = step;
@@ -110,6 +129,11 @@ void Sampler::sample(std::int64_t step) {
 
 StoredSamples Sampler::stored() const {
     StoredSamples stored;
+    if (averages_.has_begun()) {
+        KeptNumbers kept;
+        averages_.keep(kept);
+        stored.averages = kept.take_words();
+    }
     if (!has_begun_) return stored;
     KeptNumbers kept;
     keep_settings(kept);
@@ -139,6 +163,8 @@ std::vector<MeasuredTable> Sampler::tables() const {
         }
     }
     for (MeasuredTable& table : rows_from(0)) all.push_back(std::move(table));
+    for (const MeasuredTable& table : all)
+        ensure(is_name_of_table(table.name), "a quantity does not declare the name of a table");
     return all;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples the quantities of `[output.measurements]` at regular steps. A run without
-// them has none of this: no memory, and no work in any kernel. The quantities are in
-// quantities/, and docs/reference/measurements.md has the price of each.
+// The measurements of a run: its averages, which are always on, and the quantities of
+// `[output.measurements]`, which are sampled at regular steps. A run that asks for no quantity has
+// no memory and no work in any kernel for them. The quantities are in quantities/, and
+// docs/reference/measurements.md has the price of each.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +12,17 @@
 #include <carrom/measured_table.hpp>
 
 #include "core/stored_samples.hpp"
+#include "measure/block_averages.hpp"
 #include "measure/measurement.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
+#include "simulation/advance.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
 
-class Sampler {
+/// An action between steps that samples what is due.
+class Sampler : public StepAction {
 public:
     /// Samples from the present step on if the scene's `from_step` has come. All
     /// arguments must outlive this. **Collective.**
@@ -27,14 +31,25 @@ public:
     Sampler& operator=(const Sampler&) = delete;
 
     /// Goes on from a checkpoint's data; to be called before anything is sampled.
-    /// Sampling begins anew if there are none, or if `from_step` is still to come.
-    /// Throws InputError on every rank if the sums have other settings. **Collective.**
+    /// Sampling begins anew if there are none, or if `from_step` is still to come; averages also do
+    /// if they are to be over other steps. Throws InputError on every rank if the sums of a
+    /// quantity have other settings. **Collective.**
     void go_on(const StoredSamples& stored);
 
     /// The first step after `step` at which a sample is due.
-    std::int64_t next_due(std::int64_t step) const;
-    /// Takes a sample if one is due at the present step and has not been taken. **Collective.**
+    std::int64_t next_due(std::int64_t step) const override;
+    /// Takes the samples that are due at the present step and have not been taken. **Collective.**
     void sample_if_due();
+    bool act() override {
+        sample_if_due();
+        return true;
+    }
+
+    /// Averages since the run's start, or since `average_anew`. **Collective.**
+    Averages averages() const { return averages_.averages(); }
+    /// Forgets all averages so far, for example those before a gas has come to
+    /// equilibrium. **Collective.**
+    void average_anew() { averages_.begin(); }
 
     /// **Collective.**
     StoredSamples stored() const;
@@ -45,12 +60,15 @@ public:
     std::vector<MeasuredTable> rows_from(std::size_t first) const;
 
 private:
+    void go_on_measuring(const StoredSamples& stored);
+    void measure_if_due();
     void sample(std::int64_t step);
     void keep_settings(KeptNumbers& kept) const;
     void keep_counts(KeptNumbers& kept) const;
 
     mutable MeasuredRun run_;
-    Measurements measurements_;
+    mutable BlockAverages averages_; ///< `keep` takes and gives numbers
+    Measurements measurements_;      ///< the quantities
     std::vector<std::string> names_; ///< names of the quantities, in their order
     bool has_begun_ = false;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/printable.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/handle.hpp"
 
@@ -35,7 +36,7 @@ void agree(const Communicator& communicator, bool ok, const std::string& text, E
     Communicator::Handle& handle = communicator.handle();
     ++handle.traffic.collectives;
     if (handle.is_alone()) {
-        if (!ok) throw CollectiveError(text, code);
+        if (!ok) throw CollectiveError(printable(text, true), code);
         return;
     }
     const int mine = ok ? handle.size : handle.rank;
@@ -50,7 +51,7 @@ void agree(const Communicator& communicator, bool ok, const std::string& text, E
     std::string agreed_text = text;
     communicator.broadcast(agreed_text, failing);
     communicator.broadcast(agreed_code, failing);
-    throw CollectiveError(agreed_text, static_cast<ExitCode>(agreed_code));
+    throw CollectiveError(printable(agreed_text, true), static_cast<ExitCode>(agreed_code));
 }
 
 void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,

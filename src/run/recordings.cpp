@@ -111,12 +111,10 @@ bool Recordings::act() {
     return true;
 }
 
-void Recordings::add_rows() {
-    if (run_.sampler()) growing_.add_rows_of(*run_.sampler());
-}
+void Recordings::add_rows() { growing_.add_rows_of(run_.sampler()); }
 
 void Recordings::commit_now_and_then() {
-    if (!trajectory_ && !log_ && !run_.sampler()) return;
+    if (!trajectory_ && !log_ && !scene_.measurements) return;
     seconds_uncommitted_ += since_look_.lap();
     const double wait = std::max(seconds_between_commits, commit_seconds_ / largest_share);
     if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > wait)) return;
@@ -138,7 +136,7 @@ void Recordings::record_collisions(std::int64_t step) {
 void Recordings::commit() {
     if (trajectory_) trajectory_->commit();
     if (log_) log_->commit();
-    if (run_.sampler()) write_tables(scene_, run_.sampler()->tables(), ranks_);
+    if (scene_.measurements) write_tables(scene_, run_.sampler().tables(), ranks_);
 }
 
 void Recordings::finish() {

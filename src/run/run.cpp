@@ -33,8 +33,8 @@ Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& t
          const Messages& messages)
     : ranks_(ranks), scene_(decided(std::move(scene), start, ranks_, tuning, messages)),
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
-      simulation_(simulation_from(scene_, start, ranks_, tuning)) {
-    simulation_.go_on_averaging(start.samples.averages);
+      simulation_(simulation_from(scene_, start, ranks_, tuning)),
+      sampler_(scene_, simulation_, ranks_) {
     refuse_hard_cases(scene_, simulation_, ranks_, messages);
     if (scene_.trajectory && scene_.trajectory->has_image) {
         images_.emplace(scene_.box, simulation_, ranks_);
@@ -42,16 +42,8 @@ Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& t
         if (has_earlier_images_)
             images_->go_on(start.samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
     }
-    if (!scene_.measurements) return;
-    sampler_.emplace(scene_, simulation_, ranks_);
-    if (is_restart_) sampler_->go_on(start.samples);
-    sampler_->sample_if_due();
-    add(sampling_);
-}
-
-bool Run::Sampling::act() {
-    run_.sampler_->sample_if_due();
-    return true;
+    if (is_restart_) sampler_.go_on(start.samples);
+    sampler_.sample_if_due();
 }
 
 bool Run::advance_to(std::int64_t last_step) {
@@ -67,10 +59,9 @@ void Run::commit() {
 }
 
 StoredSamples Run::stored_samples() {
-    StoredSamples samples = sampler_ ? sampler_->stored() : StoredSamples{};
+    StoredSamples samples = sampler_.stored();
     samples.have_images = images_.has_value();
     if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
-    samples.averages = simulation_.stored_averages();
     return samples;
 }
 

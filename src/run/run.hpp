@@ -41,8 +41,9 @@ public:
     const Simulation& simulation() const { return simulation_; }
     std::int64_t step() const { return simulation_.step(); }
 
-    /// The measurements that the scene asks for; null if it asks for none.
-    const Sampler* sampler() const { return sampler_ ? &*sampler_ : nullptr; }
+    /// The averages, and the measurements that the scene asks for.
+    Sampler& sampler() { return sampler_; }
+    const Sampler& sampler() const { return sampler_; }
     /// Counts for a trajectory that shows images; null if there is none. They go on
     /// from a checkpoint that has some.
     ImageCounts* images() { return images_ ? &*images_ : nullptr; }
@@ -65,28 +66,15 @@ public:
     void write_checkpoint(const std::string& path, Transfers transfers = Transfers::independent);
 
 private:
-    /// Samples before all other actions, so that they see the sample of the present step.
-    class Sampling : public StepAction {
-    public:
-        explicit Sampling(Run& run) : run_(run) {}
-        std::int64_t next_due(std::int64_t step) const override {
-            return run_.sampler_->next_due(step);
-        }
-        bool act() override;
-
-    private:
-        Run& run_;
-    };
-
     const Communicator ranks_;
     Scene scene_;
     bool is_restart_, has_earlier_images_ = false;
     int n_threads_;
     Simulation simulation_;
     std::optional<ImageCounts> images_;
-    std::optional<Sampler> sampler_;
-    Sampling sampling_{*this};
-    std::vector<StepAction*> actions_;
+    Sampler sampler_;
+    /// The sampler is the first, so that all others see the sample of the present step.
+    std::vector<StepAction*> actions_{&sampler_};
     StretchSeconds seconds_;
 };
 

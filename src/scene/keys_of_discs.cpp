@@ -215,7 +215,7 @@ std::vector<Key> keys_of_time() {
             .within({.low = 0, .excludes_low = true})
             .excludes({"time.method", "time.micro_steps", "time.precision", "time.arithmetic",
                        "time.contraction"}),
-        key("time.precision", "", "What states are rounded to and computed in.",
+        key("time.precision", "", "The precision in which states are computed and stored.",
             [](auto& s) -> auto& { return s.precision; }),
         key("time.arithmetic", "",
             "Naive: contacts by the course program's formula, which loses digits.",
@@ -289,7 +289,7 @@ std::vector<Key> keys_of_discs() {
     std::vector<Key> all = {
         key("box.size", "length",
             "L, the side of a square box, or [Lx, Ly], the edges of a rectangle; "
-            "walls are at 0 and there.",
+            "walls stand at x = 0 and Lx, y = 0 and Ly.",
             [](auto& s) -> auto& { return s.box; })
             .within(lengths)
             .required(),
@@ -316,8 +316,7 @@ std::vector<Key> keys_of_discs() {
             .by_default("none")
             .needs(listed)
             .excludes({"discs.list"}),
-        key("discs.columns", "",
-            "What lines of the file have besides, in that order. Mass needs radius.",
+        key("discs.columns", "", "Further columns of the file, in their order. Mass needs radius.",
             [](auto& s) -> auto& { return s.disc_columns; })
             .needs(listed)
             .excludes({"discs.list"}),

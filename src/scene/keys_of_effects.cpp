@@ -24,6 +24,9 @@ std::vector<Key> keys_of_contact() {
             "they turn and rub, too.",
             [](auto& s) -> auto& { return s.effects.contact.kind; })
             .advises({{"inelastic", "\"restitution\""},
+                      {"granular", "\"restitution\" or \"rough\""},
+                      {"hertz", "\"restitution\"; discs are hard, and contacts take no time"},
+                      {"soft", "\"restitution\"; discs are hard, and contacts take no time"},
                       {"smooth", "\"elastic\" or \"restitution\""},
                       {"frictional", "\"rough\""},
                       {"ideal", "\"none\""}}),
@@ -34,7 +37,8 @@ std::vector<Key> keys_of_contact() {
             .needs(lossy_pairs)
             .required(),
         key("effects.contact.tangential_restitution", "1",
-            "Of surfaces that stick, from -1 (smooth) to 1 (perfectly rough).",
+            "Share of the sliding velocity that is reversed where surfaces stick, from -1 (smooth) "
+            "to 1.",
             [](auto& s) -> auto& { return s.effects.contact.tangential_restitution; })
             .within({-1, 1})
             .needs(rough)
@@ -44,7 +48,8 @@ std::vector<Key> keys_of_contact() {
             .by_default("no limit")
             .within({0, 1e6})
             .needs(rough),
-        key("effects.contact.moment_of_inertia", "m r^2", "Of a disc; 0.5 is a uniform one's.",
+        key("effects.contact.moment_of_inertia", "m r^2",
+            "Moment of inertia of a disc; a uniform one has 0.5.",
             [](auto& s) -> auto& { return s.effects.contact.inertia; })
             .within({1e-6, 1})
             .needs(rough),

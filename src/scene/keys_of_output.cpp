@@ -84,21 +84,23 @@ std::vector<Key> keys_of_recordings() {
             .within(every),
         flags_key(
             "output.trajectory.fields", "",
-            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's, "
-            "image the box lengths that it has flown.",
+            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's "
+            "(of the radical tessellation where radii differ), image the box lengths that it has "
+            "flown.",
             [](auto& s) -> auto& { return *s.trajectory; }, fields)
             .by_default("position, velocity; image in periodic boxes; angular_velocity of rough "
                         "discs")
             .within(at_least_one),
         choice(
-            "output.trajectory.precision", "Of the numbers in the file.", {"single", "double"},
+            "output.trajectory.precision", "Precision of the numbers in the file.",
+            {"single", "double"},
             [](const Scene& s) {
                 return std::string(s.trajectory->is_single ? "single" : "double");
             },
             [](Scene& s, const std::string& word) { s.trajectory->is_single = word == "single"; }),
         collision_log(),
         choice(
-            "output.units.length", "What HDF5 files say of lengths; no number depends on it.",
+            "output.units.length", "Unit of lengths that HDF5 files name; no number depends on it.",
             {"m", "cm", "mm", "um", "nm", "pm"}, [](const Scene& s) { return s.length_unit; },
             [](Scene& s, const std::string& word) { s.length_unit = word; })
             .by_default("none"),

@@ -42,7 +42,7 @@ Key size_key(std::string_view name, std::string_view unit, std::string_view help
 std::vector<Key> keys_of_sizes() {
     using Sizes = SizeDistribution;
     return {
-        size_key("distribution", "", "What the radii follow.", &Sizes::kind),
+        size_key("distribution", "", "The distribution of the radii.", &Sizes::kind),
         size_key("mean", "length", "The mean radius; or give 'discs.packing'.", &Sizes::mean)
             .by_default("from 'discs.packing'")
             .within({smallest_length, largest_size})
@@ -54,7 +54,7 @@ std::vector<Key> keys_of_sizes() {
             .by_default("where the distribution ends: three standard deviations from its middle")
             .within(shares),
         size_key("largest", "1", "No radius is larger, in units of the mean.", &Sizes::largest)
-            .by_default("likewise")
+            .by_default("where the distribution ends")
             .within(shares),
         size_key("mass", "",
                  "Area: as the area, 1 for a disc of the mean radius. Equal: 1 for all.",

@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-/// In a function, so that declarations can come before the statics of this file exist.
+/// In a function, so that declarations can come before the static data of this file exist.
 std::vector<Quantity>& list() {
     static std::vector<Quantity> declared;
     return declared;

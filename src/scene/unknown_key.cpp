@@ -82,6 +82,9 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     if (key == "box.periodic")
         return "no such key 'box.periodic'; try: box.left.kind = \"periodic\" and "
                "box.right.kind = \"periodic\", and the same of bottom and top";
+    if (key == "discs.polydispersity")
+        return "no such key 'discs.polydispersity'; try: discs.radius.distribution = "
+               "\"lognormal\" and discs.radius.polydispersity";
     if (find_table(key)) return in_quotes(key) + " is a table, not a value";
     const std::string_view table = table_of(key);
     const bool is_known = !table.empty() && find_table(table);

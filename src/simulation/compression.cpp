@@ -72,7 +72,6 @@ private:
                 scene.effects.boundaries[side].kind = BoundaryKind::periodic;
         scene.effects.growth = growth_;
         scene.steps = scene.sync_every = 1;
-        scene.averages_from = 2; // never
         return scene;
     }
 

@@ -2,7 +2,6 @@
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -12,8 +11,8 @@
 #include "engine/state_sums.hpp"
 #include "event_driven/event_driven_engine.hpp"
 #include "scene/effects/effect.hpp"
-#include "statistics/block_averages.hpp"
 #include "statistics/hexatic_order.hpp"
+#include "statistics/motion.hpp"
 #include "statistics/pair_distances.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
 
@@ -125,9 +124,9 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
       effects_(scene.effects), columns_(side_columns_of(scene)), box_(scene.box),
       n_threads_(tuning.threads), heaviest_(heaviest_of(scene)),
-      averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
-      averages_(std::make_unique<BlockAverages>(system_to_average(scene, engine_->n_discs()))) {
+      averaged_system_(
+          std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
     // Terms are some 2^45 units, and sums come to 2^80 of them. The largest are those of whole
     // flights. Rare longer ones take another path.
     const double speed = usual_speed(scene, engine_->own(), communicator),
@@ -138,17 +137,11 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
 Simulation::~Simulation() = default;
 
 void Simulation::advance_towards(std::int64_t last_step) {
-    if (!averages_->has_begun() && step() >= averages_from_) average_anew();
-    const std::int64_t next = averages_->has_begun() ? averages_->next_sample() : averages_from_;
     if (check_ && step() < last_step)
         advance_checked();
     else // at most to the first step after a sync
-        engine_->advance_towards(std::min(last_step, next));
+        engine_->advance_towards(last_step);
     hand_over_pairs();
-    if (!averages_->has_begun() && step() >= averages_from_)
-        average_anew();
-    else if (averages_->has_begun() && averages_->is_due(step()))
-        averages_->add(step(), integrated_sample());
 }
 
 void Simulation::begin_stress_sums(double bound) {
@@ -159,8 +152,6 @@ void Simulation::begin_stress_sums(double bound) {
 }
 
 const StressSums& Simulation::stress_sums() const { return *stress_; }
-
-const AveragedSystem& Simulation::averaged_system() const { return averages_->system(); }
 
 MotionSample Simulation::motion_sample() const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
@@ -173,13 +164,12 @@ MotionSample Simulation::motion_sample() const {
 }
 
 void Simulation::integrate(const StressSums& mine, MotionSample& sample) const {
-    add_integrals(mine, engine_->flight_integral(), frame(), communicator_, sample);
+    add_integrals(mine, communicator_, sample);
+    integrate_flights(sample);
 }
 
-MotionSample Simulation::integrated_sample() const {
-    MotionSample now = motion_sample();
-    integrate(*stress_, now);
-    return now;
+void Simulation::integrate_flights(MotionSample& sample) const {
+    add_flights(engine_->flight_integral(), frame(), sample);
 }
 
 void Simulation::check_every_step(const Scene& scene) {
@@ -200,44 +190,6 @@ void Simulation::advance_checked() {
                     work, engine_->energy_given());
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
-}
-
-void Simulation::average_anew() { averages_->begin(step(), integrated_sample()); }
-
-std::vector<std::int64_t> Simulation::stored_averages() const {
-    if (!averages_->has_begun()) return {};
-    StressSums all = *stress_;
-    std::vector<std::int64_t> words = {averages_from_, std::bit_cast<std::int64_t>(stress_bound_)};
-    for (ExactSum* sum : all.parts()) {
-        communicator_.sum(*sum);
-        words.push_back(static_cast<std::int64_t>(sum->low_word()));
-        words.push_back(static_cast<std::int64_t>(sum->high_word()));
-    }
-    const std::vector<std::int64_t> blocks = averages_->words();
-    words.insert(words.end(), blocks.begin(), blocks.end());
-    return words;
-}
-
-void Simulation::go_on_averaging(std::span<const std::int64_t> words) {
-    constexpr std::size_t n_sums = 10;
-    if (words.size() < n_sums || words[0] != averages_from_) return;
-    const auto bound = std::bit_cast<double>(words[1]);
-    if (!(bound > 0) || !std::isfinite(bound) || !averages_->set_words(words.subspan(n_sums)))
-        return;
-    stress_.reset();
-    begin_stress_sums(bound);
-    if (!communicator_.is_root()) return; // the sums of all ranks are added later
-    std::size_t next = 2;
-    for (ExactSum* sum : stress_->parts()) {
-        sum->add_words(static_cast<std::uint64_t>(words[next]),
-                       static_cast<std::uint64_t>(words[next + 1]));
-        next += 2;
-    }
-}
-
-Averages Simulation::averages() const {
-    if (!averages_->has_begun()) return {};
-    return averages_->averages(step(), integrated_sample());
 }
 
 std::int64_t Simulation::step() const {
@@ -330,11 +282,17 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
 LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
+    CellSizes sizes;
+    if (!effects_.species.empty()) sizes.species = engine_->species_table();
+    for (const Species& one : effects_.species)
+        sizes.largest_radius = std::max(sizes.largest_radius, one.radius);
+    sizes.growth = effects_.growth_at(static_cast<double>(step()));
     // Voronoi cells of a fluid are whole within three times the mean distance of neighbours.
     for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs()));;
          reach *= 2) {
         const LocalView now = engine_->local_view(reach_beyond + reach);
-        if (communicator_.all(find_bond_orders(now, box, reach, n_threads_, orders))) return now;
+        if (communicator_.all(find_bond_orders(now, box, sizes, reach, n_threads_, orders)))
+            return now;
         engine_->forget_images();
     }
 }

@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <carrom/averages.hpp>
-
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "engine/collision.hpp"
@@ -25,7 +23,6 @@
 namespace carrom {
 
 struct AveragedSystem;
-class BlockAverages;
 class Engine;
 class StateCheck;
 class PairFollower;
@@ -100,7 +97,9 @@ public:
     MotionSample motion_sample() const;
     /// Adds these, where `mine` are this rank's sums of the time that counts. **Collective.**
     void integrate(const StressSums& mine, MotionSample& sample) const;
-    const AveragedSystem& averaged_system() const;
+    /// Adds those over flights since the last sync alone, which are no part of the sums yet.
+    void integrate_flights(MotionSample& sample) const;
+    const AveragedSystem& averaged_system() const { return *averaged_system_; }
     /// Begins the sums anew in another unit, as a checkpoint's measurements need it; before any
     /// step.
     void begin_stress_sums(double bound);
@@ -125,19 +124,6 @@ public:
     /// must outlive the run, and be of the default precision and arithmetic. **Collective.**
     void check_every_step(const Scene& scene);
 
-    /// Averages since the run's start, or since `average_anew`. **Collective.**
-    Averages averages() const;
-    /// The numbers behind `averages` and the sums of stress, for a
-    /// checkpoint. They are empty before both have begun.
-    /// **Collective.**
-    std::vector<std::int64_t> stored_averages() const;
-    /// Goes on with the stored averages of a checkpoint of the present step, before any
-    /// step. Averages begin anew if there are none, or if they are to be over other steps.
-    void go_on_averaging(std::span<const std::int64_t> words);
-    /// Forgets all averages so far, for example those before a gas has come to
-    /// equilibrium. **Collective.**
-    void average_anew();
-
     /// **Collective.**
     Totals totals() const;
     /// Number, energies and momentum alone, which takes two passes over the discs. **Collective.**
@@ -149,7 +135,6 @@ private:
     void advance_checked();
     void hand_over_pairs();
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
-    MotionSample integrated_sample() const;
     /// Like `shown()`, but only the velocities are right.
     std::span<const Disc> in_motion() const;
     /// Like in_motion, without the mean flow between sheared sides, which is no temperature.
@@ -163,9 +148,8 @@ private:
     int n_threads_;
     double heaviest_ = 1; ///< the largest mass of a disc
     double stress_bound_ = 1;
-    std::int64_t averages_from_;
     std::unique_ptr<Engine> engine_;
-    std::unique_ptr<BlockAverages> averages_;
+    std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
     std::vector<PairFollower*> followers_;

@@ -22,6 +22,7 @@ constexpr double shortest_side = 1e-9;
 struct Seen {
     double dx = 0, dy = 0, squared = 0;
     DiscId id = 0;
+    double larger = 0; ///< the square of the first disc's radius less that of this one
 
     friend bool operator<(const Seen& a, const Seen& b) {
         return std::tie(a.squared, a.id, a.dx, a.dy) < std::tie(b.squared, b.id, b.dx, b.dy);
@@ -31,8 +32,8 @@ struct Seen {
 /// Finds cells one by one. Each thread has one finder.
 class CellFinder {
 public:
-    CellFinder(const LocalView& local_view, const Extent& box, double reach)
-        : view_(local_view), box_(box), reach_(reach) {
+    CellFinder(const LocalView& local_view, const Extent& box, const CellSizes& sizes, double reach)
+        : view_(local_view), box_(box), sizes_(sizes), reach_(reach) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         if (view_.periods.x != 0) box_.x_low = -infinity, box_.x_high = infinity;
         if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
@@ -47,13 +48,14 @@ public:
         look_around(index);
         cell_.begin(std::max(-reach_, box_.x_low - x), std::min(reach_, box_.x_high - x),
                     std::max(-reach_, box_.y_low - y), std::min(reach_, box_.y_high - y));
-        double radius = cell_.squared_radius();
-        for (std::size_t k = 0; k < seen_.size() && seen_[k].squared < 4 * radius; ++k) {
-            cell_.cut(seen_[k].dx, seen_[k].dy, static_cast<int>(k));
-            radius = cell_.squared_radius();
+        const double smaller = sizes_.largest_squared_radius() - sizes_.squared_radius_of(disc.id);
+        double squared_reach = squared_reach_of_cell(smaller);
+        for (std::size_t k = 0; k < seen_.size() && seen_[k].squared < squared_reach; ++k) {
+            cell_.cut(seen_[k].dx, seen_[k].dy, static_cast<int>(k), seen_[k].larger);
+            squared_reach = squared_reach_of_cell(smaller);
         }
         order = order_of_cell();
-        return 4 * radius <= reach_ * reach_;
+        return squared_reach <= reach_ * reach_;
     }
 
 private:
@@ -62,6 +64,16 @@ private:
     bool is_in_box(const Disc& disc) const {
         const double x = x_in_box(disc), y = y_in_box(disc);
         return x >= box_.x_low && x <= box_.x_high && y >= box_.y_low && y <= box_.y_high;
+    }
+
+    /// Discs that are further away than its root do not cut the cell, even if they are the largest
+    /// ones: the squares of radii differ by `smaller`. With a corner at the distance c, one at the
+    /// distance d cuts nothing if (d - c)^2 - c^2 is above that.
+    double squared_reach_of_cell(double smaller) const {
+        const double squared = cell_.squared_radius();
+        if (smaller == 0) return 4 * squared;
+        const double reach = std::sqrt(squared) + std::sqrt(squared + smaller);
+        return reach * reach;
     }
 
     void look_around(LocalIndex index) {
@@ -89,7 +101,8 @@ private:
     void see(const Disc& disc, const Disc& other) {
         const Shift shift = view_.periods.between(disc, other, view_.time);
         Seen seen{(other.x_at(view_.time) - disc.x_at(view_.time)) + shift.x,
-                  (other.y_at(view_.time) - disc.y_at(view_.time)) + shift.y, 0, other.id};
+                  (other.y_at(view_.time) - disc.y_at(view_.time)) + shift.y, 0, other.id,
+                  sizes_.squared_radius_of(disc.id) - sizes_.squared_radius_of(other.id)};
         seen.squared = seen.dx * seen.dx + seen.dy * seen.dy;
         if (seen.squared < reach_ * reach_ && is_in_box(other)) seen_.push_back(seen);
     }
@@ -114,6 +127,7 @@ private:
 
     const LocalView& view_;
     Extent box_; ///< infinite along periodic axes
+    CellSizes sizes_;
     double reach_;
     std::vector<Seen> seen_;
     VoronoiCell cell_;
@@ -121,15 +135,15 @@ private:
 
 } // namespace
 
-bool find_bond_orders(const LocalView& local_view, const Extent& box, double reach, int n_threads,
-                      std::vector<BondOrder>& orders) {
+bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
+                      double reach, int n_threads, std::vector<BondOrder>& orders) {
     const auto n = static_cast<std::int64_t>(local_view.population.discs.size()),
                n_own = static_cast<std::int64_t>(local_view.population.n_own);
     orders.resize(static_cast<std::size_t>(n));
     bool are_whole = true;
 #pragma omp parallel num_threads(n_threads)
     {
-        CellFinder finder(local_view, box, reach);
+        CellFinder finder(local_view, box, sizes, reach);
 #pragma omp for schedule(dynamic, 256) reduction(&& : are_whole)
         for (std::int64_t i = 0; i < n; ++i) {
             const bool is_whole = finder.find(static_cast<LocalIndex>(i),

@@ -2,6 +2,11 @@
 // The hexatic order psi6 of discs over their Voronoi neighbours, from the neighbourhood
 // that a rank has. Each disc's cell is found by itself, from its neighbours in the
 // order of distance and id, so its bits do not depend on ranks and threads.
+//
+// Discs of different radii have cells of the radical tessellation (B. J. Gellatly and J. L. Finney,
+// J. Non-Cryst. Solids 50, 313 (1982)): the side between two discs is the line from which tangents
+// to both are equally long. So a cell holds its disc, and two discs that touch are neighbours.
+// Bisectors of centres would cut large discs. Between equal discs both are the same line.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +16,31 @@
 #include "core/bond_order.hpp"
 #include "core/exact_sum.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/species.hpp"
 #include "engine/engine.hpp"
 
 namespace carrom {
 
+/// The radii of discs of several species, by which cells differ from those of points.
+struct CellSizes {
+    const SpeciesTable* species = nullptr; ///< none if all discs are of one size
+    double largest_radius = 0;             ///< at the start, as those of the table
+    double growth = 1;                     ///< by which radii have grown
+
+    double squared_radius_of(DiscId id) const {
+        return species ? squared(species->of(id).radius) : 0;
+    }
+    double largest_squared_radius() const { return species ? squared(largest_radius) : 0; }
+
+private:
+    double squared(double radius) const { return (growth * radius) * (growth * radius); }
+};
+
 /// Fills in `orders` along the view's discs. Walls of `box` cut cells and are no
 /// neighbours. The view must extend by `reach` around each disc whose order is wanted.
 /// Returns whether that was enough for all own discs; otherwise their orders mean nothing.
-bool find_bond_orders(const LocalView& local_view, const Extent& box, double reach, int n_threads,
-                      std::vector<BondOrder>& orders);
+bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
+                      double reach, int n_threads, std::vector<BondOrder>& orders);
 
 /// Sums over discs at one time. They are exact, so ranks may add them in any order.
 struct HexaticSums {

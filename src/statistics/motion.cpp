@@ -103,12 +103,14 @@ Tensor shifted(const Tensor& squares, double px, double py, double mass, double 
 
 } // namespace
 
-void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
-                   const Communicator& communicator, MotionSample& sample) {
+void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample) {
     StressSums all = mine;
     for (ExactSum* sum : all.parts()) communicator.sum(*sum);
-    sample.stress = {all.xx.value(), all.xy.value(), all.yy.value()};
-    sample.energy = all.energy.value();
+    sample.stress += Tensor{all.xx.value(), all.xy.value(), all.yy.value()};
+    sample.energy += all.energy.value();
+}
+
+void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample) {
     if (flights.weight == 0) return; // a sync has just been
     // A stored velocity is (v - frame's) / slowing.
     const double unit = sample.speed_unit, slowing = frame.slowing;

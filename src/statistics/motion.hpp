@@ -52,10 +52,10 @@ MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* specie
                            double heaviest, std::uint64_t n_discs, int n_threads,
                            const Communicator& communicator);
 
-/// Adds the integrals up to now to `sample`: the sums of all ranks, and those over
-/// flights in `frame` since the last sync. **Collective.**
-void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
-                   const Communicator& communicator, MotionSample& sample);
+/// Adds the integrals that `mine` of all ranks have to `sample`. **Collective.**
+void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample);
+/// Adds the integrals over flights in `frame` since the last sync.
+void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample);
 
 /// Constants of the scene that averages need.
 struct AveragedSystem {
@@ -63,22 +63,22 @@ struct AveragedSystem {
     double n_discs = 0, radius = 0;
     double velocity_unit = 1; ///< turns stored velocities into velocities per step
     std::int64_t micro_steps = 1, sync_every = 1;
-    bool is_plain = true;    ///< elastic discs between elastic walls; else pressures
-                             ///< from counts are NaN
-    bool keeps_discs = true; ///< else collisions per disc are NaN
-    bool is_periodic_x = false, is_periodic_y = false; ///< a drift along it is no temperature
+    bool is_plain = true;    ///< discs and walls are elastic; if not, pressures from counts are NaN
+    bool keeps_discs = true; ///< no disc leaves; if one may, collisions per disc are NaN
+    bool is_periodic_x = false, is_periodic_y = false; ///< a drift along such an axis does not
+                                                       ///< count as temperature
     bool has_flow = false;      ///< the kinetic part is relative to a flow, and taken from samples
-    bool keeps_energy = true;   ///< energy of motion; if false samples are close to each other
-    std::int64_t last_step = 0; ///< the step that the run is to come to
+    bool keeps_energy = true;   ///< energy of motion; if it changes, samples are closer in time
+    std::int64_t last_step = 0; ///< the step at which the run is planned to end
 };
 
 /// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
-    Tensor kinetic; ///< the sum of m v v, without a drift along periodic sides. Its mean is N kT
-                    ///< along each axis: a momentum that is conserved takes one of N degrees of
-                    ///< freedom away
-    Tensor stress;  ///< times area
+    /// The sum of m v v, without a drift along periodic sides. Its mean is N kT along each axis: it
+    /// is corrected for the degree of freedom, one of N, that a conserved momentum takes away.
+    Tensor kinetic;
+    Tensor stress; ///< times area
 
     MotionIntegrals& operator+=(const MotionIntegrals& other);
     double pressure(double Tensor::* part) const { return stress.*part / area; }

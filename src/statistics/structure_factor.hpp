@@ -29,11 +29,16 @@ struct DensityModes {
     std::vector<std::uint64_t> real, imaginary; ///< to be added over ranks, modulo 2^64
     double per_unit = 1;
 
-    double squared_modulus(std::size_t vector) const {
-        const double a = static_cast<double>(static_cast<std::int64_t>(real[vector])) * per_unit,
-                     b = static_cast<double>(static_cast<std::int64_t>(imaginary[vector])) *
-                         per_unit;
-        return a * a + b * b;
+    double squared_modulus(std::size_t vector) const { return product(*this, vector); }
+    /// The real part of a mode times the complex conjugate of another one of that vector.
+    double product(const DensityModes& other, std::size_t vector) const {
+        return part(real, vector) * other.part(other.real, vector) +
+               part(imaginary, vector) * other.part(other.imaginary, vector);
+    }
+
+private:
+    double part(const std::vector<std::uint64_t>& parts, std::size_t vector) const {
+        return static_cast<double>(static_cast<std::int64_t>(parts[vector])) * per_unit;
     }
 };
 

@@ -10,8 +10,8 @@ void VoronoiCell::begin(double left, double right, double bottom, double top) {
     corners_ = {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
 }
 
-void VoronoiCell::cut(double dx, double dy, int point) {
-    const double half = (dx * dx + dy * dy) / 2;
+void VoronoiCell::cut(double dx, double dy, int point, double larger) {
+    const double half = ((dx * dx + dy * dy) + larger) / 2;
     const auto beyond = [=](const Corner& c) { return c.x * dx + c.y * dy - half; };
     std::swap(corners_, before_);
     corners_.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Voronoi cell of one point, the origin: a polygon that is cut by the bisectors to
-// other points. Plain arithmetic in a fixed order, so the same points in the same
-// order give the same bits.
+// other points, or by their radical axes where points have sizes. Plain arithmetic in a
+// fixed order, so the same points in the same order give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,9 @@ public:
     /// Begins with a rectangle around the origin, whose sides belong to no point.
     void begin(double left, double right, double bottom, double top);
     /// Cuts off all places closer to the point (dx, dy) than to the origin; `point` is its number.
-    void cut(double dx, double dy, int point);
+    /// `larger` is the square of the origin's radius less that of the point's: distances count as
+    /// the lengths of tangents to discs of these radii.
+    void cut(double dx, double dy, int point, double larger = 0);
     /// The squared distance of the farthest corner. Points at twice that distance cut nothing.
     double squared_radius() const;
 

@@ -305,22 +305,21 @@ std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, flo
                               n_pairs);
 }
 
-std::size_t FilterApart(const CellGrid& grid, std::uint32_t k, float half_reach,
-                        float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+std::size_t FilterAlong(const CellGrid& grid, const FlightLanes& lanes, std::uint32_t k, float from,
+                        float half_reach, float touching_squared, std::vector<DiscPair>& pairs,
+                        std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
-    const FlightLanes apart = grid.apart_lanes();
-    const CellsAround cells(grid, Path(apart, k, 0), half_reach);
-    return filter_cells<false>(d, grid, Broadcast(d, apart, k, touching_squared), k, cells,
+    const CellsAround cells(grid, Path(lanes, k, from), half_reach);
+    return filter_cells<false>(d, grid, Broadcast(d, lanes, k, touching_squared), k, cells,
                                grid.has_halo(), pairs, n_pairs);
 }
 
-std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touching_squared,
-                             std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+std::size_t FilterLanes(const FlightLanes& lanes, std::uint32_t k, const FlightLanes& others,
+                        SlotRange run, float touching_squared, std::vector<DiscPair>& pairs,
+                        std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
-    const FlightLanes apart = grid.apart_lanes();
-    const SlotRange later{k + 1, static_cast<std::uint32_t>(grid.apart().size())};
-    return write_pairs<false>(d, Broadcast(d, apart, k, touching_squared), k, apart, later,
-                              room(pairs, n_pairs, later.end - later.begin), n_pairs);
+    return write_pairs<false>(d, Broadcast(d, lanes, k, touching_squared), k, others, run,
+                              room(pairs, n_pairs, run.end - run.begin), n_pairs);
 }
 
 const char* FilterTarget() { return hwy::TargetName(HWY_TARGET); }
@@ -333,8 +332,8 @@ namespace carrom {
 
 HWY_EXPORT(FilterColumn);
 HWY_EXPORT(FilterAround);
-HWY_EXPORT(FilterApart);
-HWY_EXPORT(FilterApartPairs);
+HWY_EXPORT(FilterAlong);
+HWY_EXPORT(FilterLanes);
 HWY_EXPORT(FilterTarget);
 
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
@@ -349,15 +348,18 @@ std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, fl
                                               pairs, n_pairs);
 }
 
-std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach,
-                         float touching_squared, std::vector<DiscPair>& pairs,
-                         std::size_t n_pairs) {
-    return HWY_DYNAMIC_DISPATCH(FilterApart)(grid, k, half_reach, touching_squared, pairs, n_pairs);
+std::size_t filter_along(const CellGrid& grid, const FlightLanes& lanes, std::uint32_t k,
+                         float from, float half_reach, float touching_squared,
+                         std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterAlong)(grid, lanes, k, from, half_reach, touching_squared,
+                                             pairs, n_pairs);
 }
 
-std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared,
-                               std::vector<DiscPair>& pairs, std::size_t n_pairs) {
-    return HWY_DYNAMIC_DISPATCH(FilterApartPairs)(grid, k, touching_squared, pairs, n_pairs);
+std::size_t filter_lanes(const FlightLanes& lanes, std::uint32_t k, const FlightLanes& others,
+                         SlotRange run, float touching_squared, std::vector<DiscPair>& pairs,
+                         std::size_t n_pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterLanes)(lanes, k, others, run, touching_squared, pairs,
+                                             n_pairs);
 }
 
 const char* filter_target() { return HWY_DYNAMIC_DISPATCH(FilterTarget)(); }

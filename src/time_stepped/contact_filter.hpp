@@ -27,12 +27,15 @@ std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, fl
                           float touching_squared, std::vector<DiscPair>& pairs,
                           std::size_t n_pairs);
 
-/// filter_around for disc k of those that the grid has set apart, over the whole window; `first`
-/// is k. In filter_apart_pairs `second` is another place among the discs set apart, after k.
-std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach,
-                         float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs);
-std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared,
-                               std::vector<DiscPair>& pairs, std::size_t n_pairs);
+/// filter_around for flight k of `lanes`, whose disc may be of the halo; `first` is k.
+std::size_t filter_along(const CellGrid& grid, const FlightLanes& lanes, std::uint32_t k,
+                         float from, float half_reach, float touching_squared,
+                         std::vector<DiscPair>& pairs, std::size_t n_pairs);
+/// The same for the flights `run` of `others`, from the window's start to its end; `second` is a
+/// place in `others`.
+std::size_t filter_lanes(const FlightLanes& lanes, std::uint32_t k, const FlightLanes& others,
+                         SlotRange run, float touching_squared, std::vector<DiscPair>& pairs,
+                         std::size_t n_pairs);
 
 /// The instruction set in use, as in "AVX3".
 const char* filter_target();

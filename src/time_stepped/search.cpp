@@ -76,18 +76,20 @@ std::vector<Candidate> SearchLists::take(std::size_t bucket, std::span<const Win
 /// The bounds of the rejection in single precision: of pairs by distance, and of walls by
 /// the position at the window's end, in cells along the grid's axis (x) and across it.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
-    float touching_squared;
+    float touching_squared, touching_large_squared; ///< large: of a large disc and any other
     float x_low, x_high, y_low, y_high;
 
-    Bounds(const Dynamics& dynamics, const CellGrid& grid)
-        : touching_squared(grid.touching_squared(dynamics.search_diameter())) {
+    Bounds(const Dynamics& dynamics, const CellGrid& grid, double usual_radius)
+        : touching_squared(grid.touching_squared(dynamics.search_diameter() -
+                                                 2 * (dynamics.radius() - usual_radius))),
+          touching_large_squared(grid.touching_squared(dynamics.search_diameter())) {
         const GridGeometry& geometry = grid.geometry();
-        const double margin = dynamics.radius() * 1e-6 / geometry.cell_width +
+        const double margin = usual_radius * 1e-6 / geometry.cell_width +
                               0x1p-18 * (std::max(geometry.n_columns, geometry.n_rows) + 8);
         const auto cells = [&](double length, double origin) {
             return (length - origin) / geometry.cell_width;
         };
-        const double radius = dynamics.radius();
+        const double radius = usual_radius;
         const auto [length, height] = turned(geometry.axis, dynamics.box().x, dynamics.box().y);
         x_low = static_cast<float>(cells(radius, geometry.low) + margin);
         x_high = static_cast<float>(cells(length - radius, geometry.low) - margin);
@@ -102,16 +104,31 @@ template <class Dynamics> struct Search<Dynamics>::Bounds {
 };
 
 template <class Dynamics>
-Search<Dynamics>::Search(const Dynamics& dynamics, int n_threads)
-    : dynamics_(dynamics), n_threads_(n_threads), lists_(static_cast<std::size_t>(n_threads)) {}
+Search<Dynamics>::Search(const Dynamics& dynamics, int n_threads, double usual_radius)
+    : dynamics_(dynamics), n_threads_(n_threads), usual_radius_(usual_radius),
+      lists_(static_cast<std::size_t>(n_threads)) {}
+
+template <class Dynamics>
+void Search<Dynamics>::list_large([[maybe_unused]] const Population& population,
+                                  [[maybe_unused]] const CellGrid& grid) {
+    if constexpr (Dynamics::has_species) {
+        if (!(usual_radius_ < dynamics_.radius())) return;
+        std::vector<LocalIndex> indices;
+        for (std::size_t k = 0; k < population.discs.size(); ++k)
+            if (dynamics_.species_table().of(population.discs[k].id).radius > usual_radius_)
+                indices.push_back(static_cast<LocalIndex>(k));
+        large_.assign(std::move(indices), grid);
+    }
+}
 
 template <class Dynamics>
 void Search<Dynamics>::predict_all(const Population& population, const CellGrid& grid,
                                    const Window& window, double reach) {
-    const Bounds bounds(dynamics_, grid);
+    const Bounds bounds(dynamics_, grid, usual_radius_);
     const int n_columns = grid.geometry().n_columns;
     SharedWork columns(grid.column_shares(n_threads_), std::max(1, n_columns / (16 * n_threads_)));
     const auto n_apart = dynamics_.has_pairs() ? static_cast<std::int64_t>(grid.apart().size()) : 0;
+    const std::int64_t n_large = large_.size();
 #pragma omp parallel num_threads(n_threads_)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -121,9 +138,13 @@ void Search<Dynamics>::predict_all(const Population& population, const CellGrid&
             predict_column(population, grid, window, bounds, static_cast<int>(column), lists);
         });
 #pragma omp for schedule(dynamic, 8)
-        for (std::int64_t k = 0; k < n_apart; ++k) {
-            predict_apart(population, grid, window, bounds, reach, static_cast<std::uint32_t>(k),
-                          lists);
+        for (std::int64_t k = 0; k < n_apart + n_large; ++k) {
+            if (k < n_apart)
+                predict_apart(population, grid, window, bounds, reach,
+                              static_cast<std::uint32_t>(k), lists);
+            else
+                predict_large(population, grid, window, bounds, reach,
+                              static_cast<std::uint32_t>(k - n_apart), lists);
         }
     }
 }
@@ -143,35 +164,71 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
             prefetch(population.discs, pair.second);
         },
         [&](const DiscPair& pair) {
+            if (is_large(population.discs[pair.first]) || is_large(population.discs[pair.second]))
+                return;
             predict_pair(population, window, window.first_micro, pair.first, pair.second, lists);
         });
     const SlotRange own = grid.run(column, 0, grid.geometry().n_rows - 1);
     for (LocalIndex index = own.begin; index < own.end; ++index) {
-        if (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles())
+        const bool meets = bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles();
+        if (meets && !is_large(population.discs[index]))
             predict_wall(population, window, window.first_micro, index, lists);
     }
 }
 
-/// How far from a disc's path the cell of a disc that it touches can be. The two are a diameter
-/// apart then, and the other disc is at most half a reach less a radius from its cell.
+/// How far from a disc's path the cell of a disc of the usual radius that it touches can be. The
+/// two are the sum of their radii apart then, and the other disc is at most half a reach less its
+/// radius from its cell.
 template <class Dynamics>
-float Search<Dynamics>::half_reach(const CellGrid& grid, double reach) const {
-    return grid.cells_of(reach / 2 + dynamics_.radius() + dynamics_.slack());
+float Search<Dynamics>::half_reach(const CellGrid& grid, double reach, double radius) const {
+    return grid.cells_of(reach / 2 + radius + dynamics_.slack());
 }
 
-/// Predicts disc k of those set apart with all others of them that come after it.
+/// Predicts disc k of those set apart with all discs in cells, unless it is large, and with all
+/// discs set apart that come after it, unless both are large.
 template <class Dynamics>
 void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid,
                                      const Window& window, const Bounds& bounds, double reach,
                                      std::uint32_t k, SearchLists& lists) const {
     const std::span<const LocalIndex> apart = grid.apart();
-    const std::size_t n_others = filter_apart(grid, k, half_reach(grid, reach),
-                                              bounds.touching_squared, lists.pairs, 0);
-    lists.n_pairs = filter_apart_pairs(grid, k, bounds.touching_squared, lists.pairs, n_others);
+    const FlightLanes flights = grid.apart_lanes();
+    const bool k_is_large = is_large(population.discs[apart[k]]);
+    const float touching = large_.size() > 0 ? bounds.touching_large_squared
+                                             : bounds.touching_squared;
+    std::size_t n_others = 0;
+    if (!k_is_large)
+        n_others = filter_along(grid, flights, k, 0, half_reach(grid, reach, dynamics_.radius()),
+                                touching, lists.pairs, 0);
+    lists.n_pairs = filter_lanes(flights, k, flights,
+                                 {k + 1, static_cast<std::uint32_t>(apart.size())}, touching,
+                                 lists.pairs, n_others);
+    for (std::size_t i = 0; i < lists.n_pairs; ++i) {
+        const LocalIndex other = i < n_others ? lists.pairs[i].second
+                                              : apart[lists.pairs[i].second];
+        if (k_is_large && is_large(population.discs[other])) continue;
+        predict_pair(population, window, window.first_micro, apart[k], other, lists);
+    }
+}
+
+/// Predicts large disc k with walls, with all discs in cells that are not large, and with all large
+/// discs that come after it.
+template <class Dynamics>
+void Search<Dynamics>::predict_large(const Population& population, const CellGrid& grid,
+                                     const Window& window, const Bounds& bounds, double reach,
+                                     std::uint32_t k, SearchLists& lists) const {
+    predict_wall(population, window, window.first_micro, large_.index(k), lists);
+    if (!dynamics_.has_pairs()) return;
+    const FlightLanes flights = large_.lanes();
+    const std::size_t n_others = filter_along(grid, flights, k, 0,
+                                              half_reach(grid, reach, dynamics_.radius()),
+                                              bounds.touching_large_squared, lists.pairs, 0);
+    lists.n_pairs = filter_lanes(flights, k, flights, {k + 1, large_.size()},
+                                 bounds.touching_large_squared, lists.pairs, n_others);
     for (std::size_t i = 0; i < lists.n_pairs; ++i) {
         const std::uint32_t other = lists.pairs[i].second;
-        predict_pair(population, window, window.first_micro, apart[k],
-                     i < n_others ? other : apart[other], lists);
+        if (i < n_others && is_large(population.discs[other])) continue;
+        predict_pair(population, window, window.first_micro, large_.index(k),
+                     i < n_others ? other : large_.index(other), lists);
     }
 }
 
@@ -180,7 +237,11 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
                                      const Window& window, int from, double reach,
                                      std::span<const LocalIndex> hit,
                                      std::span<const WindowState> states) {
-    const Bounds bounds(dynamics_, grid);
+    const Bounds bounds(dynamics_, grid, usual_radius_);
+    if (large_.size() > 0)
+        for (const LocalIndex index : hit)
+            if (index != wall_index && is_large(population.discs[index]))
+                large_.update(index, grid);
     const auto begin = static_cast<float>((from - window.begin()) / window.duration());
     const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) /
                                                      hits_per_batch);
@@ -193,7 +254,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
             const std::span<const LocalIndex> batch = hit.subspan(
                 first, std::min(hits_per_batch, hit.size() - first));
-            look_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
+            look_around(population, grid, bounds, begin, reach, batch, lists);
             for_each_ahead(
                 lists.pairs, lists.n_pairs,
                 [&](const DiscPair& pair) { prefetch(population.discs, pair.second); },
@@ -204,7 +265,8 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
                 });
             for (const LocalIndex index : batch) {
                 if (index < population.n_own &&
-                    (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles()))
+                    (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles() ||
+                     is_large(population.discs[index])))
                     predict_wall(population, window, from, index, lists);
             }
         });
@@ -213,18 +275,47 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
 
 /// Fills `lists.pairs` with the pairs of each disc of `hit` and the discs that it might touch.
 template <class Dynamics>
-void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, float from,
-                                   float half_reach, std::span<const LocalIndex> hit,
-                                   SearchLists& lists) const {
+void Search<Dynamics>::look_around(const Population& population, const CellGrid& grid,
+                                   const Bounds& bounds, float from, double reach,
+                                   std::span<const LocalIndex> hit, SearchLists& lists) const {
     lists.n_pairs = 0;
+    const float half = half_reach(grid, reach, usual_radius_);
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
         // A disc needs a dozen cache lines: prefetch the cells first, then the flights
         // in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
-        if (hit[k] != wall_index)
-            lists.n_pairs = filter_around(grid, hit[k], from, half_reach, bounds.touching_squared,
+        if (hit[k] == wall_index) continue;
+        if (Dynamics::has_species && large_.size() > 0)
+            look_among_large(population, grid, bounds, from, reach, hit[k], lists);
+        else
+            lists.n_pairs = filter_around(grid, hit[k], from, half, bounds.touching_squared,
                                           lists.pairs, lists.n_pairs);
+    }
+}
+
+/// Appends the pairs of a disc that was hit, if there are large discs. They are searched in their
+/// list, and all others in cells.
+template <class Dynamics>
+void Search<Dynamics>::look_among_large(const Population& population, const CellGrid& grid,
+                                        const Bounds& bounds, float from, double reach,
+                                        LocalIndex index, SearchLists& lists) const {
+    const bool its_large = is_large(population.discs[index]), is_own = index < grid.n_own();
+    const FlightLanes lanes = is_own ? grid.lanes() : grid.halo_lanes();
+    const std::uint32_t slot = is_own ? index : grid.halo_slot(index);
+    const std::size_t first = lists.n_pairs;
+    const std::size_t n_in_cells = filter_around(
+        grid, index, from, half_reach(grid, reach, its_large ? dynamics_.radius() : usual_radius_),
+        its_large ? bounds.touching_large_squared : bounds.touching_squared, lists.pairs, first);
+    const std::size_t n_all = filter_lanes(lanes, slot, large_.lanes(), {0, large_.size()},
+                                           bounds.touching_large_squared, lists.pairs, n_in_cells);
+    for (std::size_t i = first; i < n_all; ++i) {
+        LocalIndex other = lists.pairs[i].second;
+        if (i >= n_in_cells)
+            other = large_.index(other);
+        else if (is_large(population.discs[other]))
+            continue;
+        if (other != index) lists.pairs[lists.n_pairs++] = {index, other};
     }
 }
 

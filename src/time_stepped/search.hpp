@@ -17,6 +17,7 @@
 #include "core/disc.hpp"
 #include "dynamics/all_dynamics.hpp"
 #include "time_stepped/candidate.hpp"
+#include "time_stepped/large_discs.hpp"
 #include "time_stepped/window.hpp"
 
 namespace carrom {
@@ -56,18 +57,24 @@ struct SearchLists {
 
 template <class Dynamics> class Search {
 public:
-    Search(const Dynamics& dynamics, int n_threads);
+    /// Cells fit discs up to `usual_radius`; larger ones search around themselves.
+    Search(const Dynamics& dynamics, int n_threads, double usual_radius);
+    double usual_radius() const { return usual_radius_; }
+    /// Lists the large discs. The grid must have been built for the next window, and have set no
+    /// discs apart yet.
+    void list_large(const Population& population, const CellGrid& grid);
     /// Replaces the dynamics after a sync, because images that move are elsewhere then.
     void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
     /// Predicts all contacts in `window`. The grid must have been built for it.
-    /// `reach` is that of discs that the grid has not set apart.
+    /// `reach` is that of discs of the usual radius that the grid has not set apart.
     void predict_all(const Population& population, const CellGrid& grid, const Window& window,
                      double reach);
 
     /// Predicts the contacts of the discs `hit` by micro-step `from` - 1 (own or halo;
     /// `wall` stands for none) for the window's micro-steps from `from` on. The grid
-    /// and `states`, by disc, must be up to date. `reach` is the window's.
+    /// and `states`, by disc, must be up to date. `reach` is as
+    /// in predict_all.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window,
                        int from, double reach, std::span<const LocalIndex> hit,
                        std::span<const WindowState> states);
@@ -83,9 +90,19 @@ private:
                         int column, SearchLists&) const;
     void predict_apart(const Population&, const CellGrid&, const Window&, const Bounds&,
                        double reach, std::uint32_t k, SearchLists&) const;
-    void look_around(const CellGrid&, const Bounds&, float from, float half_reach,
+    void predict_large(const Population&, const CellGrid&, const Window&, const Bounds&,
+                       double reach, std::uint32_t k, SearchLists&) const;
+    void look_around(const Population&, const CellGrid&, const Bounds&, float from, double reach,
                      std::span<const LocalIndex> hit, SearchLists&) const;
-    float half_reach(const CellGrid&, double reach) const;
+    void look_among_large(const Population&, const CellGrid&, const Bounds&, float from,
+                          double reach, LocalIndex index, SearchLists&) const;
+    float half_reach(const CellGrid&, double reach, double radius) const;
+    bool is_large(const Disc& disc) const {
+        if constexpr (Dynamics::has_species)
+            return large_.size() > 0 &&
+                   dynamics_.species_table().of(disc.id).radius > usual_radius_;
+        return false;
+    }
     void predict_pair(const Population&, const Window&, int from, LocalIndex a, LocalIndex b,
                       SearchLists&) const;
     void predict_wall(const Population&, const Window&, int from, LocalIndex index,
@@ -93,6 +110,8 @@ private:
 
     Dynamics dynamics_;
     int n_threads_;
+    double usual_radius_;
+    LargeDiscs large_;
     std::vector<SearchLists> lists_; ///< by thread
 };
 

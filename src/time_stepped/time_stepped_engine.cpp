@@ -34,7 +34,9 @@ TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState s
                                                const Communicator& communicator,
                                                const Tuning& tuning)
     : Base(scene, std::move(state), communicator, with_useful_threads(tuning, scene, communicator)),
-      search_(dynamics_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
+      search_(dynamics_, tuning_.threads,
+              usual_radius_of(scene.effects.species, dynamics_.radius(), scene.box.area())),
+      local_(tuning_.threads), across_strips_(communicator) {
     this->distribute();
     discs_.forget_images();
     phases_ = {};
@@ -51,7 +53,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_lef
     {
         const PhaseClock::Scope scope(phases_, Phase::search);
         search_.predict_all(population(), discs_.grid(), window,
-                            reach_of(window_needs(), window.duration(), usual_speed_));
+                            reach_of(usual_needs(), window.duration(), usual_speed_));
     }
     int m = window.first_micro;
     while (m < window.end_micro() && run_micro_step(window, m)) ++m;
@@ -85,13 +87,14 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     const Window window = choose(n_left);
     migrate_at(window.anchor());
     const double reach = reach_of(window_needs(), window.duration()),
-                 usual_reach = reach_of(window_needs(), window.duration(), usual_speed_);
+                 usual_reach = reach_of(usual_needs(), window.duration(), usual_speed_);
     sort(window, reach, usual_reach);
     {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.fetch_halo(window.anchor(), reach, companion());
     }
-    if (usual_reach < reach) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
+    search_.list_large(population(), discs_.grid());
+    if (usual_speed_ < window_speed_) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
     states_.assign(discs_.all().size(), 0);
     return window;
 }
@@ -118,12 +121,12 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left)
     if (part_ == 0) {
         window_speed_ = largest_speed_ * speed_allowance_;
         speed_exceeded_ = false;
-        WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window),
+        WindowChoice choice = choose_window(usual_needs(), std::min(n_left, longest_window),
                                             tuning_.window);
         if constexpr (Dynamics::is_periodic) {
             const double longest = longest_in_period(discs_.periods(), window_speed_);
             if (choice.n_micro > longest * choice.n_parts)
-                choice = choose_window(window_needs(), std::min(n_left, longest_window), longest);
+                choice = choose_window(usual_needs(), std::min(n_left, longest_window), longest);
         }
         window.n_micro = choice.n_micro;
         n_parts_ = choice.n_parts;
@@ -147,6 +150,13 @@ template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs(
             hits_per_micro_step_,
             static_cast<double>(discs_.n_total()) / communicator_.size(),
             spread_.largest > 0 ? &spread_ : nullptr};
+}
+
+/// The needs of the discs that cells fit.
+template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::usual_needs() const {
+    WindowNeeds needs = window_needs();
+    needs.radius = search_.usual_radius() + dynamics_.slack();
+    return needs;
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
@@ -256,7 +266,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
     if (m + 1 >= window.end_micro()) return; // the window does not need these states any more
     update_halo(window, m);
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const double reach = reach_of(window_needs(), window.duration());
+    const double reach = reach_of(usual_needs(), window.duration());
     search_.predict_again(population(), discs_.grid(), window, m + 1, reach, hits_, states_);
 }
 

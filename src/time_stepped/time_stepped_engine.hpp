@@ -48,6 +48,7 @@ private:
     Window redistribute(int n_left);
     Window choose(int n_left);
     WindowNeeds window_needs() const;
+    WindowNeeds usual_needs() const;
     void survey_images();
     void agree_on_speed();
     void migrate_at(double time);

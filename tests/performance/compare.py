@@ -16,10 +16,8 @@ from the same places in the same periodic box.
 
 import argparse
 import csv
-import dataclasses
 import fnmatch
 import json
-import math
 import os
 import platform
 import re
@@ -29,108 +27,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 
-from measure import ENVIRONMENT, exact, fast, gas
+from measure import ENVIRONMENT
+from rate_cases import cases
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
-
-def slow(n_discs, steps):
-    """Packing 0.2, Maxwell's speeds: 0.005 diameters per component and step (rms), as LAMMPS moves
-    its discs.
-    """
-    size = math.sqrt(n_discs * math.pi / 4 / 0.2)
-    return (
-        (
-            f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 0.5\nvelocities ="
-            f" \"maxwell\"\nspeed = {0.005 * math.sqrt(2)!r}\n[time]\nsteps = {steps}\nmethod ="
-            " \"time-stepped\"\n"
-        ),
-        "toml",
-    )
-
-
-def periodic(n_discs, packing, n_collisions):
-    """A gas in a periodic box for about so many collisions: diameter 1, kT = 1, as in EDMD."""
-    size = math.sqrt(n_discs * math.pi / 4 / packing)
-    contact = (1 - 7 * packing / 16) / (1 - packing) ** 2  # Enskog's rate
-    per_time = n_discs * 4 * packing * contact / math.sqrt(math.pi)
-    sides = "".join(f'{side}.kind = "periodic"\n' for side in ("left", "right", "bottom", "top"))
-    return (
-        (
-            f"[box]\nsize = {size!r}\n{sides}[discs]\ncount = {n_discs}\nradius = 0.5\nspeed ="
-            f" {math.sqrt(2)!r}\n[time]\nsteps = {max(1, round(n_collisions / per_time))}\n"
-            "method = \"event-driven\"\n"
-        ),
-        "toml",
-    )
-
-
-@dataclasses.dataclass
-class Case:
-    """`unit`: what the rate counts. `whole`: the time of the whole program, start included, instead
-    of stepping alone. `edmd`: whether EDMD can run the same scene.
-    """
-
-    scene: Callable
-    ranks: int = 1
-    threads: int = 1
-    unit: str = "disc-steps"
-    peer: tuple | None = None
-    goal: str = ""
-    whole: bool = False
-    edmd: bool = False
-
-
-def cases():
-    found = {
-        "slow gas, 1e5": Case(
-            lambda s: slow(100_000, s(2048)), peer=(316, 600), goal="2e8, 6 x LAMMPS"
-        ),
-        "slow gas, 1e6": Case(
-            lambda s: slow(1_000_000, s(512)), peer=(1000, 60), goal="1.5e8, 10 x LAMMPS"
-        ),
-        "slow gas, 1e6, 2 threads": Case(lambda s: slow(1_000_000, s(512)), threads=2),
-        "slow gas, 1e6, 2 ranks": Case(lambda s: slow(1_000_000, s(512)), ranks=2),
-        "gas, 1e6": Case(lambda s: gas(1_000_000, s(64)), goal="5e7"),
-        "gas, 1e6, 2 threads": Case(lambda s: gas(1_000_000, s(64)), threads=2),
-        "gas, 1e6, 2 ranks": Case(lambda s: gas(1_000_000, s(64)), ranks=2),
-        "all, packing 0.3, 1e6": Case(
-            lambda s: exact(1_000_000, 0.3, s(4_000_000)), unit="collisions", goal="2.5e6"
-        ),
-        "all, packing 0.3, 1e6, 2 threads": Case(
-            lambda s: exact(1_000_000, 0.3, s(4_000_000)), threads=2, unit="collisions"
-        ),
-        "all, packing 0.3, 1e6, 2 ranks": Case(
-            lambda s: exact(1_000_000, 0.3, s(4_000_000)), ranks=2, unit="collisions"
-        ),
-        "all, packing 0.5, 1e5": Case(
-            lambda s: exact(100_000, 0.5, s(4_000_000)), unit="collisions", goal="3.5e6"
-        ),
-        "generated, 1e4, 500 steps": Case(lambda s: fast(10_000, s(500)), whole=True, goal="2 s"),
-    }
-    for name, n_discs, steps in (
-        ("1e3", 1_000, 16_384),
-        ("1e4", 10_000, 2048),
-        ("1e5", 100_000, 256),
-        ("1e7", 10_000_000, 8),
-    ):
-        found[f"gas, {name}"] = Case(lambda s, n=n_discs, k=steps: gas(n, s(k)))
-    for packing in (0.3, 0.5):
-        for name, n_discs in (
-            ("870", 870),
-            ("4096", 4096),
-            ("1e4", 10_000),
-            ("1e5", 100_000),
-            ("1e6", 1_000_000),
-        ):
-            found[f"periodic, packing {packing}, {name}"] = Case(
-                lambda s, n=n_discs, e=packing: periodic(n, e, s(2_000_000)),
-                unit="collisions",
-                edmd=True,
-            )
-    return found
 
 
 def timed(command, environment, folder=None):
@@ -143,7 +45,8 @@ def timed(command, environment, folder=None):
 
 class Machine:
     def __init__(self, build, short, edmd):
-        self.build, self.short, self.edmd = build, short, edmd and os.path.abspath(edmd)
+        self.build, self.short = build, short
+        self.edmd = [os.path.abspath(program) for program in edmd]
         self.environment = ENVIRONMENT
         self.lammps = shutil.which("lmp")
         if not self.lammps:
@@ -215,7 +118,9 @@ class Machine:
         return int(discs) * int(done) / float(seconds)
 
     def exact_peer(self, case, n_collisions, folder):
-        """EDMD's collisions per second, from where Carrom began."""
+        """Collisions per second of the fastest of EDMD's programs, from where Carrom began. Multi
+        ends with an error where a disc has more neighbours than it has room for; another counts.
+        """
         if not case.edmd or not self.edmd:
             return None
         scene, start = os.path.join(folder, "scene.toml"), os.path.join(folder, "start")
@@ -223,16 +128,23 @@ class Machine:
         begin = [program, "run", scene, "--set", "time.steps=0", "--overwrite", "--quiet"]
         timed([*begin, "-o", start], self.environment)
         stored = os.path.join(start, "checkpoints", "checkpoint-000000000000.h5")
-        _, text = timed([program, "convert", stored, "--to", "text"], self.environment)
-        places = [line.split()[2:4] for line in text.splitlines() if line.count(" ") == 7]
-        with open(scene, encoding="utf-8") as file:
-            size = re.search(r"^size = (\S+)", file.read(), re.MULTILINE).group(1)
+        _, text = timed([program, "convert", stored, "--to", "xyz"], self.environment)
+        count, header, *lines = text.splitlines()
+        size = re.search(r'Lattice="(\S+)', header).group(1)
+        columns = "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:"
+        assert columns in header, header
         with open(os.path.join(folder, "init.sph"), "w", encoding="ascii") as file:
-            file.write(f"{len(places)}\n{size} {size} 1.0\n")
-            file.writelines(f"a {x} {y} 0.5 0.5\n" for x, y in places)
-        _, text = timed([self.edmd, str(n_collisions)], self.environment, folder)
-        done, seconds = re.search(r"collisions (\d+) seconds (\S+)", text).groups()
-        return int(done) / float(seconds)
+            file.write(f"{count}\n{size} {size} 1.0\n")
+            for words in map(str.split, lines):
+                file.write(f"a {words[1]} {words[2]} 0.5 {words[8]}\n")
+        rates = []
+        for peer in self.edmd:
+            words = [peer, str(n_collisions)]
+            run = subprocess.run(words, capture_output=True, text=True, cwd=folder, check=False)
+            found = re.search(r"collisions (\d+) seconds (\S+)", run.stdout)
+            if run.returncode == 0 and found:
+                rates.append(int(found.group(1)) / float(found.group(2)))
+        return max(rates, default=None)
 
     def stream(self, n_discs, threads):
         """Disc-steps per second of a program that only reads and writes every disc's 64 bytes."""
@@ -349,7 +261,12 @@ def main():
     parser.add_argument("--build", default="build")
     parser.add_argument("--output", required=True)
     parser.add_argument("--minutes", type=float, default=7)
-    parser.add_argument("--edmd", help="the program that planar_edmd.py builds")
+    parser.add_argument(
+        "--edmd",
+        nargs="*",
+        default=[],
+        help="programs that planar_edmd.py builds; the fastest counts",
+    )
     parser.add_argument("--only", default="*", help="cases by name, as in '*, 1e6*'")
     parser.add_argument("--short", action="store_true")
     options = parser.parse_args()

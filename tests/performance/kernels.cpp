@@ -164,7 +164,7 @@ void local_resolution(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
     gas.sort_into(grid, reach_of_window(), window_steps);
-    Search<PlainDynamics> search(PlainDynamics(gas.size, 1), 1);
+    Search<PlainDynamics> search(PlainDynamics(gas.size, 1), 1, 1);
     Window window;
     window.n_micro = window_steps;
     search.predict_all(gas.population(), grid, window, reach_of_window());

@@ -7,8 +7,9 @@
 #   tests/performance/page.py                               then draws the page anew
 #
 # Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
-# more. EDMD names the program that planar_edmd.py builds. MOST_RANKS=1024 takes half an hour longer
-# on the simulated cluster (256), and 13 GB for each of as many simulations as there are cores: see
+# more. EDMD names programs that planar_edmd.py builds, as EDMD="cell multi"; the fastest counts.
+# MOST_RANKS=1024 takes half an hour longer on the simulated cluster (256), and 13 GB for each of as
+# many simulations as there are cores: see
 # `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works;
 # its numbers mean nothing. What needs SimGrid or Google Benchmark is left out, and named, where
 # they are missing.
@@ -48,8 +49,9 @@ if [ -x "$build/tests/carrom_benchmarks" ]; then
             >"$folder/kernels.json"
 fi
 say 'beside peers'
+read -ra edmd <<<"${EDMD:-}"
 python3 "$here/compare.py" --build "$build" --output "$folder/rates.csv" \
-    --minutes "${MINUTES:-6.5}" ${EDMD:+--edmd "$EDMD"} ${SHORT:+--short}
+    --minutes "${MINUTES:-6.5}" ${EDMD:+--edmd "${edmd[@]}"} ${SHORT:+--short}
 if [ -x "$build/tests/simulated_cluster" ]; then
     say 'simulated cluster'
     python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" \

@@ -5,11 +5,11 @@ pictures beside its CSV files.
 
   tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
 
-Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks)
-and peaks.txt (machine_peaks); measure_all.sh writes all four. Other machines' rates, as
-rates_xeon.csv, get a table each behind the first one's. A part whose file is missing keeps what it
-says. Words around the markers are the page's own. Needs the Python environment of
-docs/tools/README.md.
+Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), kernels.json
+(carrom_benchmarks) and peaks.txt (machine_peaks); measure_all.sh writes all but sizes.csv. Other
+machines' rates, as rates_xeon.csv, get a table each behind the first one's. A part whose file is
+missing keeps what it says. Words around the markers are the page's own. Needs the Python
+environment of docs/tools/README.md.
 """
 
 import argparse
@@ -19,19 +19,20 @@ import pathlib
 import re
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "tools"))
+import plot_style
+
 STYLES = [
-    ("o", "-", "#000000"),
-    ("s", "--", "#666666"),
-    ("^", "-.", "#000000"),
-    ("D", ":", "#666666"),
-    ("v", "-", "#999999"),
-    ("x", "--", "#999999"),
+    (marker, line, colour)
+    for marker, line, colour in zip("os^Dvx", ("-", "--", "-.", ":", "-", "--"), plot_style.COLOURS)
 ]
+KERNELS = {
+    "vector_filter": "filter of pairs",
+    "contact_predicate": "contact predicate",
+    "cell_grid_sort": "sorting into cells",
+}
 
 
 def read_csv(path):
@@ -92,6 +93,23 @@ def edmd_part(files):
     )
 
 
+def sizes_part(rows):
+    """Mixtures with their rate, its share of equal discs' and how it stands to EDMD."""
+    rate = {r["case"]: float(r["rate"]) for r in rows}
+
+    def share(row):
+        return rate[row["case"]] / rate[f"sizes 1 and 1, {row['case'].split(', ')[1]}"]
+
+    return table(
+        ["case", "million collisions per second", "share of equal discs' rate", "x EDMD"],
+        [
+            [r["case"], rate_text(r), f"{share(r):.2f}", short(r.get("over_edmd"))]
+            for r in rows
+            if r["case"].startswith("sizes")
+        ],
+    )
+
+
 def two_cores_part(files):
     def gains(rows):
         rate = {r["case"]: float(r["rate"]) for r in rows}
@@ -146,9 +164,8 @@ def cluster_part(rows):
 
 
 def new_axes(xlabel, ylabel):
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained", dpi=110)
+    figure, axes = plt.subplots()
     axes.set(xlabel=xlabel, ylabel=ylabel)
-    axes.grid(True, which="both", color="0.9", linewidth=0.6)
     return figure, axes
 
 
@@ -164,7 +181,7 @@ def draw_series(axes, series):
             markerfacecolor="white",
             label=label,
         )
-    axes.legend(frameon=False)
+    axes.legend()
 
 
 def draw_cluster(rows, folder):
@@ -268,6 +285,8 @@ def draw_roofline(kernels, peaks, folder):
     for index, kernel in enumerate(shown):
         x, y = kernel["flops"] / kernel["bytes"], kernel["items_per_second"] * kernel["flops"] / 1e9
         name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
+        kind, _, n_discs = name.partition("/")
+        name = KERNELS.get(kind, kind) + (f", {int(n_discs):,} discs" if n_discs else "")
         axes.plot(
             [x],
             [y],
@@ -282,13 +301,13 @@ def draw_roofline(kernels, peaks, folder):
             name,
             (x, y),
             textcoords="offset points",
-            xytext=(-7 if is_right else 7, 3 if index < 2 else -9),
+            xytext=(-7 if is_right else 7, (4, -12, 4, 4, -12)[index % 5]),
             ha="right" if is_right else "left",
-            fontsize=8,
+            fontsize=10,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
         )
     axes.set(xscale="log", yscale="log", xlim=(low, high))
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    axes.legend(fontsize=10, loc="lower right")
     figure.savefig(folder / "roofline.png")
     plt.close(figure)
 
@@ -309,6 +328,7 @@ def main():
         "--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md")
     )
     options = parser.parse_args()
+    plot_style.use()
     folder, text = options.folder, options.page.read_text(encoding="utf-8")
     if (folder / "rates.csv").exists():
         rows = read_csv(folder / "rates.csv")
@@ -321,6 +341,8 @@ def main():
         text = replace_part(text, "two cores", two_cores_part(files))
         text = replace_part(text, "edmd", edmd_part(files))
         draw_sizes(rows, folder)
+    if (folder / "sizes.csv").exists():
+        text = replace_part(text, "sizes", sizes_part(read_csv(folder / "sizes.csv")))
     if (folder / "cluster.csv").exists():
         rows = read_csv(folder / "cluster.csv")
         text = replace_part(text, "cluster", cluster_part(rows))

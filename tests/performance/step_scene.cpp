@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene from its start to its end and does nothing else: no output, no progress that
-// depends on the clock. So the same scene is the same instructions every time, to count
-// (instructions.py), and this program needs no HDF5.
+// Steps a scene from its start to its end, with the averages that every run takes, and does nothing
+// else: no output, no progress that depends on the clock. So the same scene is the same
+// instructions every time, to count (instructions.py), and this program needs no HDF5.
 //
 //   step_scene SCENE
 #include <cstdio>
@@ -9,9 +9,11 @@
 
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
+#include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/mpi.hpp"
 #include "scene/read_scene.hpp"
+#include "simulation/advance.hpp"
 #include "simulation/simulation.hpp"
 
 using namespace carrom;
@@ -25,7 +27,10 @@ int main(int argc, char** argv) {
         std::ifstream file = open_input(argv[1]); // every rank reads
         const Scene scene = read_scene(read_scene_text(file, argv[1]));
         Simulation simulation(scene, initial_state(scene, nullptr, world), world, Tuning{});
-        while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+        Sampler sampler(scene, simulation, world);
+        sampler.sample_if_due();
+        StepAction* const actions[] = {&sampler};
+        advance_to(simulation, scene.steps, actions);
         const Totals totals = simulation.totals();
         if (world.is_root()) std::printf("%s\n", to_string(totals.hash).c_str());
         return 0;

@@ -43,10 +43,11 @@ struct Middle {
     double viscosity_unit() const { return std::sqrt(squares / n) / 2; } ///< sqrt(kT) / diameter
 };
 
-Middle look_at(Simulation& simulation, std::int64_t early, std::int64_t last, std::int64_t apart) {
+Middle look_at(Simulation& simulation, std::int64_t early, std::int64_t last, std::int64_t apart,
+               std::span<StepAction* const> actions = {}) {
     Middle all;
     for (std::int64_t step = early; step <= last; step += apart) {
-        while (simulation.step() < step) simulation.advance_towards(step);
+        advance_to(simulation, step, actions);
         all.looks += 1;
         for (const Disc& disc : simulation.shown()) {
             const double y = disc.y - height / 2;
@@ -91,9 +92,11 @@ TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille"
 // it, and the pressure tensor has none of these: it is that of the rest of the box.
 TEST_CASE("physics: between walls that slide the flow of Couette has Enskog's viscosity") {
     const Communicator world = Communicator::world();
-    Simulation simulation = event_driven_simulation(channel(0.07, 0), world);
-    const Middle middle = look_at(simulation, 10000, 110000, 200);
-    const double stress = -simulation.averages().pressure_tensor.xy.value * height / (height - 2);
+    const TestScene scene = channel(0.07, 0);
+    Simulation simulation = event_driven_simulation(scene, world);
+    Averaging averaging(scene, simulation, world);
+    const Middle middle = look_at(simulation, 10000, 110000, 200, averaging.actions());
+    const double stress = -averaging.averages().pressure_tensor.xy.value * height / (height - 2);
     const double viscosity = stress / middle.slope() / middle.viscosity_unit();
     fmt::print("Couette: {:.4f}, Enskog {:.4f}, slope {:.3g}\n", viscosity,
                enskog_viscosity(middle.density()), middle.slope());

@@ -30,11 +30,10 @@ Simulation event_driven_simulation(const TestScene& scene, const Communicator& w
     return {all, world.is_root() ? scene.discs : std::vector<InputDisc>{}, world, tuning};
 }
 
-void run_until(Simulation& simulation, double n_collisions) {
+void run_until(Simulation& simulation, double n_collisions, std::span<StepAction* const> actions) {
     std::int64_t stride = 1;
     for (double done = 0; done < n_collisions;) {
-        const std::int64_t target = simulation.step() + stride;
-        while (simulation.step() < target) simulation.advance_towards(target);
+        advance_to(simulation, simulation.step() + stride, actions);
         const Totals totals = simulation.totals();
         done = static_cast<double>(totals.wall_collisions + totals.pair_collisions);
         const double per_step = std::max(done, 1.0) / static_cast<double>(simulation.step());
@@ -50,9 +49,9 @@ GasProperties measure_gas(std::size_t n, double packing, double n_early, double 
                                     1000 * n + static_cast<std::uint64_t>(100 * packing));
     Simulation simulation = event_driven_simulation(scene, world);
     run_until(simulation, n_early);
-    simulation.average_anew();
-    run_until(simulation, n_early + n_collisions);
-    const Averages averages = simulation.averages();
+    Averaging averaging(scene, simulation, world);
+    run_until(simulation, n_early + n_collisions, averaging.actions());
+    const Averages averages = averaging.averages();
     const double energy = simulation.totals().kinetic_energy;
     const double area = scene.setting.box_size * scene.setting.box_size;
     const double thermal_speed = std::sqrt(energy / static_cast<double>(n));

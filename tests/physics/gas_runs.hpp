@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "averaging.hpp"
 #include "scene_tools.hpp"
 #include "simulation/simulation.hpp"
 
@@ -19,7 +20,8 @@ Simulation event_driven_simulation(const TestScene& scene, const Communicator& w
 
 /// Steps until so many collisions, of pairs and with walls, have happened in all since the start.
 /// **Collective.**
-void run_until(Simulation& simulation, double n_collisions);
+void run_until(Simulation& simulation, double n_collisions,
+               std::span<StepAction* const> actions = {});
 
 /// In units of disc diameter and thermal speed sqrt(kT).
 struct GasProperties {

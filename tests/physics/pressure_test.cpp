@@ -61,10 +61,10 @@ void check_two_discs(double n_collisions) {
         Simulation simulation = event_driven_simulation(scene, world);
         run_until(simulation, 1000);
         const Totals before = simulation.totals();
-        simulation.average_anew();
-        run_until(simulation, n_collisions);
+        Averaging averaging(scene, simulation, world);
+        run_until(simulation, n_collisions, averaging.actions());
         const Totals after = simulation.totals();
-        const Averages averages = simulation.averages();
+        const Averages averages = averaging.averages();
         const TwoDiscRates known = two_disc_rates(scene.setting.box_size, 2,
                                                   std::sqrt(2 * after.kinetic_energy));
         const Estimate disc = averages.collision_frequency; // of one disc, and so of the pair

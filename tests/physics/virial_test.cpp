@@ -14,7 +14,6 @@
 #include "equations_of_state.hpp"
 #include "gas_runs.hpp"
 #include "parallel/exchange.hpp"
-#include "statistics/block_averages.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -31,9 +30,9 @@ Averages averages_of(TestScene scene, double n_early, double n_collisions,
     scene.steps = 1 << 20;
     Simulation simulation = event_driven_simulation(scene, world);
     run_until(simulation, n_early);
-    simulation.average_anew();
-    run_until(simulation, n_early + n_collisions);
-    return simulation.averages();
+    Averaging averaging(scene, simulation, world);
+    run_until(simulation, n_early + n_collisions, averaging.actions());
+    return averaging.averages();
 }
 
 /// What N discs in a periodic box are to have: the bulk's Z, and the first term in 1/N.
@@ -78,13 +77,13 @@ void check_walls(TestScene scene, double n_collisions) {
     Simulation simulation = event_driven_simulation(scene, world);
     const double n = static_cast<double>(scene.discs.size());
     run_until(simulation, 60 * n);
-    simulation.average_anew();
+    Averaging averaging(scene, simulation, world);
     const std::int64_t first = simulation.step();
     WallImpulses impulses(1e9);
     simulation.add_impulses_to(&impulses);
-    run_until(simulation, 60 * n + n_collisions);
+    run_until(simulation, 60 * n + n_collisions, averaging.actions());
     simulation.add_impulses_to(nullptr);
-    const Averages averages = simulation.averages();
+    const Averages averages = averaging.averages();
     const double size = scene.setting.box_size,
                  steps = static_cast<double>(simulation.step() - first);
     const double room = 1 - 2 * scene.setting.radius / size;

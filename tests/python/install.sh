@@ -12,8 +12,8 @@ install "$test_folder/package" || skip_test "PyPI is not to be had: $(said)"
 
 "$python" -m pip list --format=freeze 2>/dev/null | sed 's/==.*//' | sort >installed
 printf '%s\n' carrom h5py numpy pip setuptools | sort >wanted
-comm -23 installed wanted >more
-[ ! -s more ] || complain "pip has installed more: $(tr '\n' ' ' <more)"
+comm -23 installed wanted >more_packages
+[ ! -s more_packages ] || complain "pip has installed more: $(tr '\n' ' ' <more_packages)"
 
 cat >scene.py <<'END'
 import carrom

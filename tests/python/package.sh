@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The package's own tests, with the real freud, MDAnalysis, ASE, OVITO and gsd where PyPI has them;
-# then types and style. Argument: the folder of environments.
+# then types and style. Argument: the folder of environments. With names of files of tests behind it
+# these are run alone, and need h5py, numpy and pytest only.
 source "$(dirname "$0")/../system/common.sh"
 source "$(dirname "$0")/environment.sh"
 
@@ -10,7 +11,7 @@ for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
     read -r module name <<<"$needed"
     has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
-for wanted in 'matplotlib matplotlib' 'PIL pillow' 'scipy.spatial scipy' \
+[ $# -gt 1 ] || for wanted in 'matplotlib matplotlib' 'PIL pillow' 'scipy.spatial scipy' \
     'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' 'xarray xarray' \
     'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
     read -r module name <<<"$wanted"
@@ -23,7 +24,11 @@ release_environment
 # The working folder is not the checkout's: what is tested is what pip has installed.
 export PYTHONDONTWRITEBYTECODE=1
 tests=$CARROM_SOURCE_DIR/tests/python/package
-"$python" -m pytest -q -rs -p no:cacheprovider "$tests" || complain 'pytest'
+chosen=("${@:2}")
+[ $# -gt 1 ] || chosen=(.)
+"$python" -m pytest -q -rs -p no:cacheprovider "${chosen[@]/#/$tests/}" \
+    --rootdir "$tests" || complain 'pytest'
+[ $# -eq 1 ] || finish
 
 for tool in mypy ruff; do
     has "$tool" "$tool" ||

@@ -46,6 +46,25 @@ class ServerTest(unittest.TestCase):
                     about["radius"], np.sqrt(0.3 * 40**2 / 200 / np.pi), places=5
                 )
 
+    def test_a_field_is_that_of_the_table(self):
+        quantities = 'output.measurements.quantities=["profiles"]'
+        sizes = ("every_steps=1", "profile_columns=4", "profile_rows=3", "profile_samples=2")
+        options = ["--set", quantities]
+        for size in sizes:
+            options += ["--set", f"output.measurements.{size}"]
+        run("field", options=options)
+        lines = Path("field/measurements/profiles.csv").read_text(encoding="ascii").splitlines()
+        names, *rows = [line.split(",") for line in lines if not line.startswith("#")]
+        newest = np.array(rows[-12:], dtype=float)
+        with Page("field") as page:
+            field = page.json("field?name=temperature")
+            self.assertEqual(field["step"], newest[-1, 0])
+            self.assertEqual(field["names"][:-1], names[3:])
+            np.testing.assert_array_equal(field["rows"], newest[:, names.index("temperature")]
+                                          .reshape(3, 4))
+            with self.assertRaisesRegex(urllib.error.HTTPError, "404"):
+                page.json("field?name=colour")
+
     def test_curves_are_those_of_the_tables(self):
         run("curves", options=("--set", "output.collisions=true"))
         _, _, velocities = stored("curves")

@@ -30,17 +30,18 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
 
 /// All those that the flight comes near, and more.
 std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double until) const {
-    const auto range = [&](bool is_periodic, double length, double from, double to) {
+    const auto range = [&](bool is_periodic, double length, double from, double to, double g) {
         if (!is_periodic) return std::pair(0, 0);
-        const double away = 1.5 * (body.radius + setting_.radius) + body.length;
+        const double fall = std::fabs(0.5 * g * until * until);
+        const double away = 1.5 * (body.radius + setting_.radius) + body.length + fall;
         return std::pair(static_cast<int>(std::floor((std::min(from, to) - away) / length)) - 1,
                          static_cast<int>(std::ceil((std::max(from, to) + away) / length)));
     };
     const double time = until - disc.tau;
     const auto [x_low, x_high] = range(setting_.effects.is_periodic_x(), setting_.box().x, disc.x,
-                                       disc.x + disc.vx * time);
+                                       disc.x + disc.vx * time, gx_);
     const auto [y_low, y_high] = range(setting_.effects.is_periodic_y(), setting_.box().y, disc.y,
-                                       disc.y + disc.vy * time);
+                                       disc.y + disc.vy * time, gy_);
     std::vector<Copy> all;
     for (int x = x_low; x <= x_high; ++x)
         for (int y = y_low; y <= y_high; ++y) all.push_back({x, y});

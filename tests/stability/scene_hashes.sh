@@ -24,7 +24,8 @@ use_mpi_settings $((2 * $(nproc)))
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# scene_hash SCENE METHOD: a hash, or `refused` for a scene that needs the other method
+# scene_hash SCENE METHOD: a hash, or `refused` for a scene that needs the other method, or more
+# steps
 scene_hash() {
     local code=0
     rm -f "$folder/report.json"
@@ -33,7 +34,8 @@ scene_hash() {
         --report "$folder/report.json" >"$folder/said" 2>&1 </dev/null || code=$?
     case $code in
         0) sed -n 's/^ *"state_hash": "\(.*\)",*$/\1/p' "$folder/report.json" ;;
-        2) grep -q 'time.method' "$folder/said" && echo refused || echo 'failed with code 2' ;;
+        2) grep -q 'time.method\|beyond the last step' "$folder/said" && echo refused ||
+            echo 'failed with code 2' ;;
         *) echo "failed with code $code" ;;
     esac
 }

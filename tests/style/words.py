@@ -25,7 +25,8 @@ LIST_ITEM = re.compile(r"^(?:[-*]|\d+\.) ")
 
 def pages(top):
     shown = re.findall(r"^ +- [^:\n]+: (\S+\.md)$", (top / "mkdocs.yml").read_text(), re.M)
-    return sorted({"README.md", *(f"docs/{name}" for name in shown)} - GENERATED)
+    names = {"README.md", *(f"docs/{name}" for name in shown)} - GENERATED
+    return sorted(name for name in names if (top / name).exists())  # notebooks are made pages
 
 
 def readable(text):

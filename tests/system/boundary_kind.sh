@@ -2,28 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # docs/examples/boundary_kind.patch adds a kind of side, a wall that runs along itself like a belt,
 # in at most eight files.
-#
-#   boundary_kind.sh                    does it still apply?
-#   boundary_kind.sh CMAKE OPTION...    builds a copy of the tree with it, and runs that
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
-change=$CARROM_SOURCE_DIR/docs/examples/boundary_kind.patch
-printed=(keys conflicts) # pages of the reference that the program prints
-
-n_files=$(($(grep -c '^+++ ' "$change") + ${#printed[@]}))
-[ "$n_files" -le 8 ] || complain "it touches $n_files files, not eight at most"
-check_patch "$change"
-[ $# -gt 0 ] || finish
-[ "$n_failures" -eq 0 ] || finish
-
+. "$CARROM_SOURCE_DIR/tests/system/feature_patch.sh"
+begin_patch $# boundary_kind 8 keys conflicts
 build_copy_with "$change" "$@"
-for page in "${printed[@]}"; do
-    words=(keys)
-    [ "$page" = keys ] || words+=("--$page")
-    "$CARROM_PROGRAM" "${words[@]}" |
-        diff "$CARROM_SOURCE_DIR/docs/reference/$page.md" - >"$page.diff"
-    grep '^>' "$page.diff" | grep -q belt || complain "$page.md has no belt"
-    grep '^>' "$page.diff" | grep -qv belt && complain "other lines of $page.md change"
-done
+expect_pages belt
 
 # One disc between two belts. A contact with a belt of speed u turns v_x into 2 u - v_x and v_y into
 # -v_y. From (5, 5) with (0.2, -1) the disc, of radius 0.5, meets the bottom after 4.5 steps and the
@@ -66,20 +49,9 @@ for method in time-stepped event-driven; do
                          near($column["vx"], -0.6) && near($column["vy"], -1) }
         END { exit !good }' disc.csv || complain "$method: $(tail -n 1 disc.csv)"
 
-    run 1 run gas.toml "${options[@]}" --check -o "one_$method"
-    expect_code 0 "$method on 1 rank"
-    hash=$(json_value "one_$method/report.json" state_hash)
+    expect_one_hash gas.toml "$method" --set "time.method=$method" --check
     grep -q 'bottom belt of speed 0.2' "one_$method/report.json" ||
         complain 'the report has no belt'
-    run 3 run gas.toml "${options[@]}" --check -o "three_$method"
-    expect_code 0 "$method on 3 ranks"
-    run 3 run --restart "one_$method/checkpoints/checkpoint-000000000050.h5" --quiet \
-        -o "again_$method"
-    expect_code 0 "$method on 3 ranks, from a checkpoint of 1"
-    for folder in "three_$method" "again_$method"; do
-        [ "$(json_value "$folder/report.json" state_hash)" = "$hash" ] ||
-            complain "$folder: another state hash"
-    done
     # The self-check holds the energy of all discs to 1e-12 where both belts are at rest.
     run 2 run gas.toml "${options[@]}" --set box.bottom.belt_speed=0 --check -o "rest_$method"
     expect_code 0 "$method: belts at rest"

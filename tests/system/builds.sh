@@ -22,11 +22,39 @@ expect_refusal() {
     [ "$(grep -c 'CMake Error' log)" -eq 1 ] || complain "several errors for $1"
 }
 expect_refusal FreeBSD -DCMAKE_SYSTEM_NAME=FreeBSD
+expect_refusal Darwin -DCMAKE_SYSTEM_NAME=Darwin
 echo 'int main() {}' >main.cpp
 if "$compiler" -m32 main.cpp -o small 2>err; then
     expect_refusal 'Linux with 32 bits' -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
 else
     printf 'skipped: the compiler makes no programs of 32 bits\n'
+fi
+if command -v s390x-linux-gnu-g++ >/dev/null; then
+    expect_refusal 'Linux with 64 bits, BIG_ENDIAN' -DCMAKE_SYSTEM_NAME=Linux \
+        -DCMAKE_SYSTEM_PROCESSOR=s390x -DCMAKE_C_COMPILER=s390x-linux-gnu-gcc \
+        -DCMAKE_CXX_COMPILER=s390x-linux-gnu-g++
+else
+    printf 'skipped: there is no compiler for a big-endian processor (g++-s390x-linux-gnu)\n'
+fi
+
+# HDF5 of another MPI library is an error, also where a link hides which one it is.
+multiarch=$("$compiler" -print-multiarch)
+libraries=/usr/lib/$multiarch
+# with_openmpi_hdf5 NAME LIBRARY HEADERS: Open MPI's HDF5 with that MPI library, named by a link
+with_openmpi_hdf5() {
+    ln -sf "$(realpath "$2")" "lib$1.so"
+    configured "$CARROM_SOURCE_DIR" -DHDF5_C_COMPILER_EXECUTABLE=/usr/bin/h5pcc.openmpi \
+        -DMPI_C_LIB_NAMES="$1" "-DMPI_$1_LIBRARY=$PWD/lib$1.so" -DMPI_C_HEADER_DIR="$3"
+}
+if [ -e "$libraries/hdf5/openmpi/libhdf5.so" ] && [ -e "$libraries/libmpich.so" ]; then
+    with_openmpi_hdf5 mpi "$libraries/openmpi/lib/libmpi.so" "$libraries/openmpi/include" ||
+        { complain 'Open MPI by a link'; tail -n 5 log; }
+    with_openmpi_hdf5 mpich "$libraries/libmpich.so" "/usr/include/$multiarch/mpich" &&
+        complain 'MPICH with the HDF5 of Open MPI'
+    grep -q 'was built with another MPI library' log ||
+        { complain 'no word of two MPI libraries'; tail -n 5 log; }
+else
+    printf 'skipped: Debian has not both MPI libraries installed\n'
 fi
 
 mkdir parent
@@ -47,7 +75,7 @@ if command -v git >/dev/null && git -C "$CARROM_SOURCE_DIR" rev-parse HEAD >/dev
     for mark in '' -modified; do
         [ -z "$mark" ] || echo '# changed' >>clone/README.md
         configured clone -G Ninja || { complain 'the clone'; tail -n 5 log; }
-        grep -q "CARROM_COMMIT=.*$commit$mark[\\\\\"]" "$test_folder/build/build.ninja" ||
+        grep -q "CARROM_COMMIT=.*${commit}${mark}[\\\\\"]" "$test_folder/build/build.ninja" ||
             complain "--version would not show $commit$mark"
     done
 fi

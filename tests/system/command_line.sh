@@ -65,19 +65,26 @@ for number in 2 ' 2' 2,1 ''; do
 done
 unset OMP_NUM_THREADS
 
-# Ranks whose threads share cores wait for each other busily unless told otherwise: warned of, once.
-cores=$(nproc)
-unset OMP_WAIT_POLICY
-run 2 run tiny.in --quiet --threads "$cores"
-expect_code 0 'ranks that share cores'
-expect_told "warning: 2 ranks of $cores threads share $cores cores" 'ranks that share cores'
-[ "$(grep -c 'share' "$test_folder/err")" -eq 1 ] || complain 'shared cores are told on every rank'
-run 1 run tiny.in --quiet --threads $((2 * cores)) # the OpenMP library sees that by itself
-[ ! -s "$test_folder/err" ] ||
-    { complain 'a lone rank with more threads than cores is warned of'; show; }
+# Threads that wait sleep, unless the user has chosen: the system shows with which variables the
+# program goes on. It waits for its scene meanwhile.
+wait_policy() { # VARIABLE=VALUE...: the policy of a run with these variables
+    { sleep 3 && cat tiny.in; } | env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT "$@" \
+        "$CARROM_PROGRAM" run - --quiet >/dev/null 2>&1 &
+    local process=$! found=none
+    for _ in $(seq 25); do
+        found=$(tr '\0' '\n' <"/proc/$process/environ" | sed -n 's/^OMP_WAIT_POLICY=//p')
+        [ -z "$found" ] || break
+        sleep 0.1
+    done
+    wait "$process" || found="an end with code $?"
+    echo "$found"
+}
+[ "$(wait_policy A=1)" = passive ] || complain 'threads spin while they wait'
+[ "$(wait_policy OMP_WAIT_POLICY=active)" = active ] || complain 'the wait policy is not kept'
 export OMP_WAIT_POLICY=passive
+cores=$(nproc)
 run 2 run tiny.in --quiet --threads "$cores"
-[ ! -s "$test_folder/err" ] || { complain 'warned of threads that wait asleep'; show; }
+[ ! -s "$test_folder/err" ] || { complain 'warned of ranks that share cores'; show; }
 
 # No MPI where none is needed, and no daemon of its own for a run without mpirun. MPI makes itself
 # known by its libraries' settings, a daemon by being another program.

@@ -12,7 +12,7 @@ export OMP_WAIT_POLICY=passive
 test_folder=$PWD
 rm -rf files out err
 mkdir files
-cd files
+cd files || exit
 
 n_failures=0 n_runs=0
 complain() {

@@ -64,6 +64,35 @@ while read -r mistake rule; do
 done < <(student --mistakes)
 [ "$n_named" -ge 35 ] || complain "only $n_named wrong outputs were tried"
 
+# One decimal is enough where roundings do not decide; where they do, later steps are not graded.
+printf '%s\n' 2 16 0.5 6 print '0 4 8.2 1 0' '1 8 8 -0.3 0.2' >pair.in
+student pair.in '' .1f >coarse.out
+compare 0 coarse.out pair.in
+student pair.in half .1f >coarse.out
+compare 1 coarse.out pair.in
+grep -q '^rule: impulse$' "$test_folder/out" || complain 'one decimal hides half an impulse'
+student random_1.in '' .1f >coarse.out
+compare 6 coarse.out random_1.in
+
+# Points: all for a right program, fewer for a wrong one, and the same first line that differs.
+points() { sed -n 's/^points: \([0-9]*\) of 100$/\1/p' "$test_folder/out"; }
+compare 0 ties.out ties.in --points
+[ "$(points)" = 100 ] || complain "a right program has $(points) points"
+student ties.in corner .8f >wrong.out
+compare 1 wrong.out ties.in
+verdict=$(sed -n 1,4p "$test_folder/out")
+compare 1 wrong.out ties.in --points
+[ "$(sed -n 1,4p "$test_folder/out")" = "$verdict" ] || complain 'points change the verdict'
+# One of six steps has the corner; its disc counts both walls once in either way.
+grep -q '^  steps    50 of 60: 5 of 6 ' "$test_folder/out" ||
+    complain "a wrong corner: $(cat "$test_folder/out")"
+sed '/^6 3 /s/ [0-9]*$/ 9/' ties.out >wrong.out
+compare 1 wrong.out ties.in --points
+[ "$(points)" = 80 ] || complain "wrong counters have $(points) points, not 80"
+student random_1.in short .8f >wrong.out
+compare 1 wrong.out random_1.in --points
+grep -q '^  lines     0 of 10$' "$test_folder/out" || complain 'missing lines keep their points'
+
 # The first line that differs is where one number was changed, and the tolerance is what decides.
 student ties.in '' .8f | sed '8s/ 8[.]00000000 0/ 8.00001000 0/' >moved.out
 compare 1 moved.out ties.in

@@ -2,42 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # docs/examples/disc_property.patch gives each disc a charge, a number that goes where the disc
 # goes, in at most six files.
-#
-#   disc_property.sh                             does it still apply?
-#   disc_property.sh PYTHON CMAKE OPTION...      builds a copy of the tree with it, and runs that
-#
-# PYTHON is a folder for a Python environment with h5py, CMAKE OPTION... configure the copy.
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
-change=$CARROM_SOURCE_DIR/docs/examples/disc_property.patch
-printed=(keys conflicts) # pages of the reference that the program prints
-
-n_files=$(($(grep -c '^+++ ' "$change") + ${#printed[@]}))
-[ "$n_files" -le 6 ] || complain "it touches $n_files files, not six at most"
-check_patch "$change"
-[ $# -gt 0 ] || finish
-[ "$n_failures" -eq 0 ] || finish
-
-python=$1/bin/python
-{ [ -x "$python" ] || python3 -m venv "$1"; } >"$test_folder/err" 2>&1 &&
-    { "$python" -c 'import h5py' 2>/dev/null ||
-        timeout 200 "$python" -m pip install --quiet --disable-pip-version-check \
-            --only-binary :all: --retries 1 --timeout 10 h5py >>"$test_folder/err" 2>&1; } || {
-    printf 'skipped: no h5py: %s\n' "$(tail -n 1 "$test_folder/err")"
-    exit 77
-}
+. "$CARROM_SOURCE_DIR/tests/system/feature_patch.sh"
+begin_patch $# disc_property 6 keys conflicts
+get_python "$1" h5py
 shift
 
 # The plain program stays: discs must fly there as here.
 plain=$CARROM_PROGRAM
 build_copy_with "$change" "$@"
 charged=$CARROM_PROGRAM
-for page in "${printed[@]}"; do
-    words=(keys)
-    [ "$page" = keys ] || words+=("--$page")
-    "$charged" "${words[@]}" | diff "$CARROM_SOURCE_DIR/docs/reference/$page.md" - >"$page.diff"
-    [ "$(grep -c '^>' "$page.diff")" -gt 0 ] || complain "$page.md does not change"
-    grep '^>' "$page.diff" | grep -qv charge && complain "other lines of $page.md change"
-done
+expect_pages charge
 
 # Discs in a box with an open side, with charges of species, and in a periodic one, from a file.
 cat >open.toml <<'END'
@@ -107,18 +82,7 @@ for method in time-stepped event-driven; do
         [ "$(json_value "plain_$name/report.json" state_hash)" = \
             "$(json_value "none_$name/report.json" state_hash)" ] ||
             complain "$name: another state hash without charges"
-        run 1 run $scene.toml "${options[@]}" -o "one_$name"
-        expect_code 0 "$name on 1 rank"
-        hash=$(json_value "one_$name/report.json" state_hash)
-        run 3 run $scene.toml "${options[@]}" -o "three_$name"
-        expect_code 0 "$name on 3 ranks"
-        run 3 run --restart "one_$name/checkpoints/checkpoint-000000000050.h5" --quiet \
-            -o "again_$name"
-        expect_code 0 "$name on 3 ranks, from a checkpoint of 1"
-        for folder in "three_$name" "again_$name"; do
-            [ "$(json_value "$folder/report.json" state_hash)" = "$hash" ] ||
-                complain "$folder: another state hash"
-        done
+        expect_one_hash $scene.toml "$name" --set "time.method=$method"
         [ "$hash" != "$(json_value "plain_$name/report.json" state_hash)" ] ||
             complain "$name: the state hash does not cover charges"
         cmp <(places "$plain" "plain_$name") <(places "$charged" "one_$name") ||

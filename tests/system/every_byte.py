@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damage each page and each bit of a run's files, and ask everything that reads them.
 
-`every_byte.py PROGRAM ASK_OFTEN SCENE (sample|bytes|bits) TABLE.csv`, in an empty folder.
+`every_byte.py PROGRAM ASK_OFTEN (sample|bytes|bits) TABLE.csv`, in an empty folder.
 
 Damage must be found: no reader may call a damaged file whole, go on from it with other numbers, or
 crash. Each share zeroes all pages. `sample` flips bits beside the names of links and in the headers
@@ -33,6 +33,26 @@ PAGE = 4096
 LONGEST_RUN = 64  # zeros beyond these are room that no structure uses
 MARKS = (b"carrom", b"run\0", b"checksums", b"particles", b"TREE", b"SNOD", b"HEAP", b"OHDR")
 EVERY = {"sample": 31, "bytes": 199, "bits": 997}  # so many bits is one for all readers
+SMALL = """[box]
+size = 20
+[discs]
+count = 12
+packing = 0.4
+speed = 2
+[time]
+method = "event-driven"
+[output]
+text = "none"
+collisions = true
+[output.trajectory]
+every_steps = 1
+[output.checkpoint]
+every_steps = 2
+[output.measurements]
+quantities = ["velocities"]
+every_steps = 2
+bins = 4
+"""
 ORIGINAL, WORK = Path("original"), Path("work")
 CHECKPOINT = "checkpoints/checkpoint-000000000004.h5"
 FILES = {
@@ -47,8 +67,8 @@ FILES = {
 class Program:
     """The program; `ask` returns its exit code, negative for a signal, and what it printed."""
 
-    def __init__(self, path: str, scene: str) -> None:
-        self.path, self.scene = path, scene
+    def __init__(self, path: str) -> None:
+        self.path = path
 
     def ask(self, *words: str) -> tuple[int, str]:
         done = subprocess.run(
@@ -67,20 +87,9 @@ class Program:
 
 def make_original(program: Program) -> str:
     """A small run with all its files; returns the state hash of two steps more."""
-    words = [program.scene]
-    for setting in (
-        "discs.count=12",
-        "discs.packing=0.4",
-        "discs.speed=100",
-        "output.text=none",
-        "output.trajectory.every_steps=1",
-        "output.collisions=true",
-        "output.checkpoint.every_steps=2",
-        'output.measurements.quantities=["velocities"]',
-        "output.measurements.every_steps=2",
-    ):
-        words += ["--set", setting]
-    code, text = program.run(*words, "--steps", "4", "-o", str(ORIGINAL))
+    scene = Path("small.toml")
+    scene.write_text(SMALL, encoding="ascii")
+    code, text = program.run(str(scene), "--steps", "4", "-o", str(ORIGINAL))
     assert code == 0, text
     shutil.copytree(ORIGINAL, "further")
     code, text = program.run("-o", "further", "--resume", "--steps", "6")
@@ -116,7 +125,8 @@ def sampled(data: bytes) -> list[int]:
     places = {0, len(data) // 2, len(data) - 1}
     for mark in MARKS:
         for match in itertools.islice(re.finditer(re.escape(mark), data), 3):
-            places |= {match.start(), match.start() + 9}
+            # HDF5 1.10 finds the links of a group with a damaged type of message when asked again.
+            places |= {match.start(), match.start() + 9, max(0, match.start() - 17)}
     return sorted(places & set(used(data)))
 
 
@@ -189,8 +199,7 @@ def readers(program: Program, kind: str, wanted: str) -> dict[str, str]:
 
 
 def main() -> int:
-    program, ask_often = Program(sys.argv[1], sys.argv[3]), sys.argv[2]
-    share = sys.argv[4]
+    program, ask_often, share, table_path = Program(sys.argv[1]), *sys.argv[2:5]
     wanted = make_original(program)
     counts: Counter[tuple[str, str, str]] = Counter()
     failures: list[str] = []
@@ -219,19 +228,20 @@ def main() -> int:
             take(kind, "bit flipped", f"bit {bit} of byte {place}", found)
         shutil.rmtree(WORK, ignore_errors=True)
         shutil.copytree(ORIGINAL, WORK)
-        codes = subprocess.run(
+        asked = subprocess.run(
             [ask_often, str(WORK / name), "verify", str(WORK / joining(name))],
             input="".join(f"{place} {bit}\n" for place, bit in flips),
             capture_output=True,
             text=True,
             check=True,
-        ).stdout.split()
+        )
+        codes = asked.stdout.split()
         assert len(codes) == len(flips) and (WORK / name).read_bytes() == data
         for (place, bit), code in zip(flips, codes):
             wrong = "" if code == "2" else f"verify ended with {code}"
             take(kind, "bit flipped", f"bit {bit} of byte {place}", {"verify": wrong})
-        print(f"{kind}: {len(flips)} bits", flush=True)
-    with open(sys.argv[5], "w", encoding="ascii", newline="") as file:
+        print(f"{kind}: {asked.stderr.strip()}", flush=True)
+    with open(table_path, "w", encoding="ascii", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["file", "damage", "reader", "trials"])
         table.writerows([*key, count] for key, count in sorted(counts.items()))

@@ -8,6 +8,6 @@ python=$2/package/bin/python
 "$python" -c 'import h5py, numpy' 2>/dev/null || python=python3
 CARROM=$CARROM_PROGRAM PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$CARROM_SOURCE_DIR/src/python \
     "$python" "$(dirname "$0")/every_byte.py" "$CARROM_PROGRAM" "$1" \
-    "$CARROM_SOURCE_DIR/inputs/gas.toml" "$3" "$test_folder/trials.csv" ||
+    "$3" "$test_folder/trials.csv" ||
     complain 'damage was not found'
 finish

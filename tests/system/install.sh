@@ -44,9 +44,10 @@ plain=$test_folder/page
 sed 's/\\-/-/g' "$page" >"$plain"
 for command in '' run accuracy info verify convert diff; do
     run 1 $command --help
-    for option in $(grep -oE '^ +(-h,)?--[a-z-]+' "$test_folder/out" | grep -oE -- '--[a-z-]+'); do
+    grep -oE '^ +(-h,)?--[a-z-]+' "$test_folder/out" | grep -oE -- '--[a-z-]+' >options
+    while read -r option; do
         grep -qwF -- "$option" "$plain" || complain "the manual lacks $option of carrom $command"
-    done
+    done <options
     [ -z "$command" ] || grep -qx ".B $command" "$plain" || complain "the manual lacks $command"
 done
 if command -v man >"$test_folder/out"; then
@@ -71,6 +72,23 @@ step by_pkg_config "$compiler" -std=c++20 "$CARROM_SOURCE_DIR/docs/examples/embe
     -o "$test_folder/embed/by_pkg_config" "${words[@]}"
 [ "$(flags --modversion)" = "$("$CARROM_PROGRAM" --version | sed -n '1s/carrom //p')" ] ||
     complain "carrom.pc has another version: $(flags --modversion)"
+
+# What is installed does not say where it was built.
+library=$(dirname "$(dirname "$(find "$prefix" -name carrom.pc)")")
+if grep -qx 'CMAKE_BUILD_TYPE:[A-Z]*=Release' "$build/CMakeCache.txt"; then
+    for file in "$prefix/bin/carrom" "$library"/libcarrom.*; do
+        for folder in "$CARROM_SOURCE_DIR" "$(realpath "$build")"; do
+            grep -qF "$folder/" "$file" && complain "$file names $folder"
+        done
+    done
+fi
+
+# Built so, the archive fits into shared libraries of others: its code depends on no address.
+if [ -e "$library/libcarrom.a" ] &&
+    grep -qx 'CMAKE_POSITION_INDEPENDENT_CODE:[A-Z]*=ON' "$build/CMakeCache.txt"; then
+    step into_a_library "$compiler" -shared -Wl,-z,text -o "$test_folder/embed/libother.so" \
+        -Wl,--whole-archive "$library/libcarrom.a" -Wl,--no-whole-archive
+fi
 
 # expect_hash RANKS HASH SCENE...: the example's last line.
 expect_hash() {

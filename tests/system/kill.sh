@@ -36,7 +36,7 @@ end_of() {
         sleep 0.1
     done
     if kill -0 "$1" 2>/dev/null; then
-        ps -o stat= --ppid "$1" | grep -qv '^Z' &&
+        [ -n "$(ps -o stat= --ppid "$1" | sed '/^Z/d')" ] &&
             complain 'ranks live on after one of them was killed'
         echo 'the launcher did not come back though all its ranks were gone'
         kill -KILL "$1"

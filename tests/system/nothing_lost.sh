@@ -44,11 +44,46 @@ for how in '--resume' '--restart latest'; do
 done
 CARROM_FAIL_LISTING=/checkpoints LD_PRELOAD=$failing run 1 run -o kept --resume --steps 30 --quiet
 still_there 'a folder that cannot be listed, without a scene'
-if [ "$(id -u)" -ne 0 ]; then # root may read everything
-    chmod 000 kept/checkpoints
-    run 1 run "${scene[@]}" -o kept --steps 30 --resume
-    chmod 755 kept/checkpoints
-    still_there 'a folder without rights'
+
+# An ordinary user's folders without rights. Root may read everything, so it becomes nobody.
+nobody=()
+if [ "$(id -u)" -eq 0 ]; then
+    nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+    "${nobody[@]}" test -x "$CARROM_PROGRAM" || nobody=(no)
+    "${nobody[@]}" test -r "$CARROM_SOURCE_DIR/inputs/gas.toml" || nobody=(no)
+fi
+cp -r kept locked
+chown -R "$(id -u | sed 's/^0$/65534/')" locked
+sums_of locked >before_locked
+as_nobody() { # CASE TEXT WORD...
+    local case=$1 text=$2
+    shift 2
+    n_runs=$((n_runs + 1))
+    "${nobody[@]}" timeout 60 "$CARROM_PROGRAM" run "${scene[@]}" -o locked --steps 30 "$@" \
+        >"$test_folder/out" 2>"$test_folder/err"
+    code=$?
+    chmod 755 locked/*/
+    expect_code 2 "$case"
+    expect_told "$text" "$case"
+    sums_of locked | grep -v scene.toml | cmp - <(grep -v scene.toml before_locked) ||
+        complain "files have changed: $case"
+}
+if [ "${nobody[*]}" = no ]; then
+    echo 'skipped: nobody may not run the program there'
+else
+    for mode in 000 444; do
+        for name in checkpoints trajectory collisions measurements; do
+            chmod $mode locked/$name
+            as_nobody "$name $mode, --overwrite" "locked/$name" --overwrite
+        done
+        chmod $mode locked/trajectory
+        as_nobody "trajectory $mode, --resume" \
+            'trajectory.h5: its part trajectory/0001.h5: cannot be opened: Permission' --resume
+    done
+    chmod 000 locked/checkpoints
+    as_nobody 'checkpoints 000, --resume' 'cannot be listed: Permission denied' --resume
+    chmod 555 locked/measurements
+    as_nobody 'measurements 555, --overwrite' '--overwrite cannot remove' --overwrite
 fi
 
 # Each kind of recording alone is enough, and a run of which only the start is there begins anew.
@@ -62,6 +97,22 @@ for name in trajectory.h5 collisions.h5 measurements/thermo.csv; do
     expect_code 2 "$name and no checkpoint"
     expect_told "has $name of a run" "$name and no checkpoint"
     cmp "kept/$name" "part/$name" || complain "$name was replaced"
+done
+# A segment of which the joining file was deleted is a recording all the same.
+for name in trajectory collisions; do
+    rm -rf part
+    mkdir part
+    cp -r kept/scene.toml "kept/$name" part/
+    for ranks in 1 3; do
+        run "$ranks" run "${scene[@]}" -o part --steps 30 --resume
+        expect_code 2 "$name/0001.h5 alone on $ranks ranks"
+        expect_told "has $name/0001.h5 of a run and no checkpoint" "$name/0001.h5 alone"
+    done
+    cp -r kept/checkpoints part/
+    run 1 run "${scene[@]}" -o part --steps 30 --resume
+    expect_code 2 "a checkpoint, and $name/0001.h5 without $name.h5"
+    expect_told "$name.h5: is not there, and its segment $name/0001.h5 is" "$name.h5 is lost"
+    cmp "kept/$name/0001.h5" "part/$name/0001.h5" || complain "a segment of $name was replaced"
 done
 run 1 run "${scene[@]}" -o start --steps 0 --set output.checkpoint.at_end=false
 expect_code 0 'a start'
@@ -81,6 +132,22 @@ for file in "${foreign[@]}"; do [ -e "$file" ] || complain "$file was removed"; 
 [ ! -e mine/trajectory/0009.h5 ] || complain 'a segment of the run before is left'
 [ "$(ls mine/checkpoints/checkpoint-0*)" = mine/checkpoints/checkpoint-000000000004.h5 ] ||
     complain "other checkpoints: $(ls mine/checkpoints)"
+# A foreign file that has the name of a table is not replaced.
+for how in '-o tabled' '-o kept --resume' '-o kept --overwrite'; do
+    folder=$(cut -d ' ' -f 2 <<<"$how")
+    mkdir -p "$folder/measurements"
+    [ "$folder" = tabled ] || mv kept/measurements/thermo.csv aside.csv
+    printf 'day,temperature\n1,290\n' >"$folder/measurements/thermo.csv"
+    sums_of "$folder" >before_table
+    # shellcheck disable=SC2086 # several words
+    run 2 run "${scene[@]}" --steps 30 $how
+    expect_code 2 "a foreign thermo.csv, $how"
+    expect_told "$folder/measurements/thermo.csv is no table that a run has written" "$how"
+    sums_of "$folder" | cmp - before_table || complain "files have changed: foreign table, $how"
+    [ "$folder" = tabled ] || mv aside.csv kept/measurements/thermo.csv
+done
+sums_of kept | cmp - before || complain 'the test has not brought the table back'
+
 mkdir far
 mv mine/checkpoints/* far/
 rmdir mine/checkpoints

@@ -10,7 +10,8 @@ PATH, and Python finds the package carrom.
 
   ```sh     runs in bash. It must end with code 0, or with N after <!-- exit code N -->.
   ```text   is what the sh block before it prints, standard error included.
-  others    stand behind <!-- file: NAME --> and are written to that file.
+  others    stand behind <!-- file: NAME --> and are written to that file. The text before names it
+            as `NAME`, because a reader does not see the comment.
 
 In a text block `...` stands for any text, and a line `...` for any lines. Behind the labels of
 TIMES any text will do: it depends on the machine. <!-- not run: REASON --> before a block exempts
@@ -182,6 +183,10 @@ class Runner:
         self.complain(block, f"the page shows\n{block.text}but this was printed:\n{printed}")
 
     def write_file(self, block):
+        lines = self.page.read_text().splitlines()[: block.line]
+        since = max((n for n, line in enumerate(lines[:-1]) if FENCE.match(line)), default=0)
+        if f"`{block.notes['file']}`" not in " ".join(lines[since:]):
+            self.complain(block, f"the text before does not name `{block.notes['file']}`")
         path = self.folder / block.notes["file"]
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(block.text)

@@ -1,32 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # docs/examples/quantity.patch adds a quantity by one new file and one line.
-#
-#   quantity.sh                          does the patch still apply?
-#   quantity.sh PYTHON CMAKE OPTION...   builds a copy of the tree with it, and measures
-#
-# PYTHON is a folder for a Python environment with numpy, CMAKE OPTION... configure the copy.
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
-change=$CARROM_SOURCE_DIR/docs/examples/quantity.patch
-
-[ "$(grep -c '^+++ ' "$change")" -eq 2 ] || complain 'it touches other than two files'
-[ "$(grep -c '^--- /dev/null' "$change")" -eq 1 ] || complain 'one of the two is no new file'
-[ "$(sed -n '/^+++ .*CMakeLists/,/^---/p' "$change" | grep -c '^[-+] ')" -eq 1 ] ||
+. "$CARROM_SOURCE_DIR/tests/system/feature_patch.sh"
+patch=$CARROM_SOURCE_DIR/docs/examples/quantity.patch
+[ "$(grep -c '^--- /dev/null' "$patch")" -eq 1 ] || complain 'one of the two is no new file'
+[ "$(sed -n '/^+++ .*CMakeLists/,/^---/p' "$patch" | grep -c '^[-+] ')" -eq 1 ] ||
     complain 'it changes other than one line of the list'
-check_patch "$change"
-[ $# -gt 0 ] || finish
-[ "$n_failures" -eq 0 ] || finish
-
-python=$1/bin/python
-{ [ -x "$python" ] || python3 -m venv "$1"; } >"$test_folder/err" 2>&1 &&
-    { "$python" -c 'import numpy' 2>/dev/null ||
-        timeout 200 "$python" -m pip install --quiet --disable-pip-version-check \
-            --only-binary :all: --retries 1 --timeout 10 numpy >>"$test_folder/err" 2>&1; } || {
-    printf 'skipped: no numpy: %s\n' "$(tail -n 1 "$test_folder/err")"
-    exit 77
-}
+begin_patch $# quantity 2
+get_python "$1" numpy
 shift
-
 build_copy_with "$change" "$@"
 
 "$CARROM_PROGRAM" keys >keys.md

@@ -44,6 +44,45 @@ grep -A1 '"temperature"' none.json | grep -q '"value": null' ||
 grep -q '"value": [^n]' none.json && complain 'an average of no steps is not null'
 rm none.json
 
+# The drift velocity is that of the centre of mass: 30 discs of mass 2 and 10 of mass 1 that move
+# at (0.25, -0.5) with the left half and at (0.75, 0.5) with the right one. Its reference is the sum
+# over the discs of the last checkpoint, as text.
+cat >streams.toml <<'END'
+[box]
+size = 40
+left = { kind = "periodic" }
+right = { kind = "periodic" }
+bottom = { kind = "periodic" }
+top = { kind = "periodic" }
+[[discs.species]]
+count = 30
+radius = 1
+mass = 2
+[[discs.species]]
+count = 10
+radius = 0.5
+mass = 1
+[discs]
+speed = 0.1
+streams = [{ region = [0, 0, 20, 40], velocity = [0.25, -0.5] },
+           { region = [20, 0, 40, 40], velocity = [0.75, 0.5] }]
+[time]
+method = "event-driven"
+steps = 50
+END
+run 2 run streams.toml --quiet --threads 1 --report drift.json -o streams
+expect_code 0 'two streams of two species'
+run 1 convert streams/checkpoints/checkpoint-000000000050.h5 --to text
+expect_code 0 'the discs of two streams as text'
+sed -n '/"drift_velocity"/,/]/s/^ *\(-*[0-9][^,]*\),*$/\1/p' drift.json >reported
+awk 'NF == 8 && $1 !~ /#/ { mass = $2 < 30 ? 2 : 1; all += mass; x += mass * $5; y += mass * $6 }
+     FILENAME == "reported" && NF == 1 { got[++n] = $1 }
+     END { exit !(all == 70 && n == 2 && (got[1] - x / all) ^ 2 < 1e-24 &&
+                  (got[2] - y / all) ^ 2 < 1e-24 && x > 0.3 * all && y ^ 2 > 1e-6) }' \
+    reported "$test_folder/out" ||
+    complain "drift velocity $(cat reported) is not that of $(cat "$test_folder/out")"
+rm -r streams streams.toml drift.json reported
+
 # Files that look like a report being written are somebody else's.
 printf 'precious\n' >victim
 ln -s victim report.json.partial

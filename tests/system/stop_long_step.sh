@@ -35,8 +35,9 @@ given_up() {
 
 # expect_kept STEP: the one checkpoint is of that step, and has the bits of a run up to there.
 expect_kept() {
-    local file=kept/checkpoints/$(ls kept/checkpoints) step hash
-    step=$(($(sed 's/^checkpoint-0*\([0-9]*[0-9]\).h5$/\1/' <<<"${file##*/}")))
+    local file step hash
+    file=kept/checkpoints/$(ls kept/checkpoints)
+    step=$((10#$(tr -cd 0-9 <<<"${file%5}")))
     [ "$step" -ge "$1" ] || complain "the state kept is of step $step"
     run 1 info "$file"
     hash=$(sed -n 's/^state hash *//p' "$test_folder/out")

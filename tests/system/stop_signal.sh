@@ -28,7 +28,8 @@ stopped() {
 }
 
 goes_on() {
-    local file=kept/checkpoints/$(ls kept/checkpoints) step
+    local file step
+    file=kept/checkpoints/$(ls kept/checkpoints)
     step=$((10#$(ls kept/checkpoints | tr -cd 0-9 | sed 's/5$//') + 50))
     run 2 run --restart "$file" --steps "$step" --quiet --report report.json
     expect_code 0 'going on'

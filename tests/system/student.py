@@ -21,6 +21,8 @@ MISTAKES = {  # and the rule that `carrom compare` must name
     "lost-blocks": "order",
     "many": "one collision a step",
     "list": "one collision a step",
+    "same-start": "one collision a step",
+    "half": "impulse",
     "no-stop": "stop at a wall",
     "bounce": "stop at a wall",
     "turn": "stop at a wall",
@@ -107,12 +109,13 @@ class Box:
 
     def step(self):
         taken, moved = set(), set()
+        self.start = {disc.id: (disc.x, disc.y, disc.vx, disc.vy) for disc in self.discs}
         for t, p, q in self.candidates():
             both = {p} if q < 0 else {p, q}
             is_free = not both & taken
             if is_free or self.mistake == "lost-blocks":
                 taken |= both
-            if is_free or self.mistake == "list":
+            if is_free or self.mistake in ("list", "same-start"):
                 self.happen(t, p, q, moved)
         for disc in self.discs:
             if disc.id not in moved:
@@ -123,6 +126,9 @@ class Box:
         collision.
         """
         discs = [self.discs[p]] if q < 0 else [self.discs[p], self.discs[q]]
+        if self.mistake == "same-start":
+            self.happen_from_start(t, discs, moved)
+            return
         for disc in discs:
             elapsed = t - 1 if disc.id in moved else t
             disc.x, disc.y = disc.x + disc.vx * elapsed, disc.y + disc.vy * elapsed
@@ -131,6 +137,19 @@ class Box:
         else:
             self.collide(*discs)
         for disc in discs:
+            moved.add(disc.id)
+            self.finish(disc, 1 - t)
+
+    def happen_from_start(self, t, discs, moved):
+        """A collision as if it were the only one of the step; changes of velocity add up."""
+        before = [(disc.vx, disc.vy) for disc in discs]
+        for disc in discs:
+            x, y, disc.vx, disc.vy = self.start[disc.id]
+            disc.x, disc.y = x + disc.vx * t, y + disc.vy * t
+        self.bounce(discs[0]) if len(discs) == 1 else self.collide(*discs)
+        for disc, (vx, vy) in zip(discs, before, strict=True):
+            disc.vx += vx - self.start[disc.id][2]
+            disc.vy += vy - self.start[disc.id][3]
             moved.add(disc.id)
             self.finish(disc, 1 - t)
 
@@ -180,6 +199,8 @@ class Box:
         nx, ny = (q.x - p.x) / distance, (q.y - p.y) / distance
         pn, pt = p.vx * nx + p.vy * ny, p.vy * nx - p.vx * ny
         qn, qt = q.vx * nx + q.vy * ny, q.vy * nx - q.vx * ny
+        if self.mistake == "half":
+            pn = qn = (pn + qn) / 2
         p.vx, p.vy = qn * nx - pt * ny, qn * ny + pt * nx
         q.vx, q.vy = pn * nx - qt * ny, pn * ny + qt * nx
         p.pairs, q.pairs = p.pairs + 1, q.pairs + 1

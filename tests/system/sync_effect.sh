@@ -1,22 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # docs/examples/sync_effect.patch adds an effect that acts at syncs, in at most four files.
-#
-#   sync_effect.sh                      does it still apply?
-#   sync_effect.sh CMAKE OPTION...      builds a copy of the tree with it, and runs that
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
-change=$CARROM_SOURCE_DIR/docs/examples/sync_effect.patch
-
-n_files=$(grep -c '^+++ ' "$change")
-[ "$n_files" -le 4 ] || complain "it touches $n_files files, not four at most"
-check_patch "$change"
-[ $# -gt 0 ] || finish
-[ "$n_failures" -eq 0 ] || finish
-
-plain=$CARROM_PROGRAM
+. "$CARROM_SOURCE_DIR/tests/system/feature_patch.sh"
+begin_patch $# sync_effect 4 keys
 build_copy_with "$change" "$@"
-"$CARROM_PROGRAM" keys | diff <("$plain" keys) - >keys.diff
-[ "$(grep -c '^> .*effects.wind' keys.diff)" -ge 3 ] || complain 'the page of keys has no wind'
+expect_pages wind
 
 gas_scene 40 300 0.2 0.5 60 >scene.toml
 cat >>scene.toml <<'END'
@@ -28,20 +17,8 @@ speed = 0.3
 checkpoint.every_steps = 25
 END
 for method in time-stepped event-driven; do
-    options=(--quiet --set "time.method=$method")
-    run 1 run scene.toml "${options[@]}" --check -o "one_$method"
-    expect_code 0 "$method on 1 rank"
-    hash=$(json_value "one_$method/report.json" state_hash)
+    expect_one_hash scene.toml "$method" --set "time.method=$method" --check
     grep -q 'wind of speed 0.3' "one_$method/report.json" || complain 'the report has no wind'
-    run 3 run scene.toml "${options[@]}" --check -o "three_$method"
-    expect_code 0 "$method on 3 ranks"
-    run 3 run --restart "one_$method/checkpoints/checkpoint-000000000050.h5" --quiet \
-        -o "again_$method"
-    expect_code 0 "$method on 3 ranks, from a checkpoint of 1"
-    for folder in "three_$method" "again_$method"; do
-        [ "$(json_value "$folder/report.json" state_hash)" = "$hash" ] ||
-            complain "$folder: another state hash"
-    done
 done
 
 # Without collisions of walls, the mean velocity nears that of the wind: each sync of 8 steps leaves

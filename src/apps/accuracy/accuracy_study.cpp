@@ -132,12 +132,12 @@ std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& 
     Scene here = with_setting(study.scene, setting);
     here.steps = steps;
     Simulation simulation(here, start.discs, study.ranks, study.tuning);
-    std::vector<std::vector<InputDisc>> looks;
+    std::vector<std::vector<InputDisc>> samples;
     for (std::int64_t step = every; step <= steps; step += every) {
         advance_to(simulation, step);
-        looks.push_back(discs_now(simulation));
+        samples.push_back(discs_now(simulation));
     }
-    return looks;
+    return samples;
 }
 
 /// `exact` are the discs of the exact run at the early step.
@@ -199,12 +199,12 @@ void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
     };
     const auto run = [&](const Item& item, const TrialStart& start) {
         const TrialKey key{item.start, item.setting, {}, 0};
-        const auto looks = trace(study, item.setting, start, every, last);
-        for (std::size_t k = 0; k < looks.size(); ++k) {
+        const auto samples = trace(study, item.setting, start, every, last);
+        for (std::size_t k = 0; k < samples.size(); ++k) {
             const auto step = static_cast<std::int64_t>(k + 1) * every;
             const double collisions = start.frequency * static_cast<double>(step);
             table.append(distances_line(scene, start, key, step, collisions,
-                                        distance_between(looks[k], exact[k], 2 * scene.radius)));
+                                        distance_between(samples[k], exact[k], 2 * scene.radius)));
         }
     };
     run_all(study, items, begin, run);

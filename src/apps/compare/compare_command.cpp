@@ -24,10 +24,15 @@ constexpr const char* compare_footer =
     R"(OUTPUT has the lines that a program for the same scene has written: `step id x y vx vy`, in
 the last step also `p_c w_c`. It is held to the time-stepped method. The first line that differs is
 printed, with the rule that decides it and what the program may do instead: order, one collision
-a step, stop at a wall, overlap, corner, counters, lines.
+a step, impulse, stop at a wall, overlap, corner, counters, lines.
 
 The tolerance is for positions and for velocities per step. One unit of the last digit that OUTPUT
-has comes on top. Roundings grow with every collision, and lines may be off by that much more.
+has comes on top, up to half a radius. Roundings grow with every collision, and lines may be off by
+that much more.
+
+With --points grading goes on behind a wrong step, from the lines of the student, and a score is
+printed: 10 points for whole lines, 10 for the start, 60 for the share of steps that follow from the
+step before, 20 for the counters of the last step.
 
 Examples:
   carrom compare output.txt inputs/tiny.in
@@ -41,6 +46,7 @@ struct CompareOptions {
     std::string output, scene;
     std::vector<std::string> overrides;
     std::optional<double> tolerance;
+    bool counts_points = false;
 };
 
 /// The reasons why a scene cannot be compared.
@@ -73,24 +79,25 @@ Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
     return scene;
 }
 
-/// Grades step after step; returns false at the first wrong line. **Collective.**
+/// Grades step after step; returns whether no line differs. **Collective.**
 bool grade(const Scene& scene, ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
-    int is_right = 1, has_left_runs = 0;
-    for (std::int64_t step = 0; step <= scene.steps && is_right == 1; ++step) {
+    int goes_on = 1, has_left_runs = 0, is_right = 0;
+    for (std::int64_t step = 0; step <= scene.steps && goes_on == 1; ++step) {
         ExpectedDiscs expected;
         if (has_left_runs == 0) expected = runs.at(step);
         const bool is_written = step == 0 || step == scene.steps ||
                                 scene.text_output == TextOutput::every_step;
         let_root(ranks, [&] {
             if (has_left_runs == 0) grader.note_growth(step, expected);
-            if (is_written && !grader.grade(step, expected)) is_right = 0;
+            if (is_written && !grader.grade(step, expected)) goes_on = 0;
             has_left_runs = grader.has_left_runs() ? 1 : 0;
         });
-        ranks.broadcast(is_right);
+        ranks.broadcast(goes_on);
         ranks.broadcast(has_left_runs);
     }
     let_root(ranks, [&] {
-        if (is_right == 1 && !grader.grade_end()) is_right = 0;
+        if (goes_on == 1) grader.grade_end();
+        is_right = grader.is_right() ? 1 : 0;
     });
     ranks.broadcast(is_right);
     return is_right == 1;
@@ -116,9 +123,10 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
     ComparedRuns runs(scene, load_discs(scene, &scene_file, ranks), ranks);
     std::istream& output = options.output == "-" ? std::cin : output_file;
     Grader grader(scene, options.tolerance.value_or(1e-6 * scene.radius), output,
-                  options.output == "-" ? "standard input" : options.output);
+                  options.output == "-" ? "standard input" : options.output, options.counts_points);
     const bool is_same = grade(scene, runs, grader, ranks);
     if (ranks.is_root()) fmt::print("{}", grader.verdict());
+    if (ranks.is_root() && options.counts_points) fmt::print("{}", grader.points().text());
     int is_graded = grader.has_graded_all() ? 1 : 0; // only rank 0 knows it
     ranks.broadcast(is_graded);
     if (!is_same) return ExitCode::difference;
@@ -140,6 +148,7 @@ Subcommand compare_subcommand() {
              {"SCENE", "", "SCENE.toml or FILE.in", &options->scene, true},
              {"--tolerance", "X", "Of each number; default 1e-6 of the radius",
               number(options->tolerance, 0.0, largest_double)},
+             {"--points", "", "Print a score of 100 in parts, too", &options->counts_points},
              {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &options->overrides}},
             action};
 }

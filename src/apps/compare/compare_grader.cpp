@@ -21,16 +21,21 @@ constexpr double step_margin = 20;
 constexpr std::uint64_t own_runs = 6; ///< from the output's numbers, the others from near by
 /// In radii: roundings may decide which discs collide if differences are this large.
 constexpr double deciding = 0.1;
-/// In radii: fewer digits do not excuse larger differences.
+/// In radii: a number with few digits in a line of others with more excuses no larger difference,
+/// because zeros at its end may be left out. A step does not follow from lines that all are
+/// coarser.
 constexpr double coarsest_digit = 0.01;
+/// In radii: an output whose numbers all have few digits excuses no larger difference.
+constexpr double coarsest_output = 0.5;
 
 } // namespace
 
-Grader::Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name)
+Grader::Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name,
+               bool counts_points)
     : scene_(scene), setting_{scene.box, scene.radius, scene.micro_steps, scene.sync_every},
       tolerance_(tolerance), unit_(static_cast<double>(scene.micro_steps)), output_(stream, name),
       lines_(scene.n_discs), digits_before_(scene.n_discs),
-      is_counter_unknown_(scene.n_discs, false) {}
+      is_counter_unknown_(scene.n_discs, false), counts_points_(counts_points) {}
 
 void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
     if (has_left_runs_) return;
@@ -42,30 +47,52 @@ void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
 bool Grader::grade(std::int64_t step, const ExpectedDiscs& expected) {
     if (!read(step)) return false;
     n_steps_ += 1;
-    if (has_left_runs_ && step - written_before_ > 1) {
+    if (!can_grade(step)) {
         n_not_graded_ += 1;
         return are_possible(step);
     }
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
-    if (!hold_to(aim, step) || !hold_excused(aim, step) || !hold_counters(aim, step)) return false;
+    const bool is_as_it_should_be = hold(aim, step);
+    if (!is_as_it_should_be && !(counts_points_ && are_possible(step))) return false;
     own_before_ = own_state(aim, step);
     before_ = own_before_;
+    if (!is_as_it_should_be) has_left_runs_ = true; // the program's run is elsewhere by now
     if (!has_left_runs_) before_->discs = aim.discs;
     for (const StudentLine& line : lines_) digits_before_[line.id] = line.last_digit;
+    finest_before_ = finest_;
     written_before_ = step;
     return true;
 }
 
-bool Grader::grade_end() {
+/// A step follows from the student's lines only if they are of the step before, and fine enough.
+bool Grader::can_grade(std::int64_t step) const {
+    if (!has_left_runs_) return true;
+    return step - written_before_ <= 1 && finest_before_ <= coarsest_digit * setting_.radius;
+}
+
+/// Compares the lines of a step with the rule, and counts points.
+bool Grader::hold(const Aim& aim, std::int64_t step) {
+    const bool are_places_right = hold_to(aim, step) && hold_excused(aim, step);
+    const bool are_counters_right = hold_counters(aim, step);
+    if (is_last(step)) points_.are_counters_right = are_counters_right;
+    if (step == 0) points_.is_start_right = are_places_right;
+    if (step > 0) points_.n_graded += 1;
+    if (step > 0 && are_places_right) points_.n_right += 1;
+    return are_places_right && are_counters_right;
+}
+
+void Grader::grade_end() {
     StudentLine line;
-    if (!output_.next(line)) return true;
-    verdict_ = fmt::format("line {}: the output should end before this line\nrule: lines\n",
-                           line.number);
-    return false;
+    if (!output_.next(line)) return;
+    points_.are_lines_whole = false;
+    if (verdict_.empty())
+        verdict_ = fmt::format("line {}: the output should end before this line\nrule: lines\n",
+                               line.number);
 }
 
 /// Reads the lines of a step; false if they are not those of all discs by id.
 bool Grader::read(std::int64_t step) {
+    finest_ = unlimited;
     for (DiscId id = 0; id < scene_.n_discs; ++id) {
         StudentLine& line = lines_[id];
         const std::string wrong = output_.next(line)
@@ -73,11 +100,15 @@ bool Grader::read(std::int64_t step) {
                                       : fmt::format(
                                             "end of the output: step {}, disc {} is missing", step,
                                             id);
+        finest_ = std::min(finest_, line.finest_digit);
         if (wrong.empty()) continue;
+        points_.are_lines_whole = false;
+        if (!verdict_.empty()) return false;
         verdict_ = wrong + "\nrule: lines\n  each step that is written has all discs by id; the "
                            "last one has p_c and w_c too\n";
         return false;
     }
+    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show how they were rounded
     return true;
 }
 
@@ -88,6 +119,7 @@ bool Grader::are_possible(std::int64_t step) {
         const bool is_inside = line.x >= -slack && line.x <= setting_.box.x + slack &&
                                line.y >= -slack && line.y <= setting_.box.y + slack;
         if (is_inside && std::isfinite(line.vx) && std::isfinite(line.vy)) continue;
+        if (!verdict_.empty()) return false;
         verdict_ = fmt::format("line {}: step {}, disc {} is outside the box or not finite\n"
                                "rule: lines\n  each number is finite, and each centre in the box\n",
                                line.number, step, line.id);
@@ -109,7 +141,8 @@ std::string Grader::misplaced(const StudentLine& line, std::int64_t step, DiscId
 }
 
 double Grader::tolerance_of(const StudentLine& line) const {
-    return tolerance_ + std::min(line.last_digit, coarsest_digit * setting_.radius);
+    return tolerance_ + std::max(std::min(line.last_digit, coarsest_digit * setting_.radius),
+                                 std::min(finest_, coarsest_output * setting_.radius));
 }
 
 Grader::Aim Grader::aim_at(const ExpectedDiscs& expected) const {
@@ -225,6 +258,7 @@ bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
         if (is_counter_unknown_[line.id] || (line.pair_collisions == disc.pair_collisions &&
                                              line.wall_collisions == disc.wall_collisions))
             continue;
+        if (!verdict_.empty()) return false;
         verdict_ = fmt::format(
             "line {}: step {}, disc {}: p_c w_c should be {} {}, is {} {}\nrule: counters\n"
             "  a pair counts once for each of its discs, a bounce in a corner once, a stop at a "
@@ -246,8 +280,9 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
     return discs;
 }
 
-/// Notes the disc's line as the first that differs; returns false.
+/// Notes the disc's line if it is the first that differs; returns false.
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
+    if (!verdict_.empty()) return false;
     const StudentLine& line = lines_[id];
     const Disc& disc = aim.discs[id];
     verdict_ = fmt::format("line {}: step {}, disc {} differs\n", line.number, step, id);
@@ -295,7 +330,9 @@ std::string Grader::verdict() const {
     text += fmt::format("from step {} on roundings decide: runs that begin one bit apart differ\n",
                         first_left_);
     if (n_not_graded_ > 0)
-        text += "  the last step was not graded; write every step (`print`) to have it graded\n";
+        text +=
+            "  later steps were not graded; write every step (`print`) with more digits to have "
+            "them graded\n";
     else
         text += "  from there on each step was held to the rule from the output's step before\n";
     return text;

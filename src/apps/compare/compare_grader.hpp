@@ -15,6 +15,7 @@
 
 #include "apps/compare/compare_lines.hpp"
 #include "apps/compare/compare_mistakes.hpp"
+#include "apps/compare/compare_points.hpp"
 #include "apps/compare/compare_runs.hpp"
 #include "scene/scene.hpp"
 
@@ -22,18 +23,23 @@ namespace carrom {
 
 class Grader {
 public:
-    /// `scene` and `stream` must outlive this.
-    Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name);
+    /// `scene` and `stream` must outlive this. With `counts_points` grading goes on behind a wrong
+    /// step, from the student's own lines.
+    Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name,
+           bool counts_points);
 
     /// Once this is true the program's runs are not needed any more.
     bool has_left_runs() const { return has_left_runs_; }
     /// Measures the growth of roundings at a step, whether it is written or not.
     void note_growth(std::int64_t step, const ExpectedDiscs& expected);
-    /// Reads the lines of that step and compares them with the rule; false at the
-    /// first that differs. `expected` is empty once roundings decide.
+    /// Reads the lines of that step and compares them with the rule; false if grading ends with
+    /// it. `expected` is empty once roundings decide.
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
     /// Checks that no lines follow the last step.
-    bool grade_end();
+    void grade_end();
+    /// Whether no line has differed so far.
+    bool is_right() const { return verdict_.empty(); }
+    const Points& points() const { return points_; }
     /// Whether all written steps so far were compared with the rule.
     bool has_graded_all() const { return n_not_graded_ == 0; }
 
@@ -50,6 +56,8 @@ private:
     };
 
     bool read(std::int64_t step);
+    bool can_grade(std::int64_t step) const;
+    bool hold(const Aim& aim, std::int64_t step);
     bool are_possible(std::int64_t step);
     std::string misplaced(const StudentLine& line, std::int64_t step, DiscId id) const;
     double tolerance_of(const StudentLine& line) const;
@@ -75,13 +83,16 @@ private:
     std::optional<SharedState> before_;     ///< at the written step before, to go on from
     std::optional<SharedState> own_before_; ///< that step by the student's lines
     std::int64_t written_before_ = 0;
-    std::vector<double> digits_before_; ///< StudentLine::last_digit
+    std::vector<double> digits_before_;     ///< StudentLine::last_digit
+    double finest_ = 0, finest_before_ = 0; ///< the finest last digit of any line of a step
     std::vector<bool> is_counter_unknown_;
     bool has_left_runs_ = false;
     std::int64_t first_left_ = 0, n_steps_ = 0, n_not_graded_ = 0;
     std::optional<std::int64_t> first_drift_;
     double largest_ = 0;
-    std::string verdict_;
+    std::string verdict_; ///< the first line that differs; empty before
+    bool counts_points_;
+    Points points_;
 };
 
 } // namespace carrom

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -64,13 +65,16 @@ bool StudentOutput::next(StudentLine& line) {
     if (words_.size() != words_of_a_disc && words_.size() != words_with_counters)
         refuse("is no line of a disc: `step id x y vx vy`, in the last step also `p_c w_c`");
     line = {};
+    line.finest_digit = std::numeric_limits<double>::infinity();
     line.number = lines_.line_number();
     line.step = static_cast<std::int64_t>(count(words_[0]) & ~(std::uint64_t{1} << 63));
     line.id = count(words_[1]);
     double* const numbers[] = {&line.x, &line.y, &line.vx, &line.vy};
     for (std::size_t i = 0; i < 4; ++i) {
         *numbers[i] = number(words_[2 + i]);
-        line.last_digit = std::max(line.last_digit, last_digit_of(words_[2 + i]));
+        const double digit = last_digit_of(words_[2 + i]);
+        line.last_digit = std::max(line.last_digit, digit);
+        if (digit > 0) line.finest_digit = std::min(line.finest_digit, digit);
     }
     line.has_counters = words_.size() == words_with_counters;
     if (line.has_counters) {

@@ -18,7 +18,8 @@ struct StudentLine {
     std::int64_t step = 0;
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
-    double last_digit = 0; ///< the value of one unit of it, in the number with the fewest digits
+    double last_digit = 0;   ///< the value of one unit of it, in the number with the fewest digits
+    double finest_digit = 0; ///< in the number with the most; infinite if all are whole numbers
     bool has_counters = false;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };

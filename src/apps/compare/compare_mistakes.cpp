@@ -18,6 +18,7 @@ struct KnownMistake {
 
 constexpr const char* order = "order";
 constexpr const char* one_collision = "one collision a step";
+constexpr const char* impulse = "impulse";
 constexpr const char* stop_at_wall = "stop at a wall";
 constexpr const char* overlap = "overlap";
 constexpr const char* corner = "corner";
@@ -58,6 +59,10 @@ constexpr std::array known_mistakes{
                  "a disc collides again in the same step, wherever it flies"},
     KnownMistake{Mistake::every_candidate, one_collision,
                  "all collisions of the list are carried out, and discs collide more than once"},
+    KnownMistake{Mistake::each_from_start, one_collision,
+                 "discs collide more than once, each time with the velocities of the step's start"},
+    KnownMistake{Mistake::half_impulse, impulse,
+                 "discs exchange half of their relative velocity, and fly on side by side"},
 };
 
 std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, Mistake mistake) {

@@ -146,6 +146,11 @@ void PlainRule::sort_candidates() {
 }
 
 void PlainRule::keep_candidates(double m) {
+    if (mistake_ == Mistake::each_from_start) {
+        start_ = discs_;
+        for (const Candidate& candidate : candidates_) keep_from_start(candidate, m);
+        return;
+    }
     std::vector<bool> is_taken(discs_.size(), false);
     for (Candidate& candidate : candidates_) {
         const bool is_free = !is_taken[candidate.p] &&
@@ -199,11 +204,42 @@ void PlainRule::keep(const Candidate& candidate, double m) {
     stop(q, m, candidate.t);
 }
 
+/// Carries out a collision with the discs of the micro-step's start, as if each were the only one.
+/// Changes of velocity add up, and the last collision of a disc says from where it flies on.
+void PlainRule::keep_from_start(const Candidate& candidate, double m) {
+    const auto change = [this](DiscId id, const Disc& made) {
+        const Disc& start = start_[id];
+        Disc& disc = discs_[id];
+        disc.vx += made.vx - start.vx;
+        disc.vy += made.vy - start.vy;
+        disc.x = made.x;
+        disc.y = made.y;
+        disc.tau = made.tau;
+        if (made.pair_collisions != start.pair_collisions)
+            ++disc.pair_collisions;
+        else
+            ++disc.wall_collisions;
+    };
+    Disc p = start_[candidate.p];
+    if (is_wall(candidate)) {
+        bounce(p, m, candidate.t);
+        change(candidate.p, p);
+    } else {
+        Disc q = start_[candidate.q];
+        collide(p, q, m + candidate.t);
+        change(candidate.p, p);
+        change(candidate.q, q);
+        stop(discs_[candidate.q], m, candidate.t);
+    }
+    stop(discs_[candidate.p], m, candidate.t);
+}
+
 void PlainRule::collide(Disc& p, Disc& q, double time) const {
     advance(p, time);
     advance(q, time);
     const double ex = q.x - p.x, ey = q.y - p.y;
-    const double k = ((q.vx - p.vx) * ex + (q.vy - p.vy) * ey) / (ex * ex + ey * ey);
+    const double share = mistake_ == Mistake::half_impulse ? 0.5 : 1;
+    const double k = share * ((q.vx - p.vx) * ex + (q.vy - p.vy) * ey) / (ex * ex + ey * ey);
     p.vx += k * ex;
     p.vy += k * ey;
     q.vx -= k * ex;

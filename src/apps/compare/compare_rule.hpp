@@ -29,6 +29,8 @@ enum class Mistake {
     first_choices_only,
     every_collision,
     every_candidate,
+    each_from_start,
+    half_impulse,
     no_stop,
     bounce_for_stop,
     stop_reverses,
@@ -79,6 +81,7 @@ private:
     void keep_candidates(double m);
     void keep_all_collisions(double m);
     void keep(const Candidate& candidate, double m);
+    void keep_from_start(const Candidate& candidate, double m);
     void collide(Disc& p, Disc& q, double time) const;
     void bounce(Disc& disc, double m, double t) const;
     void stop(Disc& disc, double m, double t) const;
@@ -89,6 +92,7 @@ private:
     double deepest_overlap_;
     Mistake mistake_;
     std::vector<Disc> discs_;
+    std::vector<Disc> start_; ///< the discs at the micro-step's start, for `each_from_start`
     std::int64_t micro_steps_;
     std::vector<Candidate> candidates_;
 };

@@ -196,6 +196,8 @@ ExitCode verify(const std::string& path, const Communicator& ranks) {
         const FrameFile file(path);
         const FileSummary& summary = file.summary();
         file.check_numbers();
+        if (is_checkpoint != (summary.kind == FileKind::checkpoint))
+            refuse(path, "is damaged: now it is a checkpoint, and now it is none");
         if (summary.kind == FileKind::trajectory) verify_frames(file, path);
         if (summary.kind == FileKind::collisions) verify_log(file, path);
         if (!summary.has_checksums) {

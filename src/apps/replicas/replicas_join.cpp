@@ -43,7 +43,7 @@ struct AveragedColumn {
     const char* name;
     const char* path;
 };
-constexpr AveragedColumn quantities[] = {
+constexpr AveragedColumn averaged_columns[] = {
     {"temperature", "/temperature/value"},
     {"pressure", "/pressure/value"},
     {"compressibility", "/compressibility/value"},
@@ -80,11 +80,12 @@ void write(const std::string& folder, const std::string& name, const std::string
 std::string lines_of_replicas(const std::vector<Replica>& replicas,
                               const std::vector<Json>& reports) {
     std::string text = "replica,seed,state_hash";
-    for (const AveragedColumn& quantity : quantities) text += fmt::format(",{}", quantity.name);
+    for (const AveragedColumn& quantity : averaged_columns)
+        text += fmt::format(",{}", quantity.name);
     for (std::size_t k = 0; k < reports.size(); ++k) {
         text += fmt::format("\n{},{},{}", k, replicas[k].seed,
                             reports[k].value("state_hash", std::string()));
-        for (const AveragedColumn& quantity : quantities)
+        for (const AveragedColumn& quantity : averaged_columns)
             text += ',' + field(value_in(reports[k], quantity));
     }
     return text + '\n';
@@ -175,13 +176,13 @@ std::string join_replicas(const std::vector<Replica>& replicas, const std::strin
     write(folder, "replicas.csv", lines_of_replicas(replicas, reports));
     std::string text = fmt::format("replicas           {}\n", replicas.size());
     Json joined = {{"replicas", replicas.size()}};
-    for (const AveragedColumn& quantity : quantities) {
+    for (const AveragedColumn& quantity : averaged_columns) {
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);
         if (!std::isfinite(mean.value)) continue; // a replica does not have it
         joined[quantity.name] = {{"value", mean.value}, {"error", or_null(mean.error)}};
-        text += fmt::format("{:<19}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
+        text += fmt::format("{:<20}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
     }
     write(folder, "replicas.json", joined.dump(2) + '\n');
     if (reports.front().contains("measurements"))

@@ -160,14 +160,10 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
     simulation.check_every_step(scene);
 }
 
-/// **Collective.**
 void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
     const std::string unheeded = are_chosen ? "" : warning_of_thread_variable();
-    const std::string crowded = warning_of_shared_cores(threads, ranks);
-    if (!ranks.is_root()) return;
-    if (!unheeded.empty())
+    if (ranks.is_root() && !unheeded.empty())
         print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
-    if (!crowded.empty()) print_message("warning: {}\n", crowded);
 }
 
 /// **Collective.**
@@ -204,8 +200,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     double output_seconds = 0;
     const bool is_done = step_to_end(run, options, output_seconds);
     result.wall_seconds = run.seconds().steps;
-    if (run.sampler()) result.tables = run.sampler()->tables();
-    fill_end(result, simulation);
+    fill_end(result, run);
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);

@@ -11,7 +11,7 @@
 
 #include "core/errors.hpp"
 #include "machine/machine.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 
 namespace carrom {
 
@@ -32,10 +32,12 @@ double imbalance_of(double seconds, const Communicator& ranks) {
 
 } // namespace
 
-void fill_end(RunResult& result, const Simulation& simulation) {
+void fill_end(RunResult& result, const Run& run) {
+    const Simulation& simulation = run.simulation();
     result.last_step = simulation.step();
     result.end = simulation.totals();
-    result.averages = simulation.averages();
+    result.averages = run.sampler().averages();
+    result.tables = run.sampler().tables();
     result.runs = simulation.rollback_counts();
 }
 

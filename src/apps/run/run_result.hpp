@@ -9,13 +9,14 @@
 
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
+#include "run/run.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
 
-/// A finished run. Times and numbers that depend on the machine shape are over all
-/// ranks. The totals are the same for every shape.
+/// A finished run. Times and numbers that depend on the machine shape are combined over all ranks,
+/// as each member says. The totals are the same for every shape.
 struct RunResult {
     Totals start, end;
     std::int64_t first_step = 0, last_step = 0;
@@ -31,8 +32,8 @@ struct RunResult {
     double peak_bytes_per_disc = 0;    ///< the sum of the ranks' peaks, per disc
 };
 
-/// Fills in the simulation's results at its end. **Collective.**
-void fill_end(RunResult& result, const Simulation& simulation);
+/// Fills in what the run has at its end. **Collective.**
+void fill_end(RunResult& result, const Run& run);
 /// Fills in times on the slowest rank, how even they are, and the machine. **Collective.**
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks);
 

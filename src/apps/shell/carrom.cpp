@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `carrom`: every rank runs this, and all of them leave with the same exit code.
 #include "apps/shell/command_line.hpp"
+#include "apps/shell/passive_threads.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
 #include "io/start_io.hpp"
@@ -23,6 +24,7 @@ bool is_started_well(const carrom::Communicator& ranks) {
 int main(int argc, char** argv) {
     carrom::keep_standard_streams();
     const carrom::Action action = carrom::parse_command_line(argc, argv);
+    if (action.needs_mpi || action.stops_on_request) carrom::let_threads_sleep(argv);
     if (action.stops_on_request) carrom::note_stop_signals();
     carrom::start_io();
     const carrom::Mpi mpi(argc, argv,

@@ -73,7 +73,8 @@ MeasuredQuantity density_quantity() {
     return {{.name = "density",
              .help = "Discs per area in strips along x, and along y.",
              .keys = {bins_key()}},
-            make_measurement<Density>};
+            make_measurement<Density>,
+            {"density_x", "density_y"}};
 }
 
 } // namespace carrom

@@ -9,7 +9,7 @@
 #include "measure/flights.hpp"
 #include "measure/measurement.hpp"
 #include "scene/limits.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 
 namespace carrom {
 
@@ -215,7 +215,8 @@ MeasuredQuantity diffusion_quantity() {
                                 return measures(s, "diffusion") && s.effects.have_open_boundaries();
                             }}},
              .check_times = check_window},
-            make_measurement<Diffusion>};
+            make_measurement<Diffusion>,
+            {"velocity_autocorrelation"}};
 }
 
 } // namespace carrom

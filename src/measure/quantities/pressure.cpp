@@ -4,7 +4,7 @@
 
 #include "measure/measurement.hpp"
 #include "measure/pressure_sampler.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 
 namespace carrom {
 
@@ -14,18 +14,18 @@ class Pressure : public Measurement {
 public:
     using Measurement::Measurement;
 
-    void begin() override { sampler_.emplace(run_.simulation, run_.ranks, sums_); }
+    void begin() override { sampler_.emplace(run_.simulation, run_.ranks); }
 
     void sample(const SampledState& state) override {
-        if (!state.is_first) sampler_->sample(sums_, static_cast<double>(run_.output.every_steps));
+        if (!state.is_first) sampler_->sample(static_cast<double>(run_.output.every_steps));
     }
 
     void keep(KeptNumbers& kept) override {
-        keep_pressure(kept, sums_, sampler_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, sampler_, run_.simulation, run_.ranks);
     }
 
     std::vector<MeasuredTable> tables() const override {
-        if (sums_.pressures.empty()) return {};
+        if (!sampler_ || sampler_->pressures().empty()) return {};
         MeasuredTable over_time = history();
         MeasuredTable means = means_of(over_time);
         return {std::move(means), std::move(over_time)};
@@ -42,8 +42,10 @@ private:
             {"from_step", "to_step", "xx", "xy", "yy", "pressure", "temperature",
              "compressibility"},
             {}};
-        for (std::size_t k = 0; k < sums_.pressures.size() / 5; ++k) {
-            const double* const one = sums_.pressures.data() + 5 * k;
+        constexpr std::size_t n = PressureSampler::n_numbers;
+        const std::vector<double>& pressures = sampler_->pressures();
+        for (std::size_t k = 0; k < pressures.size() / n; ++k) {
+            const double* const one = pressures.data() + n * k;
             const double from = run_.step_of(k);
             const double pressure = (one[0] + one[2]) / 2;
             table.rows.push_back({from, from + static_cast<double>(run_.output.every_steps), one[0],
@@ -70,7 +72,9 @@ private:
             table.columns.push_back(history.columns[column]);
         }
         double ideal = 0;
-        for (std::size_t k = 4; k < sums_.pressures.size(); k += 5) ideal += sums_.pressures[k];
+        const std::vector<double>& pressures = sampler_->pressures();
+        for (std::size_t k = 4; k < pressures.size(); k += PressureSampler::n_numbers)
+            ideal += pressures[k];
         means.back() = means[3] * static_cast<double>(history.rows.size()) / ideal;
         for (std::size_t column = 2; column < history.columns.size(); ++column)
             table.columns.push_back(history.columns[column] + "_error");
@@ -79,7 +83,6 @@ private:
         return table;
     }
 
-    PressureSums sums_;
     std::optional<PressureSampler> sampler_;
 };
 
@@ -89,7 +92,8 @@ MeasuredQuantity pressure_quantity() {
     return {{.name = "pressure",
              .help = "The pressure tensor and the compressibility, from all collisions of pairs.",
              .has_history = true},
-            make_measurement<Pressure>};
+            make_measurement<Pressure>,
+            {"pressure_history"}};
 }
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "profiles": density, velocity, temperature about the local mean, and the pressure tensor, on a
-// grid of cells, averaged over one block of time after another.
+// "profiles": density, velocity, temperature about the local mean, the pressure tensor and the flow
+// of heat, on a grid of cells, averaged over one block of time after another.
 //
 // What discs carry is sampled. What collisions carry is not: each collision of a block counts. Its
 // impulse times distance is shared among the cells that the line between both centres crosses, by
@@ -51,6 +51,20 @@ void check_grid(const Check& check) {
                                  n_blocks, n_cells, profile_samples.key_name()));
 }
 
+/// A restart may complete a block, so this is no error.
+void warn_without_blocks(const Check& check) {
+    const MeasurementOutput& output = *check.scene.measurements;
+    const std::int64_t steps = check.scene.steps - output.from_step;
+    const double needed = (profile_samples.of(output) - 1) *
+                          static_cast<double>(output.every_steps);
+    if (check.scene.steps == 0 || steps < 0 || needed <= static_cast<double>(steps)) return;
+    check.scene.warnings.push_back(fmt::format(
+        "no table of profiles: its first block takes {:.0f} steps, and from step {} to the "
+        "last one are {}; try: {} = {} or less",
+        needed, output.from_step, steps, profile_samples.key_name(),
+        steps / output.every_steps + 1));
+}
+
 /// Of a block: the last sample, steps that collisions are of, and the mean edges of the box.
 struct BlockHead {
     double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
@@ -70,6 +84,9 @@ public:
         are_sides_moving_ = std::any_of(sides.begin(), sides.end(), [](const Boundary& side) {
             return side.speed != 0 || side.amplitude != 0;
         });
+        have_masses_ = std::any_of(run.scene.effects.species.begin(),
+                                   run.scene.effects.species.end(),
+                                   [](const Species& one) { return one.mass != 1; });
         DiscId end = 0;
         for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
     }
@@ -81,12 +98,12 @@ public:
     }
 
     void take(std::span<const PairEvent> events) override {
-        Extent box{0, run_.scene.box.x, 0, run_.scene.box.y};
+        Grid grid = grid_in({0, run_.scene.box.x, 0, run_.scene.box.y});
         for (const PairEvent& event : events) {
             if (are_sides_moving_)
-                box = extent_at(run_.scene.effects, run_.scene.box,
-                                event.steps_since(0, run_.scene.micro_steps));
-            add(event, box);
+                grid = grid_in(extent_at(run_.scene.effects, run_.scene.box,
+                                         event.steps_since(0, run_.scene.micro_steps)));
+            add(event, grid);
         }
     }
 
@@ -161,6 +178,8 @@ private:
     std::size_t cell_of(std::int64_t column, std::int64_t row) const {
         const auto within = [](std::int64_t place, std::size_t size, bool is_periodic) {
             const auto n = static_cast<std::int64_t>(size);
+            if (place >= 0 && place < n) [[likely]]
+                return static_cast<std::size_t>(place);
             if (is_periodic) return static_cast<std::size_t>(((place % n) + n) % n);
             return static_cast<std::size_t>(std::clamp<std::int64_t>(place, 0, n - 1));
         };
@@ -168,30 +187,57 @@ private:
                within(column, n_x_, run_.scene.effects.is_periodic_x());
     }
 
+    /// Where cells are: the corner of the first one, and cells in a length.
+    struct Grid {
+        double x = 0, y = 0, per_x = 1, per_y = 1;
+    };
+    Grid grid_in(const Extent& box) const {
+        return {box.x_low, box.y_low, static_cast<double>(n_x_) / (box.x_high - box.x_low),
+                static_cast<double>(n_y_) / (box.y_high - box.y_low)};
+    }
+
+    /// What a collision adds to the stress and to the flow of energy. The energy that goes from p
+    /// to q is the mean of what q gains and p loses.
+    ContactUnits units_of(const PairEvent& event) const {
+        double wx = event.p_vx + event.q_vx, wy = event.p_vy + event.q_vy;
+        if (have_masses_) {
+            const double per = 1 / (2 * species_.of(event.q).mass) -
+                               1 / (2 * species_.of(event.p).mass);
+            wx += event.ix * per, wy += event.iy * per;
+        }
+        const double energy = -(event.ix * wx + event.iy * wy) / 2;
+        return sums_.in_units({-event.ix * event.dx,
+                               -(event.ix * event.dy + event.iy * event.dx) / 2,
+                               -event.iy * event.dy, energy * event.dx, energy * event.dy});
+    }
+
     /// Shares a collision's stress among the cells on its line and both discs' species.
-    void add(const PairEvent& event, const Extent& box) {
-        const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
-                     per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const std::array<std::int64_t, 3> whole = sums_.stress_in_units(
-            -event.ix * event.dx, -(event.ix * event.dy + event.iy * event.dx) / 2,
-            -event.iy * event.dy);
-        std::array<std::int64_t, 3> rest = whole;
+    void add(const PairEvent& event, const Grid& grid) {
+        const ContactUnits whole = units_of(event);
+        ContactUnits rest = whole;
         const std::size_t p = kind_of(event.p) * n_cells(), q = kind_of(event.q) * n_cells();
-        for_each_part_of_line((event.x - box.x_low) * per_x, (event.y - box.y_low) * per_y,
-                              event.dx * per_x, event.dy * per_y,
+        const auto add_part = [&](std::int64_t column, std::int64_t row, ContactUnits part) {
+            const std::size_t cell = cell_of(column, row);
+            if (p == q) return sums_.add_contact(p + cell, part);
+            ContactUnits half{};
+            for (std::size_t k = 0; k < part.size(); ++k) {
+                half[k] = part[k] / 2;
+                part[k] -= half[k];
+            }
+            sums_.add_contact(p + cell, part);
+            sums_.add_contact(q + cell, half);
+        };
+        for_each_part_of_line((event.x - grid.x) * grid.per_x, (event.y - grid.y) * grid.per_y,
+                              event.dx * grid.per_x, event.dy * grid.per_y,
                               [&](std::int64_t column, std::int64_t row, double from, double to) {
-                                  std::array<std::int64_t, 3> part = rest, half{};
-                                  for (std::size_t k = 0; k < 3; ++k) {
-                                      if (to < 1)
-                                          part[k] = static_cast<std::int64_t>(
-                                              static_cast<double>(whole[k]) * (to - from));
+                                  if (to == 1) return add_part(column, row, rest);
+                                  ContactUnits part{};
+                                  for (std::size_t k = 0; k < part.size(); ++k) {
+                                      part[k] = static_cast<std::int64_t>(
+                                          static_cast<double>(whole[k]) * (to - from));
                                       rest[k] -= part[k];
-                                      half[k] = p == q ? 0 : part[k] / 2;
-                                      part[k] -= half[k];
                                   }
-                                  const std::size_t cell = cell_of(column, row);
-                                  sums_.add_stress(p + cell, part);
-                                  if (p != q) sums_.add_stress(q + cell, half);
+                                  add_part(column, row, part);
                               });
     }
 
@@ -230,7 +276,7 @@ private:
     std::size_t n_kinds_; ///< 1 unless species have tables of their own
     SpeciesTable species_;
     std::vector<DiscId> ends_; ///< of the ids of each species
-    bool are_sides_moving_ = false;
+    bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
     std::uint64_t n_samples_ = 0; ///< of the block that has begun, as all that follows
     BlockHead head_;              ///< edges are sums over the samples
@@ -246,6 +292,11 @@ std::vector<double> Profiles::row_of(const BlockHead& head, const double* of, do
                  yy = of[1 + field_flux_yy] - m * vy * vy;
     const double per_area = 1 / (static_cast<double>(per_block_) * area),
                  per_time = 1 / (head.steps * area);
+    // The sum of m c^2 c / 2 over velocities c about the mean, from that of velocities v.
+    const auto heat = [&](FieldMoment moment, double v, FieldMoment x, FieldMoment y) {
+        return of[1 + moment] - v * (of[1 + field_flux_xx] + of[1 + field_flux_yy]) / 2 -
+               vx * of[1 + x] - vy * of[1 + y] + m * (vx * vx + vy * vy) * v;
+    };
     return {n,
             n * per_area,
             vx,
@@ -256,7 +307,13 @@ std::vector<double> Profiles::row_of(const BlockHead& head, const double* of, do
             yy * per_area,
             of[1 + field_stress_xx] * per_time,
             of[1 + field_stress_xy] * per_time,
-            of[1 + field_stress_yy] * per_time};
+            of[1 + field_stress_yy] * per_time,
+            heat(field_energy_x, vx, field_flux_xx, field_flux_xy) * per_area,
+            heat(field_energy_y, vy, field_flux_xy, field_flux_yy) * per_area,
+            (of[1 + field_heat_x] - vx * of[1 + field_stress_xx] - vy * of[1 + field_stress_xy]) *
+                per_time,
+            (of[1 + field_heat_y] - vx * of[1 + field_stress_xy] - vy * of[1 + field_stress_yy]) *
+                per_time};
 }
 
 /// `n` fields of each block from `first` on; a single one is the whole box and has no place.
@@ -270,15 +327,16 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
                            per_block_, n_x_, n_y_)
              : fmt::format("means over {} samples up to to_step, over the whole box", per_block_),
          "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that; xx, "
-         "xy, yy: kinetic part of the pressure tensor about that; contact_xx, contact_xy, "
-         "contact_yy: collisions' part, shared along the line between centres",
+         "xy, yy: kinetic part of the pressure tensor about that; heat_x, heat_y: of the flow of "
+         "heat; contact_*: collisions' parts, shared along the line between centres",
          "lengths in the scene's unit, times in steps; nan without discs or time"},
         {"to_step"},
         {}};
     if (is_grid) table.columns.insert(table.columns.end(), {"x", "y"});
     table.columns.insert(table.columns.end(),
                          {"count", "density", "vx", "vy", "temperature", "xx", "xy", "yy",
-                          "contact_xx", "contact_xy", "contact_yy"});
+                          "contact_xx", "contact_xy", "contact_yy", "heat_x", "heat_y",
+                          "contact_heat_x", "contact_heat_y"});
     for (std::size_t block = 0; 6 * block < heads_.size(); ++block) {
         BlockHead head;
         const std::array<double*, 6> numbers = numbers_of(head);
@@ -319,8 +377,10 @@ MeasuredQuantity profiles_quantity() {
                       .integer("1", "1: \"profiles\" has tables of each species as well.")
                       .within({0, 1}),
                   hdf5_key()},
-         .check = check_grid},
-        make_measurement<Profiles>};
+         .check = check_grid,
+         .check_times = warn_without_blocks},
+        make_measurement<Profiles>,
+        {"profiles_total"}};
 }
 
 } // namespace carrom

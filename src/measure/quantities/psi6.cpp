@@ -5,7 +5,7 @@
 
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 #include "statistics/hexatic_order.hpp"
 
 namespace carrom {
@@ -156,11 +156,13 @@ private:
 
 MeasuredQuantity psi6_quantity() {
     return {{.name = "psi6",
-             .help = "Hexatic order, its correlation g6(r), and numbers of neighbours.",
+             .help = "Hexatic order, its correlation g6(r), and numbers of neighbours; where radii "
+                     "differ, those of the radical tessellation.",
              .keys = {bins_key(), largest_distance_key()},
              .has_history = true,
              .check = check_largest_distance},
-            make_measurement<Psi6>};
+            make_measurement<Psi6>,
+            {"psi6_history", "psi6_distribution", "psi6_correlation", "neighbours"}};
 }
 
 } // namespace carrom

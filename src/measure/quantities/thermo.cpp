@@ -16,10 +16,10 @@ class Thermo : public Measurement {
 public:
     Thermo(MeasuredRun& run, const Measurements& others) : Measurement(run), others_(others) {}
 
-    void begin() override { sampler_.emplace(run_.simulation, run_.ranks, sums_); }
+    void begin() override { sampler_.emplace(run_.simulation, run_.ranks); }
 
     void sample(const SampledState& state) override {
-        if (!state.is_first) sampler_->sample(sums_, static_cast<double>(run_.output.every_steps));
+        if (!state.is_first) sampler_->sample(static_cast<double>(run_.output.every_steps));
         const Totals totals = run_.simulation.energies();
         const MotionSample& now = sampler_->last();
         rows_.insert(rows_.end(),
@@ -30,7 +30,7 @@ public:
 
     void keep(KeptNumbers& kept) override {
         kept(rows_);
-        keep_pressure(kept, sums_, sampler_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, sampler_, run_.simulation, run_.ranks);
     }
 
     std::vector<MeasuredTable> tables() const override { return {}; }
@@ -63,7 +63,8 @@ public:
                 row.resize(row.size() + 4, std::nan(""));
             } else {
                 const double* const before = now - 4;
-                const double* const p = sums_.pressures.data() + 5 * (k - 1);
+                const double* const p = sampler_->pressures().data() +
+                                        PressureSampler::n_numbers * (k - 1);
                 const double steps = static_cast<double>(every_steps),
                              n_discs = (before[2] + now[2]) / 2;
                 row.insert(row.end(),
@@ -78,7 +79,6 @@ public:
 private:
     const Measurements& others_;
     std::vector<double> rows_; ///< by sample: energy, kT, discs, collisions of pairs
-    PressureSums sums_;
     std::optional<PressureSampler> sampler_;
 };
 

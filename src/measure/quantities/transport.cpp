@@ -43,7 +43,7 @@ public:
     ~Transport() override { run_.simulation.forget(*this); }
 
     void begin() override {
-        pressure_.emplace(run_.simulation, run_.ranks, sums_);
+        pressure_.emplace(run_.simulation, run_.ranks);
         speed_ = std::max(usual_speed(run_), 0x1p-200);
         const Totals totals = run_.simulation.energies();
         const double n = static_cast<double>(totals.n_discs);
@@ -62,15 +62,17 @@ public:
             const double time = event.steps_since(last_step_, run_.scene.micro_steps);
             const double before_p = energy(event.p_vx - event.ix, event.p_vy - event.iy),
                          after_p = energy(event.p_vx, event.p_vy);
-            const auto add = [&](double vx, double vy, double ix, double iy) {
-                const double before = energy(vx - ix, vy - iy), after = energy(vx, vy);
-                heat_[0].add(-time * (after * (vx - drift_[0]) - before * (vx - ix - drift_[0])));
-                heat_[1].add(-time * (after * (vy - drift_[1]) - before * (vy - iy - drift_[1])));
+            const double before_q = energy(event.q_vx + event.ix, event.q_vy + event.iy),
+                         after_q = energy(event.q_vx, event.q_vy);
+            // What flights lose in the rest of the time, and what goes from one centre to the
+            // other.
+            const auto sum = [&](double pv, double qv, double i, double drift, double d) {
+                const double gained = after_p * (pv - drift) - before_p * (pv - i - drift) +
+                                      after_q * (qv - drift) - before_q * (qv + i - drift);
+                return (before_p - after_p) * d - time * gained;
             };
-            add(event.p_vx, event.p_vy, event.ix, event.iy);
-            add(event.q_vx, event.q_vy, -event.ix, -event.iy);
-            heat_[0].add((before_p - after_p) * event.dx); // from one centre to the other
-            heat_[1].add((before_p - after_p) * event.dy);
+            heat_[0].add(sum(event.p_vx, event.q_vx, event.ix, drift_[0], event.dx));
+            heat_[1].add(sum(event.p_vy, event.q_vy, event.iy, drift_[1], event.dy));
         }
     }
 
@@ -90,14 +92,14 @@ public:
             change[heat_x + axis] = all.value();
             heat_[axis].clear();
         }
-        pressure_->sample(sums_, steps);
+        pressure_->sample(steps);
         const Tensor& stress = pressure_->last_integral();
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
         change[trace] -= usual_trace_; // so that the fluctuations are not lost beside the mean
-        temperature_ += sums_.pressures[3];
-        sums_.pressures.clear();
+        temperature_ += pressure_->pressures()[3];
+        pressure_->forget_pressures();
         for (std::size_t k = 0; k < n_components; ++k) change[k] += moments_[k];
         note(change);
         last_step_ = run_.simulation.step();
@@ -105,7 +107,7 @@ public:
 
     void keep(KeptNumbers& kept) override {
         kept.same(static_cast<std::int64_t>(scheme_.points()));
-        keep_pressure(kept, sums_, pressure_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, pressure_, run_.simulation, run_.ranks);
         kept(speed_), kept(drift_), kept(last_step_), kept(n_samples_), kept(temperature_);
         kept(usual_trace_), kept(moments_);
         if (kept.is_restored()) follow();
@@ -180,7 +182,6 @@ private:
     }
 
     MultipleTau scheme_;
-    PressureSums sums_;
     std::optional<PressureSampler> pressure_;
     double speed_ = 0;              ///< by which units are chosen
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
@@ -256,7 +257,8 @@ MeasuredQuantity transport_quantity() {
                         .why = "it takes equal elastic discs in a box that is periodic all round",
                         .keys = {quantities_key},
                         .is_broken = is_another_gas}},
-             .check = check_correlation_points},
+             .check = check_correlation_points,
+             .check_times = warn_without_lags},
             make_measurement<Transport>};
 }
 

@@ -107,7 +107,8 @@ MeasuredQuantity velocities_quantity() {
                           .number("length/step", "Largest component in the table of velocities.",
                                   "5 standard deviations")
                           .within({.low = 0, .excludes_low = true})}},
-            make_measurement<Velocities>};
+            make_measurement<Velocities>,
+            {"speeds"}};
 }
 
 } // namespace carrom

@@ -5,7 +5,7 @@
 #include "engine/wall_impulses.hpp"
 #include "measure/measurement.hpp"
 #include "measure/speeds.hpp"
-#include "statistics/block_averages.hpp"
+#include "statistics/blocking.hpp"
 
 namespace carrom {
 
@@ -158,7 +158,8 @@ MeasuredQuantity wall_pressure_quantity() {
                                 return measures(s, "wall_pressure") &&
                                        s.effects.have_open_boundaries();
                             }}}},
-            make_measurement<WallPressure>};
+            make_measurement<WallPressure>,
+            {"wall_pressure_history"}};
 }
 
 } // namespace carrom

@@ -148,6 +148,8 @@ class Checkpoint(Frame):
         """Radius, mass and species of each disc: of the file, else of the scene it holds."""
         n = self.n_discs
         rows = self._stored_species() or self._scene_species()
+        if not rows and (columns := self._tabled_species()):
+            return columns
         if not rows:
             return np.full(n, self._largest_radius), np.ones(n), np.zeros(n, dtype=np.int64)
         counts, radii, masses = (np.array(column) for column in zip(*rows))
@@ -163,6 +165,15 @@ class Checkpoint(Frame):
                 return []
             columns = [file[f"carrom/species/{name}"][()] for name in ("count", "radius", "mass")]
         return [(int(n), float(r), float(m)) for n, r, m in zip(*columns)]
+
+    def _tabled_species(self) -> tuple[Array, Array, Array] | None:
+        """Columns of discs whose radii follow a distribution, whose species are not in order."""
+        with h5.open_file(self.path) as file:
+            if "particles/discs/species" not in file or "parameters/species" not in file:
+                return None
+            species = file["particles/discs/species"][()].astype(np.int64)
+            radii, masses = (file[f"parameters/species/{name}"][()] for name in ("radius", "mass"))
+        return radii[species], masses[species], species
 
     def _scene_species(self) -> list[tuple[int, float, float]]:
         discs = self.scene.get("discs", {})

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carrom.errors import MissingPackageError, NoDataError
+from carrom.fields import Fields, is_grid
 
 if TYPE_CHECKING:
     import pandas
@@ -59,8 +60,24 @@ def table_to_pandas(table: Table) -> pandas.DataFrame:
 def table_to_xarray(table: Table) -> xarray.Dataset:
     """See `Table.to_xarray`."""
     xr = import_package("xarray", "to_xarray")
+    attributes = {"remarks": list(table.remarks)}
+    if is_grid(table.columns):
+        return _fields_to_xarray(xr, Fields(table), attributes)
     variables = {name: ("row", np.asarray(table[name])) for name in table.columns}
-    data: xarray.Dataset = xr.Dataset(variables, attrs={"remarks": list(table.remarks)})
+    data: xarray.Dataset = xr.Dataset(variables, attrs=attributes)
+    return data
+
+
+def _fields_to_xarray(xr: Any, fields: Fields, attributes: dict[str, Any]) -> xarray.Dataset:
+    """Over blocks, rows and columns. Where walls move, places depend on the block."""
+    places: dict[str, Any] = {}
+    for name, place in (("x", fields.x), ("y", fields.y)):
+        is_fixed = bool(np.all(place == place[:1]))
+        places[name] = (name, place[0]) if is_fixed and len(place) else (("step", name), place)
+    variables = {name: (("step", "y", "x"), fields.values(name)) for name in fields.names}
+    data: xarray.Dataset = xr.Dataset(
+        variables, coords={"step": fields.steps, **places}, attrs=attributes
+    )
     return data
 
 

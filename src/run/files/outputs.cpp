@@ -42,15 +42,13 @@ std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
         if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
             return path + " is not a plain file";
     }
+    const std::string with_tables = problem_with_tables(scene);
+    if (!with_tables.empty()) return with_tables;
     const std::string trace = trace_of_run(folder);
     if (trace.empty() || options.overwrite) {
         if (options.resume && trace.empty())
             return "no run has begun there; leave --resume out to begin one";
-        const std::string link = trace.empty() ? "" : link_of_run(folder);
-        if (!link.empty())
-            return link + " is a symbolic link, and --overwrite removes nothing behind one; remove "
-                          "the link first, or name another folder";
-        return {};
+        return trace.empty() ? trace : problem_of_removal(folder);
     }
     if (!goes_on(options))
         return fmt::format("has {} of a run: go on with it by --resume, begin anew by --overwrite, "

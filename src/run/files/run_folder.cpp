@@ -2,9 +2,13 @@
 #include "run/files/run_folder.hpp"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -12,6 +16,7 @@
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
 #include "io/frame_file.hpp"
+#include "measure/measurement.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
 #include "scene/read_scene.hpp"
@@ -57,6 +62,12 @@ bool has_rows_of_start(const fs::path& path) {
     return file.eof() && path.stem() == "thermo" && n_lines <= 2;
 }
 
+bool is_segment(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    return path.extension() == ".h5" && stem.size() >= 4 &&
+           stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
 /// Whether a run may have written a file, by its name and, for a table, by its first
 /// line, which names the table.
 bool is_written_by_run(std::string_view folder, const fs::path& path) {
@@ -68,10 +79,21 @@ bool is_written_by_run(std::string_view folder, const fs::path& path) {
         std::ifstream file(path);
         std::string line;
         std::getline(file, line);
+        if (path.filename() == "tables.h5") return true;
         return path.extension() == ".csv" && line.starts_with("# ") && line.ends_with(": " + stem);
     }
-    return path.extension() == ".h5" && stem.size() >= 4 &&
-           stem.find_first_not_of("0123456789") == std::string::npos;
+    return is_segment(path);
+}
+
+/// The first entry of a folder for which `is_wanted` holds; empty if there is none. An
+/// error of listing is put in `error`, unless there is no such folder.
+template <class Wanted>
+std::string find_entry(const std::string& folder, std::error_code& error, const Wanted& is_wanted) {
+    fs::directory_iterator entry(folder, error);
+    if (error == std::errc::no_such_file_or_directory) error.clear();
+    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
+        if (is_wanted(entry->path())) return entry->path().filename().string();
+    return {};
 }
 
 /// TOML that has been changed by `--set` lists the changes in its first lines.
@@ -116,13 +138,39 @@ std::string recorded_beyond_start(const std::string& folder) {
     if (folder.empty()) return {};
     for (const char* name : {"report.json", "trajectory.h5", "collisions.h5"})
         if (is_there(in(folder, name)) && !is_of_start(in(folder, name))) return name;
+    const auto found_in = [&folder](const char* name, const auto& is_recorded) -> std::string {
+        std::error_code error;
+        const std::string found = find_entry(in(folder, name), error, is_recorded);
+        if (error) return name;
+        return found.empty() ? found : fmt::format("{}/{}", name, found);
+    };
+    // A recording is joined by its file before it has a segment, so this file was lost.
+    for (const char* name : {"trajectory", "collisions"}) {
+        if (is_there(in(folder, name + std::string(".h5")))) continue;
+        if (std::string found = found_in(name, is_segment); !found.empty()) return found;
+    }
+    return found_in("measurements", [](const fs::path& path) {
+        return path.extension() == ".csv" && !has_rows_of_start(path);
+    });
+}
+
+std::string problem_with_tables(const Scene& scene) {
+    if (!scene.measurements) return {};
+    const std::string& folder = scene.measurements->folder;
     std::error_code error;
-    fs::directory_iterator entry(in(folder, folders[3]), error);
-    if (error == std::errc::no_such_file_or_directory) return {};
-    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
-        if (entry->path().extension() == ".csv" && !has_rows_of_start(entry->path()))
-            return fmt::format("{}/{}", folders[3], entry->path().filename().string());
-    return error ? folders[3] : "";
+    const std::string found = find_entry(folder, error, [](const fs::path& path) {
+        std::error_code ignored;
+        const bool is_empty = fs::is_regular_file(fs::symlink_status(path, ignored)) &&
+                              fs::file_size(path, ignored) == 0;
+        return path.extension() == ".csv" && is_name_of_table(path.stem().string()) && !is_empty &&
+               !is_written_by_run("measurements", path);
+    });
+    if (error) return fmt::format("{} cannot be listed: {}", folder, error.message());
+    if (found.empty()) return {};
+    const bool is_readable = std::ifstream(in(folder, found)).good();
+    return fmt::format("{} {}, and this run may write a table of that name; move it away",
+                       in(folder, found),
+                       is_readable ? "is no table that a run has written" : "cannot be read");
 }
 
 std::string scene_copy_of(const std::string& folder) {
@@ -177,10 +225,17 @@ void remove_run(const std::string& folder) {
     }
 }
 
-std::string link_of_run(const std::string& folder) {
+std::string problem_of_removal(const std::string& folder) {
     std::error_code error;
-    for (const char* name : folders)
-        if (fs::is_symlink(fs::symlink_status(in(folder, name), error))) return in(folder, name);
+    for (const char* name : folders) {
+        const std::string path = in(folder, name);
+        if (fs::is_symlink(fs::symlink_status(path, error)))
+            return path + " is a symbolic link, and --overwrite removes nothing behind one; remove "
+                          "the link first, or name another folder";
+        if (fs::is_directory(path, error) && ::access(path.c_str(), R_OK | W_OK | X_OK) != 0)
+            return fmt::format("--overwrite cannot remove what is in {}: {}", path,
+                               std::strerror(errno));
+    }
     return {};
 }
 

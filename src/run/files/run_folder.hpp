@@ -25,6 +25,9 @@ std::string trace_of_run(const std::string& folder);
 /// none. Files that cannot be read count.
 std::string recorded_beyond_start(const std::string& folder);
 
+/// Describes a file of somebody else that a table of the scene may replace; empty if there is none.
+std::string problem_with_tables(const Scene& scene);
+
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
 
@@ -39,8 +42,8 @@ std::string difference_from_run(const std::string& folder, const Scene& scene);
 /// and all files behind symbolic links.
 void remove_run(const std::string& folder);
 
-/// One of the run's inner folders that is a symbolic link; empty if none is.
-std::string link_of_run(const std::string& folder);
+/// Describes what keeps `remove_run` from removing all that it should; empty if nothing does.
+std::string problem_of_removal(const std::string& folder);
 
 /// Makes the folders and writes the copy of the scene. Throws FileError.
 void prepare_folder(const Scene& scene);

@@ -25,7 +25,7 @@ constexpr double fewest_collisions = 2e4; ///< pairs: fewer are too short to be 
 constexpr double long_enough =
     2e4; ///< ... unless it has this many disc-steps, or this many steps, however few discs meet
 constexpr double long_enough_steps = 1e3;
-constexpr double long_look =
+constexpr double long_trial =
     0.02; ///< seconds after which a setting may be dropped before its trial ends ...
 constexpr double timed_enough =
     0.2; ///< ... and after which it may be called slow, because starts take time, too
@@ -74,7 +74,7 @@ Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t str
                   TrialStart& at) {
     TrialLength length;
     length.steps = length.early_step = pilot.sixteenth * stretches[stretch];
-    length.n_looks = 4;
+    length.n_samples = 4;
     Trial trial = run_trial(pilot.scene, setting, at, length, pilot.communicator, pilot.tuning);
     at.discs = std::move(trial.early);
     return trial;
@@ -116,7 +116,7 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting,
         found.error = error_of(trial, exact[k]);
         found.grows = k > 0 && are_growing(before, trial);
         found.is_whole = k + 1 == stretches.size();
-        if (found.seconds > long_look &&
+        if (found.seconds > long_trial &&
             found.error.largest() - certainty * found.error.error > accuracy)
             break;
         before = trial;

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/stopwatch.hpp"
+#include "measure/sampler.hpp"
 
 namespace carrom {
 
@@ -79,11 +80,15 @@ Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart&
                 const TrialLength& length, const Communicator& communicator, const Tuning& tuning) {
     Scene here = with_setting(scene, setting);
     here.steps = length.steps;
+    here.measurements.reset();
     Simulation simulation(here, start.discs, communicator, tuning);
-    std::set<std::int64_t> looks{length.steps};
-    for (int k = 1; k < length.n_looks; ++k)
-        looks.insert(std::max<std::int64_t>(1, length.steps * k / length.n_looks));
-    std::set<std::int64_t> stops = looks;
+    Sampler sampler(here, simulation, communicator);
+    sampler.sample_if_due();
+    StepAction* const actions[] = {&sampler};
+    std::set<std::int64_t> sampled_steps{length.steps};
+    for (int k = 1; k < length.n_samples; ++k)
+        sampled_steps.insert(std::max<std::int64_t>(1, length.steps * k / length.n_samples));
+    std::set<std::int64_t> stops = sampled_steps;
     if (length.early_step > 0) stops.insert(length.early_step);
 
     Trial trial;
@@ -91,20 +96,20 @@ Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart&
     for (const std::int64_t stop : stops) {
         Stopwatch watch;
         const double before = process_seconds();
-        advance_to(simulation, stop);
+        advance_to(simulation, stop, actions);
         trial.core_seconds += process_seconds() - before;
         trial.wall_seconds += watch.lap();
         if (stop == length.early_step) trial.early = discs_now(simulation);
-        if (!looks.contains(stop)) continue;
+        if (!sampled_steps.contains(stop)) continue;
         trial.totals = simulation.totals();
         trial.overlapping_pairs_per_disc += 2 *
                                             static_cast<double>(trial.totals.overlapping_pairs) /
                                             static_cast<double>(trial.totals.n_discs *
-                                                                looks.size());
+                                                                sampled_steps.size());
         trial.deepest_overlap = std::max(trial.deepest_overlap,
                                          trial.totals.deepest_overlap / (2 * scene.radius));
     }
-    trial.averages = simulation.averages();
+    trial.averages = sampler.averages();
     trial.wall_seconds = communicator.max(trial.wall_seconds);
     std::uint64_t nanoseconds = static_cast<std::uint64_t>(1e9 * trial.core_seconds);
     trial.core_seconds = 1e-9 * static_cast<double>(communicator.sum(nanoseconds));

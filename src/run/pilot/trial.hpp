@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <carrom/averages.hpp>
+
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 #include "simulation/advance.hpp"
@@ -60,7 +62,7 @@ std::vector<InputDisc> discs_now(const Simulation& simulation);
 struct TrialLength {
     std::int64_t steps = 1;
     std::int64_t early_step = 0; ///< the step at which places are kept, or 0
-    int n_looks = 16;            ///< samples of overlaps
+    int n_samples = 16;          ///< samples of overlaps
 };
 
 /// **Collective.**

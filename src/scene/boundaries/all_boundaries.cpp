@@ -62,7 +62,14 @@ std::vector<Key> keys_of_boundaries() {
     std::vector<Key> all;
     for (std::size_t side = 0; side < boundary_names.size(); ++side) {
         all.push_back(key(side_key(side, "kind"), "", help_of_kinds(),
-                          [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; }));
+                          [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; })
+                          .advises({{"lees-edwards", "\"sheared\", at bottom and top"},
+                                    {"shear", "\"sheared\", at bottom and top"},
+                                    {"pbc", "\"periodic\""},
+                                    {"reflecting", "\"wall\""},
+                                    {"reflective", "\"wall\""},
+                                    {"rough", "\"wall\" with a tangential_restitution above -1"},
+                                    {"absorbing", "\"open\""}}));
         all.push_back(
             key(side_key(side, "restitution"), "1",
                 "Share of the normal velocity that is left after a collision.",

@@ -6,21 +6,6 @@
 
 namespace carrom {
 
-namespace effects {
-#define CARROM_DECLARE(effect) EffectDeclaration effect();
-CARROM_FOR_EACH_EFFECT(CARROM_DECLARE)
-#undef CARROM_DECLARE
-} // namespace effects
-
-const std::vector<EffectDeclaration>& all_effects() {
-    static const std::vector<EffectDeclaration> all = {
-#define CARROM_LIST(effect) effects::effect(),
-        CARROM_FOR_EACH_EFFECT(CARROM_LIST)
-#undef CARROM_LIST
-    };
-    return all;
-}
-
 std::string summary_of(const Effects& effects) {
     std::string text = description(effects);
     const auto add = [&text](const std::string& more) {

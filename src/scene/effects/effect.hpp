@@ -12,7 +12,7 @@
 // at syncs has its physics in its own file here; one that acts in collisions or in flight has its
 // physics in src/dynamics, and its words here.
 //
-// To add an effect: a file in this folder and a line in CARROM_FOR_EACH_EFFECT.
+// To add an effect: a file in this folder, and its name in the list of src/scene/CMakeLists.txt.
 #pragma once
 
 #include <memory>
@@ -50,11 +50,7 @@ struct EffectDeclaration {
     std::unique_ptr<SyncEffect> (*at_syncs)(const Scene&) = nullptr;
 };
 
-#define CARROM_FOR_EACH_EFFECT(effect)                                                             \
-    effect(gravity) effect(drag) effect(growth) effect(shear) effect(obstacles) effect(rubbing)    \
-        effect(thermostat)
-
-/// In the order of the reference.
+/// In the order of the list, which is that of the reference.
 const std::vector<EffectDeclaration>& all_effects();
 
 /// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there

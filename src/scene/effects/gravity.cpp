@@ -26,7 +26,8 @@ std::vector<Key> keys_of_gravity() {
 }
 
 /// Whether discs that gravity drives along periodic sides find a steady flow: something has to take
-/// the momentum along the sides `low` and `low + 1`, and something the energy.
+/// the momentum along the sides `low` and `low + 1`, and something the energy. Obstacles take
+/// momentum, because discs have to go round them.
 bool are_stopped(const Scene& s, std::size_t low) {
     const Effects& e = s.effects;
     const ThermostatKind kind = e.thermostat.kind;
@@ -36,19 +37,21 @@ bool are_stopped(const Scene& s, std::size_t low) {
     const auto any = [&](const auto& what) { return std::any_of(first, last, what); };
     const bool are_thermal = any(
         [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
+    const auto takes_energy = [](const auto& body) {
+        return body.restitution < 1 || std::fabs(body.surface.tangential_restitution) < 1;
+    };
     const bool is_energy_taken = are_pairs_lossy(e) || kind == ThermostatKind::rescale ||
-                                 any([](const Boundary& side) {
-                                     return side.restitution < 1 ||
-                                            std::fabs(side.surface.tangential_restitution) < 1;
-                                 });
-    return are_thermal ||
-           (is_energy_taken && any([](const Boundary& side) { return side.surface.rubs(); }));
+                                 any(takes_energy) ||
+                                 (has_obstacles(s) && takes_energy(e.obstacles));
+    const bool is_momentum_taken = has_obstacles(s) ||
+                                   any([](const Boundary& side) { return side.surface.rubs(); });
+    return are_thermal || (is_energy_taken && is_momentum_taken);
 }
 
 std::vector<Rule> rules_of_gravity() {
     constexpr std::string_view why =
-        "discs would fall for ever; take drag, thermal sides, or sides with a "
-        "tangential_restitution above -1";
+        "discs would fall for ever; take drag, thermal sides, sides with a tangential_restitution "
+        "above -1, or obstacles with a restitution below 1";
     return {
         rule("gravity", "time.method = \"time-stepped\"",
              "discs fly straight there; take time.method = \"event-driven\"",
@@ -63,13 +66,6 @@ std::vector<Rule> rules_of_gravity() {
              {"effects.gravity.y"},
              [](const Scene& s) {
                  return s.effects.gravity.y != 0 && s.effects.is_periodic_y() && !are_stopped(s, 0);
-             }),
-        rule("gravity along periodic sides", "obstacles", "this version does not have both",
-             {"effects.gravity.x", "effects.gravity.y"},
-             [](const Scene& s) {
-                 const Effects& e = s.effects;
-                 return has_obstacles(s) && ((e.gravity.x != 0 && e.is_periodic_x()) ||
-                                             (e.gravity.y != 0 && e.is_periodic_y()));
              }),
         rule("gravity along periodic sides", "sheared sides",
              "nothing stops discs in a flow without walls",

@@ -33,7 +33,7 @@ void add_surface(std::vector<Key>& all, const std::string& table, const SurfaceO
                  const char* help_of_velocity) {
     all.push_back(
         key(table + ".tangential_restitution", "1",
-            "Of discs whose surface sticks to it, from -1 (smooth) to 1.",
+            "Share of the sliding velocity that is reversed where surfaces stick; -1 is smooth.",
             [surface_of](auto& s) -> auto& { return surface_of(s).tangential_restitution; })
             .within({-1, 1})
             .needs(body));
@@ -63,8 +63,8 @@ std::vector<Key> keys_of_rubbing() {
              }},
             {"without " + table + ".kind = \"thermal\" or a tangential_restitution above -1",
              [side](const Scene& s) { return slides(s.effects.boundaries[side]); }},
-            side < 2 ? "Of the surface, along +y; the side stays where it is."
-                     : "Of the surface, along +x; the side stays where it is.");
+            side < 2 ? "Velocity of the surface along +y; the side stays where it is."
+                     : "Velocity of the surface along +x; the side stays where it is.");
     }
     add_surface(
         all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.obstacles.surface; },
@@ -74,7 +74,7 @@ std::vector<Key> keys_of_rubbing() {
          [](const Scene& s) { return s.effects.obstacles.surface.tangential_restitution != -1; }},
         {"without effects.obstacles.tangential_restitution above -1",
          [](const Scene& s) { return s.effects.obstacles.surface.rubs(); }},
-        "Of the surface, counterclockwise around the body, which stays where it is.");
+        "Velocity of the surface, counterclockwise around the body, which stays where it is.");
     return all;
 }
 

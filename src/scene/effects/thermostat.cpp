@@ -221,7 +221,11 @@ std::vector<Key> keys_of_thermostat() {
             [](auto& s) -> auto& { return s.effects.thermostat.kind; })
             .advises({{"nose-hoover", "\"langevin\" or \"andersen\", which have the same "
                                       "equilibrium"},
+                      {"nosehoover", "\"langevin\" or \"andersen\", which have the same "
+                                     "equilibrium"},
                       {"berendsen", "\"rescale\""},
+                      {"gaussian", "\"rescale\""},
+                      {"isokinetic", "\"rescale\""},
                       {"white-noise", "\"kicks\""},
                       {"stochastic", "\"kicks\" or \"langevin\""},
                       {"brownian", "\"langevin\""},

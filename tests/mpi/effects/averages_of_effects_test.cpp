@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 
+#include "averaging.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -14,9 +15,11 @@ using namespace carrom::test;
 namespace {
 
 Averages averages_of(const TestScene& scene, Method method = Method::event_driven) {
-    Simulation simulation = simulation_of(scene, method, Communicator::world());
-    advance_to(simulation, scene.steps);
-    return simulation.averages();
+    const Communicator world = Communicator::world();
+    Simulation simulation = simulation_of(scene, method, world);
+    Averaging averaging(scene, simulation, world);
+    averaging.advance_to(scene.steps);
+    return averaging.averages();
 }
 
 /// Discs that do not meet, all of the same speed.
@@ -41,11 +44,12 @@ TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Ma
     scene.setting.effects.contact.kind = ContactKind::none;
     scene.setting.effects.gravity = {0, -0.01};
     scene.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, temperature, 0};
-    Simulation simulation = simulation_of(scene, Method::event_driven, Communicator::world());
+    const Communicator world = Communicator::world();
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, 2000); // several flights
-    simulation.average_anew();
-    advance_to(simulation, 4000);
-    const Averages averages = simulation.averages();
+    Averaging averaging(scene, simulation, world);
+    averaging.advance_to(4000);
+    const Averages averages = averaging.averages();
     CHECK(averages.mean_speed.value ==
           Approx(std::sqrt(std::numbers::pi * temperature / 2)).epsilon(0.03));
     CHECK(averages.speed_kurtosis.value == Approx(2).epsilon(0.06));
@@ -92,9 +96,10 @@ TEST_CASE("effects: the frequency of collisions is what is counted, whatever the
     scene.setting.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.02};
     set_drag(scene, 0.005);
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, scene.steps);
+    Averaging averaging(scene, simulation, world);
+    averaging.advance_to(scene.steps);
     const Totals totals = simulation.totals();
     CHECK(totals.pair_collisions > 300);
-    CHECK(simulation.averages().collision_frequency.value ==
+    CHECK(averaging.averages().collision_frequency.value ==
           Approx(2 * static_cast<double>(totals.pair_collisions) / (300.0 * 96)).epsilon(1e-12));
 }

@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "catch.hpp"
 #include <omp.h>
 
 #include "dynamics/drag.hpp"
@@ -38,8 +39,15 @@ Simulation simulation_of(const TestScene& scene, Method method, const Communicat
     return {all, share_of(scene, world), world, threaded};
 }
 
-void advance_to(Simulation& simulation, std::int64_t step) {
-    while (simulation.step() < step) simulation.advance_towards(step);
+void check_shared_run(const TestScene& scene, Method method, const Communicator& world) {
+    Scene whole = scene_of(scene);
+    whole.method = method;
+    Simulation shared = simulation_of(scene, method, world);
+    Simulation single(whole, scene.discs, Communicator::of_this_rank(), Tuning{});
+    shared.check_every_step(whole);
+    CHECK_NOTHROW(advance_to(shared, scene.steps));
+    advance_to(single, scene.steps);
+    CHECK(shared.totals().hash == single.totals().hash);
 }
 
 void make_room_for_obstacles(TestScene& scene) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene_tools.hpp"
+#include "simulation/advance.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom::test {
@@ -15,7 +16,9 @@ Simulation simulation_of(const TestScene& scene, Method method, const Communicat
 Totals run(const TestScene& scene, Method method, const Communicator& world,
            const Tuning& tuning = {});
 
-void advance_to(Simulation& simulation, std::int64_t step);
+/// Checks that a run of the scene on all ranks keeps the invariants of each step, and ends with the
+/// state of a run on one rank.
+void check_shared_run(const TestScene& scene, Method method, const Communicator& world);
 
 /// Discs that are where obstacles are leave the scene; the others are numbered anew.
 void make_room_for_obstacles(TestScene& scene);

@@ -199,7 +199,7 @@ TEST_CASE(
 }
 
 TEST_CASE("effects: walls that rub and slide give the same bits on every shape, and are checked") {
-    const Communicator world = Communicator::world(), alone = Communicator::of_this_rank();
+    const Communicator world = Communicator::world();
     for (const int kind : {0, 1, 2, 3}) {
         for (const Method method : {Method::time_stepped, Method::event_driven}) {
             TestScene scene = gas(200, 0.2, 0.1, 660 + static_cast<std::uint64_t>(kind));
@@ -225,14 +225,7 @@ TEST_CASE("effects: walls that rub and slide give the same bits on every shape, 
                 effects.obstacles.surface = {0, 0.5, 0.1};
                 make_room_for_obstacles(scene);
             }
-            Scene whole = scene_of(scene);
-            whole.method = method;
-            Simulation shared = simulation_of(scene, method, world);
-            Simulation single(whole, scene.discs, alone, Tuning{});
-            shared.check_every_step(whole);
-            CHECK_NOTHROW(advance_to(shared, scene.steps));
-            advance_to(single, scene.steps);
-            CHECK(shared.totals().hash == single.totals().hash);
+            check_shared_run(scene, method, world);
         }
     }
 }

@@ -65,21 +65,14 @@ double mass_of(const TestScene& scene, DiscId id) {
 } // namespace
 
 TEST_CASE("effects: thermostats give the same bits on every machine shape, and are checked") {
-    const Communicator world = Communicator::world(), alone = Communicator::of_this_rank();
+    const Communicator world = Communicator::world();
     for (TestScene scene : driven_scenes()) {
         for (const Thermostat& thermostat : thermostats()) {
             scene.setting.effects.thermostat = thermostat;
             for (const Method method : {Method::time_stepped, Method::event_driven}) {
                 INFO(scene.name << ", kind " << static_cast<int>(thermostat.kind) << ", method "
                                 << static_cast<int>(method));
-                Scene whole = scene_of(scene);
-                whole.method = method;
-                Simulation shared = simulation_of(scene, method, world);
-                Simulation single(whole, scene.discs, alone, Tuning{});
-                shared.check_every_step(whole);
-                CHECK_NOTHROW(advance_to(shared, scene.steps));
-                advance_to(single, scene.steps);
-                CHECK(shared.totals().hash == single.totals().hash);
+                check_shared_run(scene, method, world);
             }
         }
     }

@@ -247,7 +247,7 @@ TEST_CASE("files that are wrong, and places that cannot be written to, have thei
     CHECK(code_of([&] { FrameReader(session, folder.file("nothing.h5")); }) == ExitCode::bad_input);
 }
 
-TEST_CASE("a checkpoint does not replace what is no plain file") {
+TEST_CASE("checkpoints and trajectories do not replace what is no plain file") {
     const Session session;
     const Folder folder(session);
     Simulation simulation(session, gas("event-driven", 1));
@@ -260,18 +260,20 @@ TEST_CASE("a checkpoint does not replace what is no plain file") {
         std::ofstream(victim) << "mine";
     }
     MPI_Bcast(&has_device, 1, MPI_CXX_BOOL, 0, MPI_COMM_WORLD);
-    const auto code_of = [&](const std::string& path) {
+    const auto code_of = [](const auto& write) {
         try {
-            simulation.write_checkpoint(path);
+            write();
         } catch (const CollectiveError& error) {
+            CHECK(std::string(error.what()).find("is no") != std::string::npos);
             return static_cast<int>(error.code());
         }
         return 0;
     };
-    CHECK(code_of(pipe) == 4);
-    if (has_device) CHECK(code_of(device) == 4);
-    CHECK(code_of(victim + '\0' + "more") == 4);
-    CHECK(code_of("") == 4);
+    for (const std::string& path : {pipe, device, victim + '\0' + "more", std::string()}) {
+        if (path == device && !has_device) continue;
+        CHECK(code_of([&] { simulation.write_checkpoint(path); }) == 4);
+        CHECK(code_of([&] { TrajectoryWriter(simulation, path).append(); }) == 4);
+    }
     if (!session.is_root()) return;
     CHECK(std::filesystem::is_fifo(pipe));
     CHECK(std::filesystem::is_character_file(device) == has_device);

@@ -178,23 +178,7 @@ TEST_CASE("measurements: diffusion goes on from what was stored, within a window
         INFO(each.name);
         const TestScene test = test_of(each);
         const Scene scene = with_diffusion(test, each.method);
-        Simulation whole = simulation_of(scene, test, world);
-        Sampler whole_sampler(scene, whole, world);
-        advance_to(whole, whole_sampler, 60);
-
-        Simulation first = simulation_of(scene, test, world);
-        Sampler first_sampler(scene, first, world);
-        advance_to(first, first_sampler, 24);
-        StoredState state = {{first.discs().begin(), first.discs().end()},
-                             first.micro_steps_done(),
-                             SideColumns(first.side_columns())};
-        Simulation second(scene, std::move(state), world, {});
-        Sampler sampler(scene, second, world);
-        sampler.go_on(first_sampler.stored());
-        advance_to(second, sampler, 60);
-        for (const char* name : {"velocity_autocorrelation", "diffusion"})
-            CHECK(table_of(sampler.tables(), name).rows ==
-                  table_of(whole_sampler.tables(), name).rows);
+        check_going_on(scene, test, 24, 60, world);
     }
 }
 

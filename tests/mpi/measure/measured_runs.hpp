@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include <omp.h>
 
 #include "core/errors.hpp"
@@ -50,6 +52,46 @@ inline void advance_to(Simulation& simulation, Sampler& sampler, std::int64_t st
     while (simulation.step() < step) {
         simulation.advance_towards(std::min(step, sampler.next_due(simulation.step())));
         sampler.sample_if_due();
+    }
+}
+
+/// Whether both are the same number, or none.
+inline bool are_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+/// Checks that a run that is stored at `stop` and goes on has the tables and averages at the end
+/// that it has without a stop.
+inline void check_going_on(const Scene& scene, const TestScene& test, std::int64_t stop,
+                           std::int64_t last, const Communicator& world) {
+    Simulation whole = simulation_of(scene, test, world);
+    Sampler whole_sampler(scene, whole, world);
+    advance_to(whole, whole_sampler, last);
+
+    Simulation first = simulation_of(scene, test, world);
+    Sampler first_sampler(scene, first, world);
+    advance_to(first, first_sampler, stop);
+    StoredState state = {{first.discs().begin(), first.discs().end()},
+                         first.micro_steps_done(),
+                         SideColumns(first.side_columns())};
+    Simulation second(scene, std::move(state), world, {});
+    Sampler sampler(scene, second, world);
+    sampler.go_on(first_sampler.stored());
+    advance_to(second, sampler, last);
+
+    const std::vector<MeasuredTable> expected = whole_sampler.tables(), tables = sampler.tables();
+    REQUIRE(!tables.empty());
+    REQUIRE(tables.size() == expected.size());
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        INFO(tables[k].name);
+        CHECK(tables[k].remarks == expected[k].remarks);
+        REQUIRE(tables[k].rows.size() == expected[k].rows.size());
+        for (std::size_t row = 0; row < tables[k].rows.size(); ++row)
+            CHECK(std::ranges::equal(tables[k].rows[row], expected[k].rows[row], are_same));
+    }
+    const auto known = whole_sampler.averages().named(), found = sampler.averages().named();
+    for (std::size_t k = 0; k < known.size(); ++k) {
+        INFO(known[k].first);
+        CHECK(are_same(found[k].second.value, known[k].second.value));
+        CHECK(are_same(found[k].second.error, known[k].second.error));
     }
 }
 

@@ -216,32 +216,7 @@ TEST_CASE("measurements: a run that stores them and goes on has the same tables"
         test.setting.sync_every = 16;
         test.steps = 50;
         const Scene scene = measured(test, each.method, 7);
-        Simulation whole = simulation_of(scene, test, world);
-        Sampler whole_sampler(scene, whole, world);
-        advance_to(whole, whole_sampler, 50);
-
-        StoredState state;
-        StoredSamples samples;
-        {
-            Simulation first = simulation_of(scene, test, world);
-            Sampler sampler(scene, first, world);
-            advance_to(first, sampler, 31); // between samples, and between syncs
-            state = {{first.discs().begin(), first.discs().end()}, first.micro_steps_done()};
-            samples = sampler.stored();
-        }
-        Tuning tuning;
-        Simulation second(scene, std::move(state), world, tuning);
-        Sampler sampler(scene, second, world);
-        sampler.go_on(samples);
-        advance_to(second, sampler, 50);
-        const std::vector<MeasuredTable> expected = whole_sampler.tables(),
-                                         tables = sampler.tables();
-        REQUIRE(tables.size() == expected.size());
-        for (std::size_t k = 0; k < tables.size(); ++k) {
-            INFO(tables[k].name);
-            CHECK(tables[k].remarks == expected[k].remarks);
-            CHECK(tables[k].rows == expected[k].rows);
-        }
+        check_going_on(scene, test, 31, 50, world); // between samples, and between syncs
     }
 }
 

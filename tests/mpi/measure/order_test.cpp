@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi6 and Voronoi neighbours, against bisectors of all pairs and against lattices.
+// psi6 and Voronoi neighbours, against bisectors of all pairs and against lattices. Discs of
+// different radii have the neighbours of the radical tessellation.
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -29,7 +30,7 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-    Effects none, around, along_y, piston, apart;
+    Effects none, around, along_y, piston, apart, mixed, growing;
     around.boundaries.fill(repeated);
     along_y.boundaries[2] = along_y.boundaries[3] = repeated;
     along_y.gravity = {-0.003, 0};
@@ -37,12 +38,18 @@ std::vector<Case> cases() {
     piston.species = {{60, 1, 2}, {60, 0.5, 1}};
     apart = around;
     apart.contact.kind = ContactKind::none;
+    mixed = around;
+    mixed.species = {{10, 1, 1}, {50, 0.1, 1}, {60, 0.6, 1}};
+    growing = mixed;
+    growing.growth = 0.001;
     return {{"walls", Method::time_stepped, none},
             {"periodic", Method::event_driven, around},
             {"periodic along y, with gravity", Method::event_driven, along_y},
             {"a piston, two species", Method::event_driven, piston},
             {"discs that overlap", Method::time_stepped, apart},
             {"four discs", Method::event_driven, around, 4},
+            {"periodic, three sizes", Method::time_stepped, mixed},
+            {"three sizes that grow", Method::event_driven, growing},
             {"a flat box", Method::event_driven, around, 121, 1.5}};
 }
 
@@ -68,6 +75,7 @@ Scene with_psi6(const TestScene& test, Method method) {
 struct Point {
     DiscId id = 0;
     double x = 0, y = 0;
+    double squared_radius = 0; ///< 0 if all are equal
 };
 
 std::vector<Point> all_points(const Simulation& simulation, const Communicator& world) {
@@ -80,8 +88,20 @@ std::vector<Point> all_points(const Simulation& simulation, const Communicator& 
     return all;
 }
 
-/// Neighbours by the definition: some of the two points' bisector is in the box, and closer to them
-/// than to all others.
+void set_radii(std::vector<Point>& points, const Effects& effects, double step) {
+    for (Point& point : points) {
+        DiscId end = 0;
+        for (const Species& one : effects.species) {
+            const bool is_of_it = point.id >= end && point.id < end + one.count;
+            if (is_of_it)
+                point.squared_radius = std::pow(one.radius * (1 + effects.growth * step), 2);
+            end += one.count;
+        }
+    }
+}
+
+/// Neighbours by the definition: some of the line from which tangents to both are equally long, the
+/// bisector if radii are equal, is in the box, and tangents to all others are longer.
 class Bisectors {
 public:
     Bisectors(std::vector<Point> points, const Extent& box, bool is_periodic_x, bool is_periodic_y)
@@ -91,7 +111,7 @@ public:
             for (int n = -across; n <= across; ++n)
                 for (int m = -along; m <= along; ++m)
                     images_.push_back({p.id, p.x + n * (box.x_high - box.x_low),
-                                       p.y + m * (box.y_high - box.y_low)});
+                                       p.y + m * (box.y_high - box.y_low), p.squared_radius});
         if (is_periodic_x) box_.x_low = -1e9, box_.x_high = 1e9;
         if (is_periodic_y) box_.y_low = -1e9, box_.y_high = 1e9;
     }
@@ -114,8 +134,10 @@ public:
 
 private:
     bool are_neighbours(const Point& p, const Point& q) const {
-        const double x = (p.x + q.x) / 2, y = (p.y + q.y) / 2, along_x = p.y - q.y,
-                     along_y = q.x - p.x;
+        const double along_x = p.y - q.y, along_y = q.x - p.x,
+                     square = along_x * along_x + along_y * along_y,
+                     share = 0.5 + (p.squared_radius - q.squared_radius) / (2 * square);
+        const double x = p.x + share * (q.x - p.x), y = p.y + share * (q.y - p.y);
         double low = -1e9, high = 1e9;
         const auto keep = [&](double slope, double limit) { // slope t <= limit
             if (slope > 0) high = std::min(high, limit / slope);
@@ -128,7 +150,8 @@ private:
             if ((other.x == p.x && other.y == p.y) || (other.x == q.x && other.y == q.y)) continue;
             const double ex = other.x - p.x, ey = other.y - p.y;
             keep(ex * along_x + ey * along_y,
-                 (ex * ex + ey * ey) / 2 - ex * (x - p.x) - ey * (y - p.y));
+                 (ex * ex + ey * ey + p.squared_radius - other.squared_radius) / 2 -
+                     ex * (x - p.x) - ey * (y - p.y));
             if (high - low < 1e-9) return false;
         }
         return true;
@@ -180,8 +203,10 @@ TEST_CASE("measurements: psi6 and neighbours are those of bisectors of all pairs
         ByHand expected;
         for (std::int64_t step = 5; step <= 60; step += 9) {
             advance_to(simulation, sampler, step);
-            expected.look(all_points(simulation, world),
-                          extent_at(scene.effects, scene.box, static_cast<double>(step)), scene);
+            std::vector<Point> points = all_points(simulation, world);
+            set_radii(points, scene.effects, static_cast<double>(step));
+            expected.look(points, extent_at(scene.effects, scene.box, static_cast<double>(step)),
+                          scene);
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "neighbours", "count") == expected.neighbours);
@@ -246,23 +271,7 @@ TEST_CASE("measurements: psi6 goes on from what was stored, to the same tables")
     const Case each = cases()[1];
     const TestScene test = test_of(each);
     const Scene scene = with_psi6(test, each.method);
-    Simulation whole = simulation_of(scene, test, world);
-    Sampler whole_sampler(scene, whole, world);
-    advance_to(whole, whole_sampler, 60);
-
-    Simulation first = simulation_of(scene, test, world);
-    Sampler first_sampler(scene, first, world);
-    advance_to(first, first_sampler, 33);
-    StoredState state = {{first.discs().begin(), first.discs().end()},
-                         first.micro_steps_done(),
-                         SideColumns(first.side_columns())};
-    Simulation second(scene, std::move(state), world, {});
-    Sampler sampler(scene, second, world);
-    sampler.go_on(first_sampler.stored());
-    advance_to(second, sampler, 60);
-    for (const char* name :
-         {"psi6", "psi6_history", "psi6_distribution", "psi6_correlation", "neighbours"})
-        CHECK(table_of(sampler.tables(), name).rows == table_of(whole_sampler.tables(), name).rows);
+    check_going_on(scene, test, 33, 60, world);
 }
 
 TEST_CASE("measurements: in a square lattice psi6 is 0, each disc with four neighbours") {

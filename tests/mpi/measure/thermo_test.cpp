@@ -103,23 +103,6 @@ TEST_CASE("measurements: thermo goes on from what was stored, to the same rows")
         const TestScene test = test_of(each);
         Scene scene = with_thermo(test, each);
         leave_out(scene, "pressure");
-        Simulation whole = simulation_of(scene, test, world);
-        Sampler whole_sampler(scene, whole, world);
-        advance_to(whole, whole_sampler, 60);
-
-        Simulation first = simulation_of(scene, test, world);
-        Sampler first_sampler(scene, first, world);
-        advance_to(first, first_sampler, 33);
-        StoredState state = {{first.discs().begin(), first.discs().end()},
-                             first.micro_steps_done(),
-                             SideColumns(first.side_columns())};
-        Simulation second(scene, std::move(state), world, {});
-        Sampler sampler(scene, second, world);
-        sampler.go_on(first_sampler.stored());
-        advance_to(second, sampler, 60);
-        const MeasuredTable expected = whole_sampler.rows_from(1).at(0);
-        CHECK(expected.rows.size() == 6);
-        CHECK(sampler.rows_from(1).at(0).rows == expected.rows);
-        CHECK(sampler.rows_from(0).at(0).remarks == expected.remarks);
+        check_going_on(scene, test, 33, 60, world);
     }
 }

@@ -108,21 +108,5 @@ TEST_CASE("measurements: transport goes on between samples") {
     const Communicator world = Communicator::world();
     const TestScene test = cluster();
     const Scene scene = with_transport(test, Method::event_driven);
-    Simulation whole = simulation_of(scene, test, world);
-    Sampler whole_sampler(scene, whole, world);
-    advance_to(whole, whole_sampler, 100);
-    Simulation first = simulation_of(scene, test, world);
-    Sampler first_sampler(scene, first, world);
-    advance_to(first, first_sampler, 53);
-    StoredState state{{first.discs().begin(), first.discs().end()}, first.micro_steps_done()};
-    Simulation second(scene, std::move(state), world, {});
-    Sampler sampler(scene, second, world);
-    sampler.go_on(first_sampler.stored());
-    advance_to(second, sampler, 100);
-    const std::vector<std::vector<double>> expected = whole_sampler.tables()[0].rows,
-                                           rows = sampler.tables()[0].rows;
-    REQUIRE(rows.size() == expected.size());
-    for (std::size_t row = 0; row < rows.size(); ++row)
-        for (std::size_t k = 0; k < rows[row].size(); ++k)
-            if (!std::isnan(expected[row][k])) CHECK(rows[row][k] == expected[row][k]);
+    check_going_on(scene, test, 53, 100, world);
 }

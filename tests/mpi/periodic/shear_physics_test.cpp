@@ -8,11 +8,10 @@
 #include <numbers>
 #include <vector>
 
-#include <carrom/averages.hpp>
-
 #include "catch.hpp"
 #include <omp.h>
 
+#include "averaging.hpp"
 #include "effect_runs.hpp"
 #include "periodic_scenes.hpp"
 
@@ -42,10 +41,15 @@ TestScene flowing_gas(std::size_t n, double packing, double rate, double restitu
     return scene;
 }
 
-TensorEstimate stresses_of(const TestScene& scene, Method method, const Communicator& world) {
+Averages averages_of(const TestScene& scene, Method method, const Communicator& world) {
     Simulation simulation = simulation_of(scene, method, world);
-    advance_to(simulation, scene.steps);
-    return simulation.averages().pressure_tensor;
+    Averaging averaging(scene, simulation, world);
+    averaging.advance_to(scene.steps);
+    return averaging.averages();
+}
+
+TensorEstimate stresses_of(const TestScene& scene, Method method, const Communicator& world) {
+    return averages_of(scene, method, world).pressure_tensor;
 }
 
 /// The same flow with everything `up` higher; what has crossed the seam has its row's velocity.
@@ -82,6 +86,16 @@ TEST_CASE("shear: stresses depend neither on the frame nor on where the seam is"
     }
 }
 
+namespace {
+
+/// In units of sqrt(m kT) / diameter: Gass (1971).
+double enskog_viscosity(double packing) {
+    const double bn = 2 * packing, chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
+    return 1.022 / (2 * std::sqrt(std::numbers::pi)) * (1 / chi + bn + 0.8729 * chi * bn * bn);
+}
+
+} // namespace
+
 // In each of ten layers the mean of vx less the line scatters by sqrt(T / n) of a layer's n discs
 // and looks; four times that is allowed. Looks follow each other by several collisions.
 TEST_CASE("shear: the profile of velocities is a line") {
@@ -117,24 +131,17 @@ TEST_CASE("shear: the profile of velocities is a line") {
               4 * std::sqrt(squares[k]) / counts[k]);
 }
 
-// Enskog's viscosity, Gass (1971), in units of sqrt(m kT) / diameter. Restitution 0.99 keeps the
-// temperature where the work of the flow and the losses agree; the rate is 0.13 of the thermal
-// speed per diameter. Four standard errors are 0.06 of it.
+// Restitution 0.99 keeps the temperature where the work of the flow and the losses agree. The rate
+// is 0.13 of the thermal speed per diameter. Four standard errors are 0.06 of the viscosity.
 TEST_CASE("shear: the viscosity is Enskog's") {
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;
     TestScene scene = flowing_gas(1000, 0.3, 0.135, 0.99);
     scene.steps = 4000;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, scene.steps);
-    const Averages averages = simulation.averages();
-    const double packing = 0.3, bn = 2 * packing,
-                 chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
-    const double enskog = 1.022 / (2 * std::sqrt(std::numbers::pi)) *
-                          (1 / chi + bn + 0.8729 * chi * bn * bn);
+    const Averages averages = averages_of(scene, Method::event_driven, world);
     const double viscosity = -averages.pressure_tensor.xy.value / scene.setting.effects.shear,
                  unit = std::sqrt(averages.temperature.value) / (2 * scene.setting.radius);
-    CHECK(viscosity / unit == Approx(enskog).epsilon(0.08));
+    CHECK(viscosity / unit == Approx(enskog_viscosity(0.3)).epsilon(0.08));
 }
 
 // The same without losses: a thermostat that rescales velocities about the flow takes what the flow
@@ -149,17 +156,11 @@ TEST_CASE("shear: elastic discs whose velocities are rescaled have Enskog's visc
     scene.setting.effects.thermostat = {ThermostatKind::rescale, 0, 0, kt, 0};
     scene.setting.sync_every = 8;
     scene.steps = 4000;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, scene.steps);
-    const Averages averages = simulation.averages();
-    const double packing = 0.3, bn = 2 * packing,
-                 chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
-    const double enskog = 1.022 / (2 * std::sqrt(std::numbers::pi)) *
-                          (1 / chi + bn + 0.8729 * chi * bn * bn);
+    const Averages averages = averages_of(scene, Method::event_driven, world);
     CHECK(averages.temperature.value == Approx(kt).epsilon(0.005));
     const double viscosity = -averages.pressure_tensor.xy.value / scene.setting.effects.shear,
                  unit = std::sqrt(kt) / (2 * scene.setting.radius);
-    CHECK(viscosity / unit == Approx(enskog).epsilon(0.08));
+    CHECK(viscosity / unit == Approx(enskog_viscosity(0.3)).epsilon(0.08));
 }
 
 // Grad's moments of a thin gas (Vega Reyes, Santos and Garzo, J. Fluid Mech. 719, 431 (2013)): with
@@ -174,8 +175,6 @@ TEST_CASE("shear: a granular gas has the stress ratio of Grad's moments") {
     TestScene scene = flowing_gas(1000, packing, std::sqrt(zeta / beta) * (beta + zeta) * frequency,
                                   e);
     scene.steps = 12000;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, scene.steps);
-    const TensorEstimate tensor = simulation.averages().pressure_tensor;
+    const TensorEstimate tensor = stresses_of(scene, Method::event_driven, world);
     CHECK(-tensor.xy.value / tensor.yy.value == Approx(std::sqrt(zeta / beta)).epsilon(0.06));
 }

@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 
+#include "averaging.hpp"
 #include "initial_state/initial_state.hpp"
 #include "rectangle_scenes.hpp"
 
@@ -34,9 +35,9 @@ Scene periodic_gas(const Box& shape, std::uint64_t n) {
 Averages averages_of(const Scene& scene, const Communicator& world) {
     Simulation simulation(scene, initial_state(scene, nullptr, world), world, {});
     advance_to(simulation, 200);
-    simulation.average_anew();
-    advance_to(simulation, scene.steps);
-    return simulation.averages();
+    Averaging averaging(scene, simulation, world);
+    averaging.advance_to(scene.steps);
+    return averaging.averages();
 }
 
 /// The own discs' extent, of all of them where a rank is alone.

@@ -6,10 +6,10 @@
 #include "catch.hpp"
 #include <omp.h>
 
+#include "averaging.hpp"
 #include "parallel/exchange.hpp"
 #include "scene_tools.hpp"
 #include "simulation/simulation.hpp"
-#include "statistics/block_averages.hpp"
 
 using namespace carrom;
 
@@ -133,11 +133,9 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         Tuning tuning;
         tuning.threads = omp_get_max_threads();
         Simulation simulation(scene, own_of(test.discs, world), world, tuning);
-        const auto advance_to = [&](std::int64_t step) {
-            while (simulation.step() < step) simulation.advance_towards(step);
-        };
-        advance_to(7);
-        simulation.average_anew();
+        test::Averaging averaging(scene, simulation, world);
+        averaging.advance_to(7);
+        averaging.begin_anew();
         const PlainSums first = sums_of(gathered(simulation, world), 4);
         const Tensor first_stress = stress_of(simulation);
         // Looks are 10 steps apart, a quarter of the run: it is short, and keeps its energy.
@@ -146,7 +144,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         std::vector<double> frequencies, speeds;
         double all_speeds = 0, all_kurtoses = 0;
         for (std::int64_t step = 8; step <= 48; ++step) {
-            advance_to(step);
+            averaging.advance_to(step);
             const bool is_end = step % 10 == 7;
             if (!is_end && step < 48) continue;
             now = sums_of(gathered(simulation, world), 4);
@@ -163,7 +161,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
             at_block = now;
             block_begin = step;
         }
-        const Averages averages = simulation.averages();
+        const Averages averages = averaging.averages();
         CHECK(averages.first_step == 7);
         CHECK(averages.steps == 41);
         check_frequency(averages, now.pairs - first.pairs, frequencies);
@@ -185,11 +183,12 @@ TEST_CASE("averages: any number of blocks ends as 64 to 127, and stops on the wa
     const auto averages_of = [&](std::int64_t stride) {
         Simulation simulation(test::scene_of(test),
                               world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+        test::Averaging averaging(test, simulation, world);
         for (std::int64_t step = 0; step < 10000;) {
             step = std::min<std::int64_t>(step + stride, 10000);
-            while (simulation.step() < step) simulation.advance_towards(step);
+            averaging.advance_to(step);
         }
-        return simulation.averages();
+        return averaging.averages();
     };
     const Averages once = averages_of(10000), often = averages_of(7);
     CHECK(once.n_blocks == 10000 / 128);
@@ -209,10 +208,11 @@ TEST_CASE("averages: discs at rest, or none that collide, give numbers and no er
     test::add_disc(test, 5, 5);
     Simulation simulation(test::scene_of(test),
                           world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
-    CHECK(simulation.averages().steps == 0);
-    CHECK(std::isnan(simulation.averages().pressure.value));
-    simulation.advance_towards(1);
-    const Averages averages = simulation.averages();
+    test::Averaging averaging(test, simulation, world);
+    CHECK(averaging.averages().steps == 0);
+    CHECK(std::isnan(averaging.averages().pressure.value));
+    averaging.advance_to(1);
+    const Averages averages = averaging.averages();
     CHECK(averages.wall_pressure.value == 0);
     CHECK(averages.collision_frequency.value == 0);
     CHECK(averages.mean_speed.value == 0);
@@ -232,10 +232,11 @@ TEST_CASE("averages: they begin where the scene says, and a short run has errors
         scene.averages_from = 15;
         Simulation simulation(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world,
                               {});
-        simulation.advance_towards(9);
-        CHECK(simulation.averages().steps == 0);
-        while (simulation.step() < 40) simulation.advance_towards(40);
-        const Averages averages = simulation.averages();
+        test::Averaging averaging(scene, simulation, world);
+        averaging.advance_to(9);
+        CHECK(averaging.averages().steps == 0);
+        averaging.advance_to(40);
+        const Averages averages = averaging.averages();
         CHECK(averages.first_step == 15);
         CHECK(averages.steps == 25);
         CHECK(averages.n_blocks == 4);

@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include <omp.h>
 
+#include "averaging.hpp"
 #include "scene_tools.hpp"
 #include "simulation/simulation.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 constexpr std::size_t n_discs = 144;
 constexpr std::int64_t n_steps = 64;
 
-struct Kind {
+struct GasKind {
     std::string name;
     std::function<void(Effects&)> change;
     bool only_event_driven = false;
@@ -29,7 +30,7 @@ struct Kind {
 
 /// Contact times are short, because a sync resets them: that is a change of physics, not of
 /// averages.
-std::vector<Kind> kinds() {
+std::vector<GasKind> kinds() {
     const auto for_each_side = [](Effects& effects, const Boundary& side) {
         effects.boundaries.fill(side);
     };
@@ -77,7 +78,7 @@ struct Result {
     double sampled_temperature = 0; ///< from energies at all steps, taken to change evenly
 };
 
-Result run(const Kind& kind, Method method, std::int64_t sync_every) {
+Result run(const GasKind& kind, Method method, std::int64_t sync_every) {
     const Communicator world = Communicator::world();
     test::TestScene test = test::gas(n_discs, 0.3, 0.1, 91);
     test.steps = n_steps;
@@ -89,14 +90,15 @@ Result run(const Kind& kind, Method method, std::int64_t sync_every) {
     tuning.threads = omp_get_max_threads();
     Simulation simulation(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world,
                           tuning);
+    test::Averaging averaging(scene, simulation, world);
     Result result;
     for (std::int64_t step = 0; step <= n_steps; ++step) {
-        while (simulation.step() < step) simulation.advance_towards(step);
+        averaging.advance_to(step);
         const double weight = step == 0 || step == n_steps ? 0.5 : 1;
         result.sampled_temperature += weight * simulation.energies().kinetic_energy /
                                       static_cast<double>(n_discs * n_steps);
     }
-    result.averages = simulation.averages();
+    result.averages = averaging.averages();
     return result;
 }
 
@@ -111,7 +113,7 @@ void check_same(std::string_view name, const Estimate& one, const Estimate& othe
 } // namespace
 
 TEST_CASE("averages: sync_every does not change them, whatever changes the energy") {
-    for (const Kind& kind : kinds()) {
+    for (const GasKind& kind : kinds()) {
         for (const Method method : {Method::time_stepped, Method::event_driven}) {
             if (kind.only_event_driven && method == Method::time_stepped) continue;
             const Result often = run(kind, method, 1);

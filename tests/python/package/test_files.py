@@ -38,6 +38,8 @@ SCENES: dict[str, Scene] = {
     "drag": gas() | {"effects": {"drag": {"rate": 0.02}}},
     "rough": gas() | {"effects": ROUGH},
     "species": gas(**PERIODIC) | {"discs": {"species": SPECIES}},
+    "sizes": gas(**PERIODIC)
+    | {"discs": {"count": 25, "packing": 0.3, "radius": {"polydispersity": 0.2}}},
     "open": gas(right={"kind": "open"}),
     "rectangle": gas(size=[40, 10]),
     "periodic rectangle": gas(size=[8, 50], **PERIODIC),

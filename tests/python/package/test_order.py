@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""psi6, neighbours and structure factor of the program against SciPy, freud and NumPy."""
+"""psi6, neighbours and structure factors of the program against SciPy, freud and NumPy."""
 
 from __future__ import annotations
 
@@ -141,3 +141,36 @@ def test_structure_factor_is_the_sum_over_discs(program: Path, tmp_path: Path) -
     assert table["S"][counts > 0] == pytest.approx((sums / np.maximum(counts, 1))[counts > 0])
     assert peak["S"][0] == pytest.approx(np.max(s))
     assert peak["k"][0] == pytest.approx(np.hypot(*k[np.argmax(s)]))
+
+
+def test_partial_structure_factors_are_sums_over_species(program: Path, tmp_path: Path) -> None:
+    species = [{"count": 100, "radius": 0.35}, {"count": 80, "radius": 0.2, "mass": 0.5}]
+    scene = {
+        "box": {"size": 20, **PERIODIC},
+        "discs": {"species": species, "speed": 0.5},
+        "time": {"steps": 40, "method": "event-driven"},
+        "output": {
+            "trajectory": {"every_steps": 10, "precision": "double", "fields": ["position"]},
+            "measurements": {
+                "quantities": ["partial_structure_factor"],
+                "every_steps": 10,
+                "bins": 15,
+                "largest_wavenumber": 6,
+            },
+        },
+    }
+    run = carrom.run(scene, threads=1, folder=tmp_path / "run")
+    table = run.tables["partial_structure_factor"]
+    n, m = np.meshgrid(np.arange(-20, 21), np.arange(21), indexing="ij")
+    wanted = ((m > 0) | (n > 0)) & (2 * np.pi / 20 * np.hypot(n, m) <= 6)
+    k = 2 * np.pi / 20 * np.stack([n[wanted], m[wanted]], axis=1)
+    bins = np.minimum((np.hypot(*k.T) / 6 * 15).astype(int), 14)
+    counts = np.bincount(bins, minlength=15)
+    assert table["count"].tolist() == counts.tolist()
+    parts = (slice(0, 100), slice(100, 180))
+    modes = [[np.exp(1j * f.x[part] @ k.T).sum(axis=0) for part in parts] for f in run.frames]
+    for a, b in ((0, 0), (0, 1), (1, 1)):
+        s = np.mean([(mode[a] * np.conj(mode[b])).real / 180 for mode in modes], axis=0)
+        sums = np.bincount(bins, weights=s, minlength=15)
+        found = table[f"S_{a + 1}_{b + 1}"]
+        assert found[counts > 0] == pytest.approx((sums / np.maximum(counts, 1))[counts > 0])

@@ -134,3 +134,26 @@ TEST_CASE("whole box: each disc is there once, and all that are within reach of 
         }
     }
 }
+
+TEST_CASE("whole box: levels with cells of other widths have ghosts one period away in one unit") {
+    const Case of{12, 9, true, true, 1, 40, 40};
+    const Periods periods = periods_of(of);
+    const std::vector<Disc> discs = discs_of(of, 0.5);
+    BoxLayout layout;
+    layout.clear();
+    std::vector<LocalIndex> small, large;
+    for (const LocalIndex index : layout.list_once(discs, of.n_own))
+        (index % 4 == 0 ? large : small).push_back(index);
+    const double unit = 0.8;
+    for (const auto& [listed, reach] : {std::pair(small, 1.0), std::pair(large, 4.1)}) {
+        const std::size_t before = layout.indices().size();
+        const BoxCells cells = cells_of_box({0, of.x, 0, of.y}, periods, reach, reach);
+        layout.add_level(discs, listed, of.n_own, cells, periods, 0.5, unit);
+        CHECK(layout.indices().size() > before + listed.size());
+    }
+    for (const Ghost& ghost : layout.ghosts()) {
+        CHECK(layout.indices()[ghost.slot] == layout.indices()[ghost.disc]);
+        CHECK(ghost.x_shift * unit == Approx(ghost.image.x * of.x));
+        CHECK(ghost.y_shift * unit == Approx(ghost.image.y * of.y));
+    }
+}

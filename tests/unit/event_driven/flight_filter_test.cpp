@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "event_driven/flight_filter.hpp"
@@ -113,6 +114,49 @@ TEST_CASE("Flights: all that touch are found among some runs of slots") {
             }
         }
     }
+}
+
+TEST_CASE("Flights: discs of several sizes are found as near as the sum of their radii") {
+    const Flights flights(31);
+    std::mt19937 random(32);
+    std::vector<float> radii(flights.n + filter_padding);
+    for (float& radius : radii) radius = 0.05f * static_cast<float>(1 + random() % 9);
+    SizedLanes lanes;
+    static_cast<FlightLanes&>(lanes) = flights.lanes();
+    lanes.radii = radii.data();
+    std::vector<std::uint32_t> p_out(flights.n + filter_padding), q_out(p_out.size());
+    const std::vector<SlotRange> runs = {{0, flights.n}};
+    std::size_t n_touching = 0;
+    const auto check = [&](std::span<const std::uint32_t> found, std::uint32_t p,
+                           std::uint32_t other, double now) {
+        for (std::uint32_t slot = 0; slot < flights.n; ++slot) {
+            const auto n = std::ranges::count(found, slot);
+            const double distance = flights.least_distance(p, slot, now),
+                         sum = double{radii[p]} + double{radii[slot]};
+            const bool is_out = slot == p || slot == other;
+            REQUIRE(n <= (is_out || distance > sum + 2 * margin ? 0 : 1));
+            REQUIRE((is_out || distance > sum || n == 1));
+            n_touching += n > 0;
+        }
+    };
+    for (int k = 0; k < 60; ++k) {
+        const auto p = static_cast<std::uint32_t>(random() % flights.n),
+                   q = static_cast<std::uint32_t>(random() % flights.n);
+        const float now = static_cast<float>(random() % 100) / 100;
+        const auto wide = [&](std::uint32_t slot) {
+            return radii[slot] + static_cast<float>(margin);
+        };
+        const std::size_t n = filter_sized(lanes, runs, flights.flight(p, now), wide(p),
+                                           p_out.data());
+        check({p_out.data(), n}, p, p, now);
+        if (p == q) continue;
+        const PartnerCounts both = filter_two_sized(lanes, runs, flights.flight(p, now),
+                                                    flights.flight(q, now), wide(p), wide(q),
+                                                    p_out.data(), q_out.data());
+        check({p_out.data(), both.p}, p, q, now);
+        check({q_out.data(), both.q}, q, p, now);
+    }
+    CHECK(n_touching > 200);
 }
 
 TEST_CASE("Flights: of a column each pair that touches is found from its first disc") {

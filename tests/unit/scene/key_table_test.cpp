@@ -142,6 +142,9 @@ Texts random_overrides(Draw& draw) {
                                    "output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"structure_factor\", "
                                    "\"diffusion\"]"});
+    if (draw.below(8) == 0) // without quantities that few scenes may have
+        texts.insert(texts.end(), {"output.folder=a", "output.measurements.every_steps=1",
+                                   "output.measurements.quantities=[\"profiles\"]"});
     if (draw.below(8) == 0) // both sides, and the flow goes through the others
         texts.insert(texts.end(),
                      {"box.left.kind=periodic", "box.right.kind=periodic",

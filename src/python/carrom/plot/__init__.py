@@ -17,6 +17,7 @@ if TYPE_CHECKING:
         equation_of_state,
         history,
         measurements,
+        profiles,
         radial_distribution,
     )
     from carrom.plot.drawing import frame
@@ -28,6 +29,7 @@ __all__ = [
     "history",
     "measurements",
     "movie",
+    "profiles",
     "radial_distribution",
 ]
 
@@ -37,6 +39,7 @@ _MODULES = {
     "history": "curves",
     "measurements": "curves",
     "movie": "movies",
+    "profiles": "curves",
     "radial_distribution": "curves",
 }
 

@@ -66,6 +66,16 @@ def _parser() -> argparse.ArgumentParser:
     _add_look(movie)
     add("history", _history, "kinetic energy and collisions over time", **run)
     add("measurements", _measurements, "the tables of [output.measurements]", **run)
+    profiles = add("profiles", _profiles, 'fields of "profiles", as maps or curves', **run)
+    profiles.add_argument(
+        "--columns",
+        nargs="+",
+        metavar="FIELD",
+        default=["density", "temperature", "vx", "vy"],
+        help="fields to draw; default: density temperature vx vy",
+    )
+    profiles.add_argument("--step", type=int, help="last step of the block; default: the last")
+    profiles.add_argument("--species", type=int, help="one species, counted from 1")
     many = {"nargs": "+", "help": "folders of runs"}
     gr = add("gr", _gr, "the radial distribution g(r)", **many)
     gr.add_argument("--in-diameters", action="store_true", help="distances over the diameter")
@@ -114,6 +124,13 @@ def _history(options: Options) -> None:
 
 def _measurements(options: Options) -> None:
     _save(plot.measurements(options.source)[0], options)
+
+
+def _profiles(options: Options) -> None:
+    axes = plot.profiles(
+        options.source, options.columns, step=options.step, species=options.species
+    )
+    _save(axes[0], options)
 
 
 def _gr(options: Options) -> None:

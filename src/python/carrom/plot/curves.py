@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Union
 
 import matplotlib.pyplot as plt
@@ -12,12 +12,15 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from carrom.errors import NoDataError
+from carrom.fields import Fields
 from carrom.physics import compressibility, henderson, virial_equation
+from carrom.plot.fields import draw_field
 from carrom.plot.panels import draw_table, is_drawable, middles
 from carrom.plot.sources import as_run
 from carrom.runs import Run
 from carrom.sweeps import Sweep
 
+_USUAL_FIELDS = ("density", "temperature", "vx", "vy")
 RunLike = Union[Run, str, "os.PathLike[str]"]
 
 
@@ -164,8 +167,16 @@ def measurements(source: RunLike) -> list[Axes]:
     if not names:
         known = ", ".join(run.tables) or "none"
         raise NoDataError(f"{run.name}: has no table to draw; it has {known}")
-    n_columns = min(2, len(names))
-    n_rows = -(-len(names) // n_columns)
+    axes = _panels(len(names))
+    for ax, name in zip(axes, names):
+        draw_table(ax, run, name)
+    return axes
+
+
+def _panels(n: int) -> list[Axes]:
+    """Return axes in two columns."""
+    n_columns = min(2, n)
+    n_rows = -(-n // n_columns)
     _, grid = plt.subplots(
         n_rows,
         n_columns,
@@ -174,8 +185,35 @@ def measurements(source: RunLike) -> list[Axes]:
         layout="constrained",
     )
     axes: list[Axes] = list(grid.flat)
-    for ax in axes[len(names) :]:
+    for ax in axes[n:]:
         ax.remove()
-    for ax, name in zip(axes, names):
-        draw_table(ax, run, name)
-    return axes[: len(names)]
+    return axes[:n]
+
+
+def profiles(
+    source: RunLike,
+    columns: Sequence[str] = _USUAL_FIELDS,
+    *,
+    step: int | None = None,
+    species: int | None = None,
+) -> list[Axes]:
+    """Draw fields of `"profiles"`, a panel for each of them.
+
+    On a grid of rows and columns a panel is a map of one block. Where the grid has a single row or
+    column it has a curve for each block, the last one in black.
+
+    Args:
+        source: a run, or a path
+        columns: names of fields; "pressure" is the sum of both parts of half the trace
+        step: the block that ends with this step; the last one if None
+        species: that species alone, counted from 1; it needs `profile_species = 1`
+    """
+    run = as_run(source)
+    name = "profiles" if species is None else f"profiles_{species}"
+    fields = Fields(run.tables[name])
+    if fields.n_blocks == 0:
+        raise NoDataError(f"{run.name}: has no whole block of profiles yet")
+    axes = _panels(len(columns))
+    for ax, column in zip(axes, columns):
+        draw_field(ax, fields, column, fields.block_of(step))
+    return axes

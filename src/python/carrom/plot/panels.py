@@ -13,7 +13,9 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from carrom.fields import Fields, is_grid
 from carrom.frame import Array
+from carrom.plot.fields import draw_field
 from carrom.runs import Run
 from carrom.tables import Table
 
@@ -28,7 +30,7 @@ def middles(table: Table) -> Array:
 
 
 def is_drawable(table: Table) -> bool:
-    """Whether a table is a curve: several rows, and a column of numbers over another."""
+    """Whether a table is a curve or a map: several rows, and a column of numbers over another."""
     return len(table) > 1 and bool(_curves(table))
 
 
@@ -36,8 +38,11 @@ def draw_table(ax: Axes, run: Run, name: str) -> None:
     """Draw a table of a run, titled by its name."""
     table = run.tables[name]
     ax.set_title(name.replace("_", " "), fontsize="medium")
-    if name in _SPECIAL:
-        _SPECIAL[name](ax, run, table)
+    if is_grid(table.columns):
+        fields = Fields(table)
+        draw_field(ax, fields, "density", fields.n_blocks - 1)
+    elif (kind := re.sub(r"_[0-9]+$", "", name)) in _SPECIAL:
+        _SPECIAL[kind](ax, run, table)
     else:
         _draw_curves(ax, table)
 
@@ -137,10 +142,37 @@ def _thermo(ax: Axes, run: Run, table: Table) -> None:
     ax.legend(fontsize="small")
 
 
+def _correlations(ax: Axes, run: Run, table: Table) -> None:
+    """How discs forget their places and velocities, over decades of time."""
+    first = float(table["velocities"][0]) if len(table) else 0.0
+    ax.semilogx(table["steps"], table["scattering"], label="F_s")
+    ax.semilogx(table["steps"], table["overlap"], label="overlap")
+    if first > 0:
+        ax.semilogx(table["steps"], table["velocities"] / first, label="velocities, over the first")
+    ax.set_xlabel("steps")
+    ax.legend(fontsize="small")
+
+
+def _transport(ax: Axes, run: Run, table: Table) -> None:
+    """Coefficients by lag, of Helfand's moments, each over the largest that it comes to."""
+    for name in ("shear", "bulk", "conductivity"):
+        values, errors = np.asarray(table[name]), np.asarray(table[f"{name}_error"])
+        largest = float(np.nanmax(values))
+        if largest <= 0:
+            continue
+        ax.semilogx(table["steps"], values / largest, label=f"{name} / {largest:.3g}")
+        low, high = (values - errors) / largest, (values + errors) / largest
+        ax.fill_between(table["steps"], low, high, alpha=0.25)
+    ax.set(xlabel="steps", ylim=(0, None))
+    ax.legend(fontsize="small")
+
+
 _SPECIAL: dict[str, Callable[[Axes, Run, Table], None]] = {
+    "correlations": _correlations,
     "displacement": _displacement,
     "radial_distribution": _radial_distribution,
     "thermo": _thermo,
+    "transport": _transport,
     "velocities": _velocities,
     "wall_pressure_history": _wall_pressure,
 }

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Energy, pressure and collision rate along a run, from what it has written so far."""
+"""Energy, pressure and collision rate along a run, from what it has written so far.
+
+Where a run has no table of pressures, or counts no collisions, its trajectory has other numbers:
+temperature, mean speed, and how many discs are in the box. They take the place.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import re
 import time
 from typing import Any
@@ -23,11 +28,20 @@ _STEP = re.compile(r"checkpoint-([0-9]+)\.h5")
 Curve = dict[str, Any]
 
 
-def _curve(steps: Any, values: Any, source: str) -> Curve:
+_ENERGY = "Kinetic energy, mass length²/step²"
+_PRESSURE = "Pressure, mass/step²"
+_RATE = "Collisions per disc and step"
+_TEMPERATURE = "Temperature kT, mass length²/step²"
+_SPEED = "Mean speed, length/step"
+_INSIDE = "Discs in the box"
+
+
+def _curve(steps: Any, values: Any, source: str, title: str) -> Curve:
     return {
         "steps": [float(step) for step in steps],
         "values": [float(value) for value in values],
         "source": source,
+        "title": title,
     }
 
 
@@ -48,7 +62,7 @@ class Curves:
 
     def clear(self) -> None:
         """Forget a run: another one has begun in its place."""
-        self._of_frames: dict[int, tuple[float, float | None]] = {}
+        self._of_frames: dict[int, dict[str, float]] = {}
         self._log_path: Any = None
         self._log_rows = 0
         self._log_counts: dict[int, int] = {}
@@ -81,11 +95,17 @@ class Curves:
                 return
 
     def _energy(self) -> Curve:
-        known = sorted((step, e) for step, (e, _) in self._of_frames.items() if e == e)
+        return self._column("energy", _ENERGY) or _curve(
+            (), (), "no frames with velocities yet", _ENERGY
+        )
+
+    def _column(self, name: str, title: str) -> Curve | None:
+        """Return one number of all frames that have it."""
+        known = sorted((step, sums[name]) for step, sums in self._of_frames.items() if name in sums)
         if not known:
-            return _curve((), (), "no frames with velocities yet")
-        steps, energies = zip(*known)
-        return _curve(steps, energies, "kinetic energy of frames")
+            return None
+        steps, values = zip(*known)
+        return _curve(steps, values, "from frames", title)
 
     def _read_log(self, run: Run, until: float) -> None:
         """Counts of pairs by step, from where the last look ended."""
@@ -120,17 +140,24 @@ class Curves:
             whole = last // width * width
             rates = counts[:whole].reshape(-1, width).mean(axis=1) * 2 / n_discs
             middles = (np.arange(len(rates)) + 0.5) * width
-            return _curve(middles, rates, "the log of collisions")
-        known = sorted((s, n) for s, (_, n) in self._of_frames.items() if n is not None)
-        if len(known) < 2:
-            return _of_report(run, "collision_frequency") or _curve(
+            return _curve(middles, rates, "the log of collisions", _RATE)
+        counted = self._column("collisions", _RATE)
+        if counted is not None and len(counted["steps"]) > 1:
+            steps, means = np.array(counted["steps"]), np.array(counted["values"])
+            rates = np.diff(means) / np.diff(steps)
+            middles = (steps[1:] + steps[:-1]) / 2
+            return _curve(middles, rates, "counters of frames or checkpoints", _RATE)
+        return (
+            _of_report(run, "collision_frequency", _RATE)
+            or self._column("speed", _SPEED)
+            or self._column("inside", _INSIDE)
+            or _curve(
                 (),
                 (),
                 "needs output.collisions, or frames or checkpoints with counters of collisions",
+                _RATE,
             )
-        steps, means = (np.array(column) for column in zip(*known))
-        rates = np.diff(means) / np.diff(steps)
-        return _curve((steps[1:] + steps[:-1]) / 2, rates, "counters of frames or checkpoints")
+        )
 
     def _pressure(self, run: Run) -> Curve:
         try:
@@ -141,29 +168,42 @@ class Curves:
             sides = np.stack([table[side] for side in ("left", "right", "bottom", "top")])
             is_wall = ~np.isnan(sides).all(axis=1)
             steps = (table["from_step"] + table["to_step"]) / 2
-            return _curve(steps, sides[is_wall].mean(axis=0), "mean over the walls")
-        return _of_report(run, "virial_pressure") or _curve(
-            (), (), 'needs "wall_pressure" among output.measurements.quantities'
+            return _curve(steps, sides[is_wall].mean(axis=0), "mean over the walls", _PRESSURE)
+        return (
+            _of_report(run, "virial_pressure", _PRESSURE)
+            or self._column("temperature", _TEMPERATURE)
+            or self._column("inside", _INSIDE)
+            or _curve(
+                (), (), 'needs "wall_pressure" among output.measurements.quantities', _PRESSURE
+            )
         )
 
 
-def _of_report(run: Run, name: str) -> Curve | None:
+def _of_report(run: Run, name: str, title: str) -> Curve | None:
     """The report's average as a level line, once the run has ended."""
     averages = run.report.get("averages", {}) if run.has_report else {}
     value = (averages.get(name) or {}).get("value")
     if value is None:
         return None
     begin = averages["from_step"]
-    return _curve((begin, begin + averages["over_steps"]), (value, value), "the report's average")
+    span = (begin, begin + averages["over_steps"])
+    return _curve(span, (value, value), "the report's average", title)
 
 
-def _sums(frame: Frame) -> tuple[float, float | None]:
-    """Return the kinetic energy (nan without velocities), and collisions a disc."""
+def _sums(frame: Frame) -> dict[str, float]:
+    """Return the sums and means of a frame that its fields allow."""
+    inside = frame.present
+    sums = {"inside": float(np.count_nonzero(inside))}
     try:
-        energy = frame.kinetic_energy
+        v, mass = frame.v[inside].astype(np.float64), frame.mass[inside]
     except CarromError:
-        energy = float("nan")
-    try:
-        return energy, float(np.mean(frame.pair_collisions))
-    except CarromError:
-        return energy, None
+        v = mass = np.empty(0)
+    if len(v):
+        sums["energy"] = frame.kinetic_energy
+        sums["speed"] = float(np.mean(np.hypot(v[:, 0], v[:, 1])))
+        drift = np.average(v, axis=0, weights=mass)
+        squares = np.sum((v - drift) ** 2, axis=1)
+        sums["temperature"] = float(np.sum(mass * squares) / (2 * len(v)))
+    with contextlib.suppress(CarromError):
+        sums["collisions"] = float(np.mean(frame.pair_collisions))
+    return sums

@@ -21,6 +21,7 @@ from carrom.frames import Frames
 from carrom.runs import SCENE_FILES, Checkpoints, Run, open_run
 from carrom.scene import flattened
 from carrom.watch.curves import Curves, steps_of
+from carrom.watch.field import NewestField
 from carrom.watch.picture import View, picture
 from carrom.watch.progress import Rate, is_being_written, legacy_steps
 
@@ -42,6 +43,7 @@ class Follower:
         self._run: Run | None = None
         self._lock = threading.Lock()
         self._curves = Curves()
+        self._field = NewestField()
         self._rate = Rate()
         self._identity = ""
         self._spent = 0.0
@@ -102,6 +104,7 @@ class Follower:
             return
         self._identity, self._run, self._rate = identity, None, Rate()
         self._curves.clear()
+        self._field.clear()
         try:
             # The page shows a run at once, and looks again each second.
             self._run = open_run(self.path, check=False)
@@ -182,6 +185,11 @@ class Follower:
             n_discs = frames[-1].n_discs if len(frames) else 0
             seconds = 0.05 if self._is_running() else 0.5
             return self._curves.look(run, frames, n_discs, seconds)
+
+    def field(self, name: str) -> dict[str, Any]:
+        """Return a field of the newest block of profiles; see `NewestField`."""
+        with self._looking():
+            return self._field.look(self._begun_run(), name)
 
     def frame(
         self, step: int, colour: str, view: View | None, follows: bool

@@ -24,6 +24,7 @@ _PAGES = {
     "/watch.js": ("watch.js", "text/javascript; charset=utf-8"),
     "/discs.js": ("discs.js", "text/javascript; charset=utf-8"),
     "/curves.js": ("curves.js", "text/javascript; charset=utf-8"),
+    "/fields.js": ("fields.js", "text/javascript; charset=utf-8"),
 }
 _MOST_CONNECTIONS = 64
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
@@ -131,6 +132,8 @@ class _Handler(BaseHTTPRequestHandler):
             self._answer_json(follower.state(int(words.get("have", 0)), int(words.get("last", -1))))
         elif path == "/curves":
             self._answer_json(follower.curves())
+        elif path == "/field":
+            self._answer_json(follower.field(words.get("name", "density")))
         elif path == "/frame":
             step, colour = int(words.get("step", "")), words.get("colour", "speed")
             view = View.of(words["view"]) if "view" in words else None

@@ -17,6 +17,27 @@ const Curves = (() => {
     return [low >= 0 && low - room < 0 ? 0 : low - room, high + room];
   }
 
+  // Some `most` round numbers from low to high, two at least: 1, 2 or 5 times a power of ten apart.
+  function ticks(low, high, most) {
+    const least = (high - low) / most, power = 10 ** Math.floor(Math.log10(least));
+    const apart = power * [1, 2, 5, 10].find((factor) => factor * power >= least * (1 - 1e-9));
+    const found = [];
+    if (!(apart > 0)) return [low];
+    for (let k = Math.ceil(low / apart - 1e-9); k * apart <= high + 1e-9 * apart; k++)
+      found.push(k * apart);
+    return found.length > 1 || most > 8 ? found : ticks(low, high, 2 * most);
+  }
+
+  // With the digits in which neighbours differ.
+  function tickNames(values) {
+    const apart = values.length > 1 ? values[1] - values[0] : Math.abs(values[0]) || 1;
+    const largest = Math.max(...values.map(Math.abs));
+    if (largest >= 1e7 || largest < 1e-4 && largest > 0)
+      return values.map((v) => v.toExponential(2));
+    const digits = Math.min(12, Math.max(0, -Math.floor(Math.log10(apart) + 1e-9)));
+    return values.map((v) => (v === 0 ? 0 : v).toFixed(digits));
+  }
+
   function words(context, text, width, x, y, lineHeight) {
     let line = "";
     for (const word of text.split(" ")) {
@@ -43,21 +64,37 @@ const Curves = (() => {
       return;
     }
     const [low, high] = range(curve.values);
-    const left = 8, right = width - 8, top = 18, bottom = height - 20;
     const end = Math.max(lastStep, curve.steps[curve.steps.length - 1], 1);
+    const heights = ticks(low, high, height > 110 ? 4 : 2);
+    const names = tickNames(heights);
+    const left = 14 + Math.max(...names.map((name) => context.measureText(name).width));
+    const right = width - 8, top = 18, bottom = height - 20;
     const x = (s) => left + (s / end) * (right - left);
     const y = (v) => bottom - ((v - low) / (high - low)) * (bottom - top);
-    context.fillText(number(high), left, 13);
     context.textAlign = "right";
     context.fillText(curve.source, right, 13);
-    context.fillText("step " + end, right, height - 6);
-    context.textAlign = "left";
-    context.fillText(number(low), left, height - 6);
     context.strokeStyle = style.getPropertyValue("--line");
     context.beginPath();
-    context.moveTo(left, bottom);
+    heights.forEach((v, i) => {
+      context.fillText(names[i], left - 5, y(v) + 4);
+      context.moveTo(left, y(v));
+      context.lineTo(right, y(v));
+    });
+    context.textAlign = "center";
+    const steps = ticks(0, end, Math.max(2, Math.floor((right - left) / 75)));
+    const stepNames = tickNames(steps);
+    steps.forEach((s, i) => {
+      const name = i === 0 ? `step ${stepNames[i]}` : stepNames[i];
+      const half = context.measureText(name).width / 2;
+      context.fillText(name, Math.min(Math.max(x(s), half + 2), width - half - 2), height - 6);
+      context.moveTo(x(s), bottom);
+      context.lineTo(x(s), bottom + 4);
+    });
+    context.moveTo(left, top);
+    context.lineTo(left, bottom);
     context.lineTo(right, bottom);
     context.stroke();
+    context.textAlign = "left";
     context.strokeStyle = style.getPropertyValue("--soft");
     context.setLineDash([3, 3]);
     context.beginPath();

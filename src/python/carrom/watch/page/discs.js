@@ -134,7 +134,7 @@ const Discs = (() => {
     return drawn;
   }
 
-  // The scale of values, or the colours of so many species.
+  // The scale of values, or the colours of the first species.
   function drawGradient(canvas, nSpecies) {
     const context = canvas.getContext("2d"), list = nSpecies ? SPECIES.slice(0, nSpecies) : table;
     const width = nSpecies ? 14 : canvas.width / list.length;
@@ -143,6 +143,16 @@ const Discs = (() => {
       context.fillStyle = `rgb(${r},${g},${b})`;
       context.fillRect(i * width, 0, width + 1, canvas.height);
     });
+  }
+
+  // How strong a colour is in a density, from no disc to the densest packing.
+  function drawShades(canvas) {
+    const context = canvas.getContext("2d"), [r, g, b] = table[128], { width, height } = canvas;
+    context.clearRect(0, 0, width, height);
+    for (let x = 0; x < width; x++) {
+      context.fillStyle = `rgba(${r},${g},${b},${Math.sqrt((x + 0.5) / width)})`;
+      context.fillRect(x, 0, 1, height);
+    }
   }
 
   // A frame from the server's answer.
@@ -162,5 +172,5 @@ const Discs = (() => {
     return frame;
   }
 
-  return { draw, drawGradient, mapping, parse };
+  return { draw, drawGradient, drawShades, mapping, mix, parse };
 })();

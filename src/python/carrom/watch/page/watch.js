@@ -6,7 +6,7 @@ const element = (id) => document.getElementById(id);
 const KEPT_BYTES = 200e6, AHEAD = 3;
 
 const page = {
-  run: null, steps: [], index: -1, state: {}, curves: {},
+  run: null, steps: [], index: -1, state: {}, curves: {}, field: null,
   frames: new Map(), bytes: 0, asked: new Set(),
   direction: 0, due: 0, shown: null, view: null, top: 0, isViewWhole: true, generation: 0,
 };
@@ -78,6 +78,8 @@ function show() {
   element("low").textContent = about.colour === "species" ? `${about.species} species` : "0";
   element("high").textContent = about.colour === "species" ? "" : Curves.number(top);
   Discs.drawGradient(element("gradient"), about.colour === "species" ? about.species : 0);
+  element("cover").hidden = about.kind !== "density";
+  if (about.kind === "density") Discs.drawShades(element("shades"));
   const { total, kind } = about;
   Object.assign(document.body.dataset, { step, drawn, total, kind });
   drawCurves();
@@ -171,6 +173,7 @@ async function look() {
     if (state.status !== "waiting") {
       const curves = await fetch("curves");
       if (curves.ok) page.curves = await curves.json();
+      await loadField();
       drawCurves();
     }
   } catch (error) {
@@ -181,11 +184,25 @@ async function look() {
   setTimeout(look, 1000 * pause);
 }
 
+// A run without profiles answers 404, and the figure stays hidden.
+async function loadField() {
+  const list = element("column"), name = list.value || "density";
+  const answer = await fetch(`field?name=${name}`);
+  page.field = answer.ok ? await answer.json() : null;
+  element("profiles").hidden = page.field === null;
+  if (page.field === null || list.length === page.field.names.length) return;
+  list.replaceChildren(...page.field.names.map((one) => new Option(one, one, false, one === name)));
+}
+
+// Curves are as long as what has happened, so that the first steps of a long run show, too.
 function drawCurves() {
-  const last = page.state.wanted || page.state.step || 1;
+  const last = Math.max(page.state.step || 1, page.steps[page.index] || 0);
   for (const name of ["energy", "pressure", "rate"]) {
-    Curves.draw(element(name), page.curves[name], last, page.steps[page.index] || 0);
+    const curve = page.curves[name];
+    if (curve) element(`${name}-title`).textContent = curve.title;
+    Curves.draw(element(name), curve, last, page.steps[page.index] || 0);
   }
+  if (page.field) Fields.draw(element("field"), page.field);
 }
 
 // Zoom ---------------------------------------------------------------------------------------
@@ -259,6 +276,7 @@ function start() {
     if (element("follow").checked) { play(0); goTo(page.steps.length - 1); }
   };
   element("colour").onchange = show;
+  element("column").onchange = async () => { await loadField(); drawCurves(); };
   const canvas = element("discs");
   canvas.addEventListener("wheel", zoomAt, { passive: false });
   canvas.addEventListener("pointerdown", dragFrom);

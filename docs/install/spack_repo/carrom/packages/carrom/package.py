@@ -10,7 +10,8 @@ class Carrom(CMakePackage):
     """Carrom simulates hard discs in a box with MPI and OpenMP. Its results have
     the same bits on any number of ranks and threads."""
 
-    # Carrom has no public archive yet: `spack develop --path` gives it a checkout.
+    # Carrom has no public page and no archive yet, so homepage, url and checksum cannot be given:
+    # `spack develop --path` gives it a checkout.
 
     license("BSD-3-Clause")
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The history of a run in blocks of equal length in time. It shows how far the run's
-// averages can be trusted.
+// The averages of every run, with errors from its history in blocks of equal length in time. It is
+// a measurement that is always on, at times of its own.
 //
 // A block is a number of steps. When there are `most_blocks`, each two become one, and blocks are
 // twice as long from then on. The discs are sampled at fixed steps, which do not depend on syncs.
@@ -11,38 +11,35 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include <carrom/averages.hpp>
 
+#include "measure/measurement.hpp"
+#include "measure/motion_interval.hpp"
 #include "statistics/blocking.hpp"
 #include "statistics/motion.hpp"
 
 namespace carrom {
 
-class BlockAverages {
+class BlockAverages : public Measurement {
 public:
-    explicit BlockAverages(const AveragedSystem& system) : system_(system) {}
+    explicit BlockAverages(MeasuredRun& run);
 
-    /// Begins anew at `step`.
-    void begin(std::int64_t step, const MotionSample& sample);
-    bool has_begun() const { return has_begun_; }
+    /// Begins anew at the present step.
+    void begin() override;
+    bool has_begun() const { return interval_.has_value(); }
+    /// The first step after `step` at which averages begin or a sample is due.
+    std::int64_t next_due(std::int64_t step) const;
+    void sample_if_due();
+    void sample(const SampledState& state) override;
+    void keep(KeptNumbers& kept) override;
+    /// None: a run's report and the library show `averages`.
+    std::vector<MeasuredTable> tables() const override { return {}; }
 
-    /// The step of the next sample.
-    std::int64_t next_sample() const { return sample_step_ + steps_per_sample_; }
-    bool is_due(std::int64_t step) const { return step >= next_sample(); }
-    void add(std::int64_t step, const MotionSample& sample);
-
-    const AveragedSystem& system() const { return system_; }
-
-    /// The whole history as plain words, for a checkpoint. They are good for the same scene only.
-    std::vector<std::int64_t> words() const;
-    /// Goes on from such words. Returns false, with nothing changed, if they are not valid.
-    bool set_words(std::span<const std::int64_t> words);
-
-    /// Averages up to `step`.
-    Averages averages(std::int64_t step, const MotionSample& sample) const;
+    /// Averages up to the present step. **Collective.**
+    Averages averages() const;
 
 private:
     /// Integrals over time.
@@ -53,22 +50,23 @@ private:
         double steps() const { return motion.steps; }
 
         Block& operator+=(const Block& other);
+        void keep(KeptNumbers& kept);
     };
 
     std::int64_t most_steps_per_sample() const;
-    Block block_between(std::int64_t step, const MotionSample& before, std::int64_t now,
-                        const MotionSample& sample) const;
+    void add(std::int64_t step, const Block& block);
+    Block block_up_to(std::int64_t step, const MotionSample& sample) const;
+    void keep_blocks(KeptNumbers& kept);
     template <class Value> Estimate estimate(const Block& whole, const Value& value) const;
     void fill_pressures(Averages& result, const Block& whole) const;
     void fill_counted_pressures(Averages& result, const Block& whole,
                                 const MotionSample& sample) const;
 
-    AveragedSystem system_;
-    bool has_begun_ = false;
+    const AveragedSystem& system_;
+    std::optional<MotionInterval> interval_; ///< since the last sample, once averages have begun
     std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0; ///< the beginning, the
                                                                      ///< beginning of the present
                                                                      ///< block, and the last sample
-    MotionSample last_;
     Block present_;
     std::int64_t steps_per_sample_ = 1, steps_per_block_ = 1;
     std::vector<Block> blocks_;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "statistics/block_averages.hpp"
+#include "measure/block_averages.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,24 +25,46 @@ BlockAverages::Block& BlockAverages::Block::operator+=(const Block& other) {
     return *this;
 }
 
-void BlockAverages::begin(std::int64_t step, const MotionSample& sample) {
-    has_begun_ = true;
-    first_step_ = block_step_ = sample_step_ = step;
-    last_ = sample;
+BlockAverages::BlockAverages(MeasuredRun& run)
+    : Measurement(run), system_(run.simulation.averaged_system()) {}
+
+void BlockAverages::begin() {
+    first_step_ = block_step_ = sample_step_ = run_.simulation.step();
+    interval_.emplace(run_.simulation, run_.ranks);
     present_ = {};
     // Each sample costs some nanoseconds a disc, and another window of the event-driven
     // method if it is between syncs. A run whose energy changes needs more of them.
     const auto wanted = static_cast<std::int64_t>(system_.keeps_energy ? fewest_blocks
                                                                        : most_blocks / 2);
-    steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - step) / wanted, 1,
+    steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - first_step_) / wanted, 1,
                                                  most_steps_per_sample());
     steps_per_block_ = steps_per_sample_;
     blocks_.clear();
 }
 
-void BlockAverages::add(std::int64_t step, const MotionSample& sample) {
-    present_ += block_between(sample_step_, last_, step, sample);
-    last_ = sample;
+std::int64_t BlockAverages::next_due(std::int64_t step) const {
+    return std::max(step + 1,
+                    has_begun() ? sample_step_ + steps_per_sample_ : run_.scene.averages_from);
+}
+
+void BlockAverages::sample_if_due() {
+    const std::int64_t step = run_.simulation.step();
+    if (has_begun() && step >= sample_step_ + steps_per_sample_)
+        sample({});
+    else if (!has_begun() && step >= run_.scene.averages_from)
+        begin();
+}
+
+/// Does not use `state`, because the sums of the simulation have all that averages need.
+void BlockAverages::sample(const SampledState& /*state*/) {
+    const std::int64_t step = run_.simulation.step();
+    const MotionSample now = interval_->now();
+    add(step, block_up_to(step, now));
+    interval_->begin(now);
+}
+
+void BlockAverages::add(std::int64_t step, const Block& block) {
+    present_ += block;
     sample_step_ = step;
     if (step < block_step_ + steps_per_block_) return;
     blocks_.push_back(present_);
@@ -69,61 +89,72 @@ std::int64_t BlockAverages::most_steps_per_sample() const {
 
 namespace {
 
-/// A record of numbers of 8 bytes each, without gaps.
-template <class Record> constexpr std::size_t n_words_of = sizeof(Record) / sizeof(std::int64_t);
-
-template <class Record> void append_words(std::vector<std::int64_t>& words, const Record& record) {
-    const auto mine = std::bit_cast<std::array<std::int64_t, n_words_of<Record>>>(record);
-    words.insert(words.end(), mine.begin(), mine.end());
+void keep_tensor(KeptNumbers& kept, Tensor& tensor) {
+    kept(tensor.xx), kept(tensor.xy), kept(tensor.yy);
 }
 
-template <class Record> Record take_words(std::span<const std::int64_t>& words) {
-    std::array<std::int64_t, n_words_of<Record>> mine;
-    std::copy_n(words.begin(), mine.size(), mine.begin());
-    words = words.subspan(mine.size());
-    return std::bit_cast<Record>(mine);
+void keep_sample(KeptNumbers& kept, MotionSample& sample) {
+    kept(sample.wall_collisions), kept(sample.pair_collisions), kept(sample.speed_unit);
+    kept(sample.mean_speed), kept(sample.mean_square), kept(sample.mean_fourth);
+    kept(sample.n_discs), kept(sample.mass), kept(sample.momentum_x), kept(sample.momentum_y);
+    keep_tensor(kept, sample.motion);
+    keep_tensor(kept, sample.stress);
+    kept(sample.energy), kept(sample.area);
 }
 
 } // namespace
 
-std::vector<std::int64_t> BlockAverages::words() const {
-    std::vector<std::int64_t> words = {first_step_, block_step_, sample_step_, steps_per_sample_,
-                                       steps_per_block_};
-    append_words(words, last_);
-    append_words(words, present_);
-    for (const Block& block : blocks_) append_words(words, block);
-    return words;
+void BlockAverages::Block::keep(KeptNumbers& kept) {
+    kept(walls), kept(pairs), kept(speed), kept(kurtosis);
+    kept(motion.steps), kept(motion.area), kept(motion.n_discs);
+    keep_tensor(kept, motion.kinetic);
+    keep_tensor(kept, motion.stress);
 }
 
-bool BlockAverages::set_words(std::span<const std::int64_t> words) {
-    constexpr std::size_t n_steps = 5;
-    constexpr std::size_t n_fixed = n_steps + n_words_of<MotionSample> + n_words_of<Block>;
-    if (words.size() < n_fixed || (words.size() - n_fixed) % n_words_of<Block> != 0) return false;
-    const std::size_t n_blocks = (words.size() - n_fixed) / n_words_of<Block>;
-    if (n_blocks >= most_blocks || words[3] < 1 || words[4] < words[3] || words[1] < words[0] ||
-        words[2] < words[1])
-        return false;
-    first_step_ = words[0], block_step_ = words[1], sample_step_ = words[2];
-    steps_per_sample_ = words[3], steps_per_block_ = words[4];
-    words = words.subspan(n_steps);
-    last_ = take_words<MotionSample>(words);
-    present_ = take_words<Block>(words);
-    blocks_.clear();
-    for (std::size_t k = 0; k < n_blocks; ++k) blocks_.push_back(take_words<Block>(words));
-    has_begun_ = true;
-    return true;
+/// Averages begin anew after a restart if they are to be over other steps.
+void BlockAverages::keep(KeptNumbers& kept) {
+    kept.same(run_.scene.averages_from);
+    MotionInterval::Pending pending;
+    MotionSample last;
+    if (!kept.is_restored()) {
+        pending = interval_->pending();
+        last = interval_->last();
+    }
+    kept(pending.bound), kept(pending.words);
+    kept(first_step_), kept(block_step_), kept(sample_step_);
+    kept(steps_per_sample_), kept(steps_per_block_);
+    keep_sample(kept, last);
+    present_.keep(kept);
+    keep_blocks(kept);
+    if (!kept.is_restored()) return;
+    const bool is_valid = pending.bound > 0 && std::isfinite(pending.bound) &&
+                          block_step_ >= first_step_ && sample_step_ >= block_step_ &&
+                          steps_per_sample_ >= 1 && steps_per_block_ >= steps_per_sample_ &&
+                          blocks_.size() < most_blocks;
+    if (!is_valid) kept.refuse();
+    if (kept.is_right()) interval_.emplace(run_.simulation, run_.ranks, pending, last);
 }
 
-BlockAverages::Block BlockAverages::block_between(std::int64_t step, const MotionSample& before,
-                                                  std::int64_t now,
-                                                  const MotionSample& sample) const {
+/// The blocks are the last numbers, so their count is not stored.
+void BlockAverages::keep_blocks(KeptNumbers& kept) {
+    if (!kept.is_restored())
+        for (Block& block : blocks_) block.keep(kept);
+    else
+        for (blocks_.clear(); kept.is_right() && !kept.is_at_end();)
+            blocks_.emplace_back().keep(kept);
+}
+
+/// The block from the last sample up to `step`.
+BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
+                                                const MotionSample& sample) const {
+    const MotionSample& before = interval_->last();
     const auto kurtosis_of = [](const MotionSample& l) {
         return l.mean_square > 0 ? l.mean_fourth / (l.mean_square * l.mean_square) : 0;
     };
     Block block;
     block.walls = static_cast<double>(sample.wall_collisions - before.wall_collisions);
     block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
-    const auto steps = static_cast<double>(now - step);
+    const auto steps = static_cast<double>(step - sample_step_);
     block.motion = integrals_between(system_, before, sample, steps);
     for (const MotionSample* one : {&before, &sample}) { // these change evenly between two samples
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
@@ -196,12 +227,15 @@ Estimate inverse_of(const Estimate& rate) {
 
 } // namespace
 
-Averages BlockAverages::averages(std::int64_t step, const MotionSample& sample) const {
+Averages BlockAverages::averages() const {
     Averages result;
+    if (!has_begun()) return result;
+    const std::int64_t step = run_.simulation.step();
     result.first_step = first_step_;
     result.steps = step - first_step_;
     if (result.steps == 0) return result;
-    Block whole = block_between(sample_step_, last_, step, sample);
+    const MotionSample sample = interval_->now();
+    Block whole = block_up_to(step, sample);
     whole += present_;
     for (const Block& block : blocks_) whole += block;
     result.n_blocks = static_cast<std::int64_t>(blocks_.size());

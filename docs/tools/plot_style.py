@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One style for all plots of the pages: `plot_style.use()` before the first figure.
+
+Plots are at least 900 pixels wide, so that they stay sharp on a page of that width, and labels are
+as large as the text around them.
+"""
+
+import matplotlib
+import matplotlib.pyplot as plt
+
+COLOURS = ("#0060b0", "#c05000", "#208040", "#703090", "#444444", "#b02050")
+DPI = 120
+
+
+def use():
+    """Set fonts, colours and sizes, and draw without a screen."""
+    matplotlib.use("Agg")
+    plt.rcParams.update(
+        {
+            "figure.figsize": (8, 5),
+            "figure.dpi": DPI,
+            "savefig.dpi": DPI,
+            "figure.constrained_layout.use": True,
+            "font.size": 12,
+            "axes.grid": True,
+            "axes.axisbelow": True,
+            "grid.color": "0.9",
+            "axes.prop_cycle": matplotlib.cycler(color=COLOURS),
+            "lines.markersize": 6,
+            "legend.frameon": False,
+        }
+    )

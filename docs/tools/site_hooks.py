@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the site has beyond the pages of docs/; MkDocs calls these functions (mkdocs.yml).
+
+Notebooks become pages, because a browser shows no .ipynb. Each key of a scene becomes a link to
+itself, so that a message or a colleague can point to it.
+"""
+
+import json
+import re
+
+from mkdocs.structure.files import File
+
+KEYS = "reference/keys.md"
+
+
+def on_files(files, config):
+    """Replace each notebook by a page with its text and code."""
+    for notebook in [file for file in files if file.src_uri.endswith(".ipynb")]:
+        files.remove(notebook)
+        name = notebook.src_uri.rsplit("/", 1)[-1]
+        page = File.generated(
+            config,
+            notebook.src_uri.replace(".ipynb", ".md"),
+            content=page_of(json.loads(notebook.content_string), name),
+        )
+        files.append(page)
+    return files
+
+
+def page_of(notebook, name):
+    """The cells of a notebook as Markdown, and how to run it."""
+    parts = []
+    for cell in notebook["cells"]:
+        text = "".join(cell["source"])
+        parts.append(text if cell["cell_type"] == "markdown" else f"```python\n{text}\n```")
+    parts.insert(1, f"*The notebook `docs/tutorials/{name}`; [how to run it](README.md).*")
+    return "\n\n".join(parts) + "\n"
+
+
+def on_page_markdown(markdown, page, config, files):
+    """Lead links of notebooks to their pages, and give each key an anchor."""
+    if page.file.src_uri == KEYS:
+        return re.sub(r"^\| `([a-z_.]+)` \|", r"| [`\1`](#\1){ #\1 } |", markdown, flags=re.M)
+    return re.sub(r"\]\(([\w/.-]+)\.ipynb\)", r"](\1.md)", markdown)

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Levels of cells for discs of several sizes: each disc is in the level of its size, whose cells
+// are as wide as its discs need (Ogarko and Luding, Comput. Phys. Commun. 183, 931 (2012)).
+//
+// If all cells were those of the largest disc, a small disc would try all others within that disc's
+// reach. Each level costs each search a few instructions, so discs that differ little share a
+// level. Where levels begin has no effect on the bits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+struct SizeLevel {
+    double smallest_radius = 0, largest_radius = 0; ///< before discs grow
+    double n_discs = 0;
+    double sum_of_radii = 0;
+};
+
+/// Returns levels from the smallest discs to the largest, or one if there are no species. `area` is
+/// the area of the box. If `is_each_octave`, no two octaves of radii share a level.
+std::vector<SizeLevel> choose_size_levels(std::span<const Species> species, double radius,
+                                          double n_discs, double area, bool is_each_octave = false);
+
+/// The radius of equal discs that would try as many partners as these discs try in the mean. The
+/// length of windows is chosen for it.
+double radius_to_look_for(std::span<const SizeLevel> levels);
+
+/// The level of a disc of this radius.
+inline std::size_t level_of(double radius, std::span<const SizeLevel> levels) {
+    std::size_t level = 0;
+    while (level + 1 < levels.size() && radius > levels[level].largest_radius) ++level;
+    return level;
+}
+
+} // namespace carrom

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measure/motion_interval.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// The simulation, which sums stress in the unit that a checkpoint's sums have.
+Simulation& in_unit(Simulation& simulation, double bound) {
+    simulation.begin_stress_sums(bound);
+    return simulation;
+}
+
+} // namespace
+
+MotionInterval::MotionInterval(Simulation& simulation, const Communicator& ranks)
+    : simulation_(&simulation), ranks_(&ranks), last_sums_(simulation.stress_sums()) {
+    begin(simulation.motion_sample());
+}
+
+MotionInterval::MotionInterval(Simulation& simulation, const Communicator& ranks,
+                               const Pending& pending, const MotionSample& last)
+    : simulation_(&simulation), ranks_(&ranks),
+      last_sums_(in_unit(simulation, pending.bound).stress_sums()), last_(last) {
+    if (!ranks.is_root()) return; // only the sum over all ranks matters
+    StressSums sums(pending.bound);
+    std::size_t next = 0;
+    for (ExactSum* part : sums.parts()) {
+        part->add_words(pending.words[next], pending.words[next + 1]);
+        next += 2;
+    }
+    last_sums_ -= sums;
+}
+
+/// The sums on this rank since the last sample.
+StressSums MotionInterval::since_last() const {
+    StressSums since = simulation_->stress_sums();
+    since -= last_sums_;
+    return since;
+}
+
+MotionSample MotionInterval::now() const {
+    MotionSample now = simulation_->motion_sample();
+    simulation_->integrate(since_last(), now);
+    return now;
+}
+
+void MotionInterval::begin(const MotionSample& now) {
+    last_sums_ = simulation_->stress_sums();
+    last_ = now;
+    last_.stress = {};
+    last_.energy = 0;
+    simulation_->integrate_flights(last_);
+}
+
+MotionInterval::Pending MotionInterval::pending() const {
+    Pending pending{simulation_->stress_bound(), {}};
+    StressSums since = since_last();
+    std::size_t next = 0;
+    for (ExactSum* part : since.parts()) {
+        ranks_->sum(*part);
+        pending.words[next++] = part->low_word();
+        pending.words[next++] = part->high_word();
+    }
+    return pending;
+}
+
+} // namespace carrom

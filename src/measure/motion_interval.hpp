@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time integrals of stress and energy since the last sample. The averages of a run and the
+// measured pressures take them from here.
+//
+// The integrals of an interval come from exact sums of that interval alone, so their rounding does
+// not grow with the length of the run. Price of a sample: two passes over the discs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/stress_sums.hpp"
+#include "parallel/communicator.hpp"
+#include "simulation/simulation.hpp"
+#include "statistics/motion.hpp"
+
+namespace carrom {
+
+class MotionInterval {
+public:
+    /// The sums of all ranks since the last sample, in the unit that `bound` gives.
+    struct Pending {
+        static constexpr std::size_t n_words = 8;
+
+        double bound = 0;
+        std::array<std::uint64_t, n_words> words{};
+    };
+
+    /// The interval begins at the present step. **Collective.**
+    MotionInterval(Simulation& simulation, const Communicator& ranks);
+    /// The interval goes on from a checkpoint's data, before any step. **Collective.**
+    MotionInterval(Simulation& simulation, const Communicator& ranks, const Pending& pending,
+                   const MotionSample& last);
+
+    /// The last sample, whose integrals are those of flights since the sync before it.
+    const MotionSample& last() const { return last_; }
+    /// A sample of the present step. The difference of its integrals from those of `last` is the
+    /// integral over the interval. **Collective.**
+    MotionSample now() const;
+    /// Begins the next interval with `now`, a sample of the present step.
+    void begin(const MotionSample& now);
+
+    /// The data of a checkpoint, beside `last`. **Collective.**
+    Pending pending() const;
+
+private:
+    StressSums since_last() const;
+
+    Simulation* simulation_;
+    const Communicator* ranks_;
+    StressSums last_sums_; ///< on this rank, at the last sample
+    MotionSample last_;
+};
+
+} // namespace carrom

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The wave vectors that structure factors share: those of a periodic box up to a length, in bins
+// of their lengths, with the setting and the rules that come with them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "measure/measurement.hpp"
+#include "statistics/structure_factor.hpp"
+
+namespace carrom {
+
+inline constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
+
+Key largest_wavenumber_key();
+/// At least one wave vector, and at most a million, because each is evaluated for each disc.
+void check_wavenumber(const Check& check);
+/// Wave vectors are those of a box that is periodic all round and whose images are at rest.
+template <bool (*is_measured)(const Scene&)>
+std::vector<Rule> rules_of_waves(std::string_view quantity) {
+    return {{.one = "sheared sides",
+             .other = quantity,
+             .why = "the flow bends waves",
+             .keys = {quantities_key},
+             .is_broken = [](const Scene& s) { return is_measured(s) && s.effects.are_sheared(); }},
+            {.one = quantity,
+             .other = "a side that is not periodic",
+             .why = "wave vectors are those of a box that repeats itself; make all four sides "
+                    "periodic",
+             .keys = {quantities_key},
+             .is_broken = [](const Scene& s) {
+                 return is_measured(s) && !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
+             }}};
+}
+
+class WaveBins {
+public:
+    explicit WaveBins(const MeasuredRun& run);
+
+    const std::vector<WaveVector>& vectors() const { return vectors_; }
+    std::size_t size() const { return n_bins_; }
+    double largest() const { return largest_; }
+    double low(std::size_t bin) const;
+    double high(std::size_t bin) const { return low(bin + 1); }
+    double length_of(const WaveVector& vector) const;
+
+    /// The number of vectors in each bin.
+    std::vector<double> counts() const;
+    /// Of a number of each vector; NaN in a bin without any.
+    std::vector<double> means(std::span<const double> numbers) const;
+    /// This rank's part of the modes of some discs, added over ranks. **Collective.**
+    DensityModes modes(const MeasuredRun& run, std::span<const Disc> discs) const;
+
+private:
+    std::size_t bin_of(const WaveVector& vector) const;
+
+    Box box_;
+    double largest_;
+    std::size_t n_bins_;
+    std::vector<WaveVector> vectors_;
+};
+
+} // namespace carrom

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs that are much larger than most. If cells fitted them, each small disc would try all others
+// within a large disc's reach. So cells fit the usual discs, and the few large ones search around
+// themselves. Which discs count as large affects the run's time, not its bits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cell_list/cell_grid.hpp"
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+/// The largest radius that cells should fit. Larger discs are few, or there are none. `area` is the
+/// area of the box.
+double usual_radius_of(std::span<const Species> species, double radius, double area);
+
+/// The large discs of a rank and its halo, with copies of their flights side by side.
+class LargeDiscs {
+public:
+    /// Takes the flights of these discs from the grid.
+    void assign(std::vector<LocalIndex> indices, const CellGrid& grid);
+    /// Takes the disc's flight from the grid again.
+    void update(LocalIndex index, const CellGrid& grid);
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(indices_.size()); }
+    LocalIndex index(std::uint32_t place) const { return indices_[place]; }
+    /// The place of one of these discs.
+    std::uint32_t place(LocalIndex index) const;
+    FlightLanes lanes() const {
+        const float* const x = lanes_.data();
+        return {x, x + length_, x + 2 * length_, x + 3 * length_};
+    }
+
+private:
+    void copy_flight(std::uint32_t place, const CellGrid& grid);
+
+    std::vector<LocalIndex> indices_; ///< ascending
+    std::vector<float> lanes_;        ///< x, y, vx, vy by place, with padding for whole vectors
+    std::size_t length_ = filter_padding;
+};
+
+} // namespace carrom

@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Hold driven, sheared and sliding discs to kinetic theory: prints a study as CSV.
+
+  tests/physics/driven_studies.py CARROM STUDY [--short]
+
+viscosity  elastic discs in uniform shear that `rescale` cools, at four rates, and a row at the
+           rate 0 from a fit of a + b rate^2; against Enskog
+granular   a thin granular gas in uniform shear, its stress ratio and the rate over the frequency
+           of collisions (which is its temperature), against Grad's moments
+heated     a granular gas that kicks heat, its kT and its fourth cumulant a2, against kinetic theory
+langevin   diffusion of discs with friction and noise, against kT / (m (gamma + nu))
+channel    viscosities from flows of Couette and Poiseuille between thermal walls, against Enskog
+
+Citations: Gass, J. Chem. Phys. 54, 1898 (1971), for Enskog's viscosity; Santos, Garzo and Dufty,
+Phys. Rev. E 69, 061303 (2004), and Vega Reyes, Santos and Garzo, J. Fluid Mech. 719, 431 (2013),
+for Grad's moments; van Noije and Ernst, Granular Matter 1, 57 (1998), for a2.
+
+Discs have the diameter 1 and the mass 1. Exit codes and errors are those of
+tests/physics/literature.py: a number is held to four joint standard errors. Where theory is an
+approximation, the error that it is given stands beside it.
+"""
+import json
+import math
+import os
+import subprocess
+import tempfile
+
+import literature
+
+PERIODIC = {f"box.{side}.kind": '"periodic"' for side in ("left", "right", "bottom", "top")}
+SHEARED = PERIODIC | {f"box.{side}.kind": '"sheared"' for side in ("bottom", "top")}
+EVENTS = {"time.method": '"event-driven"'}
+
+
+def run(program, settings):
+    """The report of a scene with these keys."""
+    with tempfile.TemporaryDirectory() as folder:
+        scene, result = (os.path.join(folder, name) for name in ("scene.toml", "report.json"))
+        with open(scene, "w", encoding="utf-8") as file:
+            file.writelines(f"{key} = {value}\n" for key, value in settings.items())
+        subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report", result,
+                        "-o", os.path.join(folder, "run")], check=True)
+        with open(result, encoding="utf-8") as file:
+            return json.load(file)
+
+
+def box_of(count, packing):
+    return math.sqrt(count * math.pi / (4 * packing))
+
+
+def contact_value(packing):
+    return (1 - 7 * packing / 16) / (1 - packing) ** 2
+
+
+def frequency(packing):
+    """A disc's collisions in a time at kT = 1."""
+    return 2 * math.sqrt(math.pi) * (4 * packing / math.pi) * contact_value(packing)
+
+
+def enskog_viscosity(packing):
+    """At kT = 1."""
+    chi, bn = contact_value(packing), 2 * packing
+    return 1.022 / (2 * math.sqrt(math.pi)) * (1 / chi + bn + 0.8729 * chi * bn ** 2)
+
+
+def line_through(points):
+    """Of (x, y, error): the least squares of y = a + b x, and the error of a."""
+    weights = [1 / error ** 2 for _, _, error in points]
+    s, sx, sxx, sy, sxy = (sum(w * x ** i * y ** j for w, (x, y, _) in zip(weights, points))
+                           for i, j in ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1)))
+    scale = s * sxx - sx * sx
+    return (sxx * sy - sx * sxy) / scale, math.sqrt(sxx / scale)
+
+
+def viscosity(program, is_short):
+    """Rates go up to a sixth of the pressure over the viscosity, at which a thin gas thins by 8 %.
+
+    Enskog's viscosity is an approximation: the limit is held to it with an error of 1 %.
+    """
+    count, kt = (500, 0.01) if is_short else (2000, 0.01)
+    collisions = 1_500 if is_short else 4_000 # of each disc
+    for packing in (0.3,) if is_short else (0.1, 0.2, 0.3, 0.4, 0.5):
+        known = enskog_viscosity(packing)
+        relaxation = (1 + 2 * packing * contact_value(packing)) * 4 * packing / math.pi / known
+        often = frequency(packing) * math.sqrt(kt)
+        steps = round(collisions / often)
+        found = []
+        for share in (0.08, 0.16) if is_short else (0.04, 0.08, 0.12, 0.16):
+            rate = share * relaxation * math.sqrt(kt)
+            report = run(program, SHEARED | EVENTS | {
+                "box.size": box_of(count, packing), "discs.count": count, "discs.radius": 0.5,
+                "discs.temperature": kt, "time.steps": steps,
+                "discs.generator": '"lattice"' if packing > 0.45 else '"random"',
+                # The thermostat acts twice in the time between a disc's collisions.
+                "time.sync_every": max(1, 2 ** int(math.log2(0.5 / often))),
+                "effects.shear.rate": rate, "effects.thermostat.kind": '"rescale"',
+                "effects.thermostat.temperature": kt, "output.averages_from_step": steps // 20})
+            stress, thermal = report["pressure_tensor"]["xy"], report["temperature"]["value"]
+            unit = rate * math.sqrt(thermal)
+            found.append((rate ** 2 / thermal, -stress["value"] / unit, stress["error"] / unit))
+            yield {"packing": packing, "rate": math.sqrt(found[-1][0]),
+                   "collisions": report["pair_collisions"], "viscosity": found[-1][1],
+                   "viscosity_error": found[-1][2], "viscosity_known": "",
+                   "viscosity_known_error": ""}
+        limit, error = line_through(found)
+        yield {"packing": packing, "rate": 0, "collisions": "", "viscosity": limit,
+               "viscosity_error": error, "viscosity_known": known,
+               "viscosity_known_error": 0.01 * known}
+
+
+def granular(program, is_short):
+    """Grad's moments are known to be some per cent off at strong losses: 1.25 % are allowed for."""
+    kt, packing, count = 0.01, 0.0025, 500 if is_short else 2000
+    often = frequency(packing) * math.sqrt(kt)
+    steps = round((150 if is_short else 2_000) / often)
+    for e in (0.8,) if is_short else (0.7, 0.8, 0.9, 0.95):
+        # The cooling rate and beta, over the rate nu of viscous relaxation.
+        zeta, beta = (1 - e ** 2) / 2, (1 + e) / 2 * (1 - (1 - e) / 4)
+        ratio = math.sqrt(zeta / beta)
+        rate_over_nu = ratio * (beta + zeta)
+        rate = rate_over_nu * often
+        report = run(program, SHEARED | EVENTS | {
+            "box.size": box_of(count, packing), "discs.count": count, "discs.radius": 0.5,
+            "discs.temperature": kt, "time.steps": steps, "effects.shear.rate": rate,
+            "effects.contact.kind": '"restitution"', "effects.contact.restitution": e,
+            "effects.contact.contact_time": 1e-9, "output.averages_from_step": steps // 5})
+        tensor, thermal = report["pressure_tensor"], report["temperature"]
+        over_nu = rate / (frequency(packing) * math.sqrt(thermal["value"]))
+        yield {"restitution": e, "packing": packing, "collisions": report["pair_collisions"],
+               "stress_ratio": -tensor["xy"]["value"] / tensor["yy"]["value"],
+               "stress_ratio_error": tensor["xy"]["error"] / tensor["yy"]["value"],
+               "stress_ratio_known": ratio, "stress_ratio_known_error": 0.0125 * ratio,
+               "rate_over_nu": over_nu,
+               "rate_over_nu_error": over_nu * thermal["error"] / thermal["value"] / 2,
+               "rate_over_nu_known": rate_over_nu,
+               "rate_over_nu_known_error": 0.0125 * rate_over_nu}
+
+
+def cumulant(table):
+    """a2 of a distribution of speeds in bins."""
+    square = fourth = number = 0
+    for low, high, count in zip(table["from"], table["to"], table["count"]):
+        v2 = (low ** 2 + low * high + high ** 2) / 3 # its mean in the bin
+        number, square, fourth = number + count, square + count * v2, fourth + count * v2 ** 2
+    return fourth * number / (2 * square ** 2) - 1
+
+
+def heated(program, is_short):
+    """Kicks come eight times between two collisions of a disc, and samples are three apart."""
+    kt, count = 0.01, 1000
+    runs, samples = (4, 60) if is_short else (8, 150)
+    for packing, e in [(0.0025, 0.7)] if is_short else [
+            (p, e) for p in (0.0025, 0.02) for e in (0.7, 0.8, 0.9)]:
+        often = frequency(packing) * math.sqrt(kt)
+        a2 = 16 * (1 - e) * (1 - 2 * e * e) / (185 - 153 * e + 30 * (1 - e) * e * e)
+        strength = (1 - e * e) * kt * often / 2 * (1 + 3 * a2 / 16)
+        every = 8 * max(1, round(3 / often / 8))
+        early = every * round(30 / often / every)
+        found = []
+        for seed in range(1, runs + 1):
+            report = run(program, PERIODIC | EVENTS | {
+                "box.size": box_of(count, packing), "discs.count": count, "discs.radius": 0.5,
+                "discs.temperature": kt, "discs.seed": seed, "time.steps": early + samples * every,
+                "time.sync_every": max(1, 2 ** int(math.log2(0.125 / often))),
+                "effects.contact.kind": '"restitution"', "effects.contact.restitution": e,
+                "effects.contact.contact_time": 1e-9, "effects.thermostat.kind": '"kicks"',
+                "effects.thermostat.strength": strength, "effects.thermostat.seed": seed,
+                "output.averages_from_step": early,
+                "output.measurements.quantities": '["velocities"]',
+                "output.measurements.bins": 1000,
+                "output.measurements.largest_velocity": 8 * math.sqrt(kt),
+                "output.measurements.every_steps": every,
+                "output.measurements.from_step": early})
+            found.append((report["temperature"]["value"] / kt,
+                          cumulant(report["measurements"]["speeds"])))
+        (ratio, ratio_error), (value, error) = map(literature.mean, zip(*found))
+        # Theory is that of the first order in a2, and of a thin gas.
+        yield {"restitution": e, "packing": packing, "kT": ratio, "kT_error": ratio_error,
+               "kT_known": 1.0, "kT_known_error": 0.003, "a2": value, "a2_error": error,
+               "a2_known": a2, "a2_known_error": 0.0015}
+
+
+def langevin(program, is_short):
+    """Friction and collisions both end what a disc remembers of its velocity.
+
+    So D = kT / (m (gamma + nu)) with the frequency nu of a disc's collisions, and kT / (m gamma)
+    where these are rare. The first order of Enskog's theory is 2 % off without friction.
+    """
+    kt, gamma, count = 0.01, 0.01, 1000 if is_short else 2000
+    window = 2_000 # 20 times the memory
+    windows = 2 if is_short else 6
+    for packing in (0.0001,) if is_short else (0.0001, 0.003):
+        nu = frequency(packing) * math.sqrt(kt)
+        found = []
+        for seed in range(1, 9):
+            report = run(program, PERIODIC | EVENTS | {
+                "box.size": box_of(count, packing), "discs.count": count, "discs.radius": 0.5,
+                "discs.temperature": kt, "discs.seed": seed,
+                "time.steps": 400 + windows * window, "time.sync_every": 1,
+                "effects.thermostat.kind": '"langevin"', "effects.thermostat.rate": gamma,
+                "effects.thermostat.temperature": kt, "effects.thermostat.seed": seed,
+                "output.measurements.quantities": '["diffusion"]',
+                "output.measurements.every_steps": 100, "output.measurements.from_step": 400,
+                "output.measurements.correlation_steps": window})
+            found.append(report["measurements"]["diffusion"]["D"][0])
+        value, error = literature.mean(found)
+        yield {"packing": packing, "gamma_over_nu": gamma / nu,
+               "D_over_friction_alone": value * gamma / kt, "D": value, "D_error": error,
+               "D_known": kt / (gamma + nu),
+               "D_known_error": 0.02 * kt / (gamma + nu) * nu / (gamma + nu)}
+
+
+def parabola(points):
+    """Coefficients of y = a + b x + c x^2, by least squares."""
+    sums = [sum(x ** k for x, _ in points) for k in range(5)]
+    right = [sum(y * x ** k for x, y in points) for k in range(3)]
+
+    def determinant(m):
+        return sum(m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] -
+                              m[1][(k + 2) % 3] * m[2][(k + 1) % 3]) for k in range(3))
+    matrix = [sums[k:k + 3] for k in range(3)]
+    return [determinant([row[:k] + [value] + row[k + 1:] for row, value in zip(matrix, right)]) /
+            determinant(matrix) for k in range(3)]
+
+
+def viscosities_of(table, rows, size, flow, gravity):
+    """A viscosity, kT and packing of the middle seven tenths, for each block of samples."""
+    for first in range(0, len(table["y"]), rows):
+        middle = [k for k in range(first, first + rows)
+                  if abs(table["y"][k] - size / 2) < 0.35 * size]
+        mean = {name: sum(table[name][k] for k in middle) / len(middle)
+                for name in ("density", "temperature", "xy", "contact_xy")}
+        _, slope, bend = parabola([(table["y"][k] - size / 2, table["vx"][k]) for k in middle])
+        stress = mean["xy"] + mean["contact_xy"]
+        value = -stress / slope if flow == "couette" else -mean["density"] * gravity / (2 * bend)
+        yield value / math.sqrt(mean["temperature"]), mean["temperature"], mean["density"]
+
+
+def channel(program, is_short):
+    """Couette: stress over slope. Poiseuille: weight over curvature.
+
+    Enskog's viscosity is held to 1.5 % beside the errors of the runs.
+    """
+    length, size, kt, rows = 120, 40, 0.01, 40
+    blocks, samples = (6, 200) if is_short else (12, 400)
+    every = 25
+    for flow in ("couette", "poiseuille"):
+        for packing in (0.2,) if is_short else (0.1, 0.2, 0.3):
+            sliding, gravity = (0.05, 0) if flow == "couette" else (0, 5e-5)
+            wall = {f"box.{side}.{key}": value for side, sign in (("bottom", -1), ("top", 1))
+                    for key, value in (("kind", '"thermal"'), ("temperature", kt),
+                                       ("velocity", sign * sliding))}
+            report = run(program, PERIODIC | EVENTS | wall | {
+                "box.size": f"[{length}, {size}]", "discs.radius": 0.5, "discs.temperature": kt,
+                "discs.count": round(packing * length * size * 4 / math.pi),
+                "time.steps": 6_000 + blocks * samples * every, "effects.gravity.x": gravity,
+                "output.measurements.quantities": '["profiles"]',
+                "output.measurements.every_steps": every, "output.measurements.from_step": 6_000,
+                "output.measurements.profile_columns": 1, "output.measurements.profile_rows": rows,
+                "output.measurements.profile_samples": samples})
+            # The first block has one interval less, and the last may have one sample.
+            table = report["measurements"]["profiles"]
+            found = list(viscosities_of(table, rows, size, flow, gravity))[:blocks]
+            (value, error), (thermal, _), (density, _) = map(literature.mean, zip(*found))
+            known = enskog_viscosity(density * math.pi / 4)
+            yield {"flow": flow, "packing": density * math.pi / 4, "kT_over_walls": thermal / kt,
+                   "viscosity": value, "viscosity_error": error, "viscosity_known": known,
+                   "viscosity_known_error": 0.015 * known}
+
+
+# What makes the rows; the largest errors, over what is known, of a short and of the whole study.
+STUDIES = {"viscosity": (viscosity, 0.05, 0.02), "granular": (granular, 0.05, 0.01),
+           "heated": (heated, math.inf, math.inf), "langevin": (langevin, 0.05, 0.02),
+           "channel": (channel, 0.2, 0.03)}
+
+if __name__ == "__main__":
+    literature.main(__doc__, STUDIES)

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables of species: each disc has the radius and the mass of its species, and tables of the same
+// many species share their memory.
+#include <cstddef>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "dynamics/species.hpp"
+
+using namespace carrom;
+
+namespace {
+
+std::vector<Species> species_of(std::size_t n, std::uint64_t last_count) {
+    std::vector<Species> species;
+    for (std::size_t k = 0; k < n; ++k)
+        species.push_back({k + 1, 1 + 0.5 * static_cast<double>(k), 2 + static_cast<double>(k)});
+    species.back().count = last_count;
+    return species;
+}
+
+} // namespace
+
+TEST_CASE("Each disc has the radius and the mass of its species, be they few or many") {
+    for (const std::size_t n : {1u, 3u, 8u, 9u, 40u}) {
+        const std::vector<Species> species = species_of(n, 5);
+        const SpeciesTable table(species, 7);
+        DiscId id = 0;
+        for (const Species& one : species) {
+            for (std::uint64_t k = 0; k < one.count; ++k, ++id) {
+                CHECK(table.of(id).radius == one.radius);
+                CHECK(table.of(id).mass == one.mass);
+            }
+        }
+    }
+    CHECK(SpeciesTable({}, 7).of(3).radius == 7);
+    CHECK(SpeciesTable({}, 7).of(3).mass == 1);
+}
+
+TEST_CASE("Tables of the same many species share their memory, and others do not") {
+    const std::vector<Species> many = species_of(20, 5);
+    const SpeciesTable first(many, 1), second(many, 1), longer(species_of(20, 6), 1);
+    CHECK(&first.of(100) == &second.of(100));
+    CHECK(&first.of(100) != &longer.of(100));
+    CHECK(longer.of(195).radius == many.back().radius); // the 196th disc is there
+    std::vector<Species> heavier = many;
+    heavier[3].mass = 100;
+    const SpeciesTable other(heavier, 1);
+    CHECK(other.of(7).mass == 100);
+    CHECK(first.of(7).mass == many[3].mass);
+}
