@@ -72,6 +72,8 @@ wait_policy() { # VARIABLE=VALUE...: the policy of a run with these variables
         "$CARROM_PROGRAM" run - --quiet >/dev/null 2>&1 &
     local process=$! found=none
     for _ in $(seq 25); do
+        # Before that the process is a shell or `env`, with the policy of the tests.
+        [ "$(readlink "/proc/$process/exe")" -ef "$CARROM_PROGRAM" ] || { sleep 0.1; continue; }
         found=$(tr '\0' '\n' <"/proc/$process/environ" | sed -n 's/^OMP_WAIT_POLICY=//p')
         [ -z "$found" ] || break
         sleep 0.1
