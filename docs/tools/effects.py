@@ -77,13 +77,18 @@ def shrink(picture, target, most_bytes=MOST_BYTES):
     sys.exit(f"{target} has {target.stat().st_size} bytes")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
+def options_of(text):
+    """The program, the names of pictures and the folder for them, as words of the command line."""
+    parser = argparse.ArgumentParser(description=text,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("names", nargs="*", metavar="NAME", help="default: all")
     parser.add_argument("--output", type=pathlib.Path, default=TOP / "docs" / "pictures")
-    options = parser.parse_args()
+    return parser.parse_args()
+
+
+def main():
+    options = options_of(__doc__)
     with tempfile.TemporaryDirectory() as folder:
         for name in options.names or PICTURES:
             draw(options.program.resolve(), name, pathlib.Path(folder),

@@ -6,7 +6,6 @@
 
 NAME is heated, shear, sheared, channel, belt or polydisperse. Together they take two minutes.
 """
-import argparse
 import os
 import pathlib
 import sys
@@ -21,7 +20,7 @@ import matplotlib.pyplot as plt
 TOP = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "src/python"))
 import carrom
-from effects import shrink
+from effects import options_of, shrink
 
 WIDTH, DOTS = 9.6, 100 # inches, and dots in an inch
 BLUE, RED, GREY = "#0060b0", "#c03020", "#888888"
@@ -185,12 +184,7 @@ PICTURES = {one.__name__: one for one in (heated, shear, sheared, channel, belt,
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="default: all")
-    parser.add_argument("--output", type=pathlib.Path, default=TOP / "docs" / "pictures")
-    options = parser.parse_args()
+    options = options_of(__doc__)
     os.environ["CARROM"] = str(options.program.resolve())
     plt.rcParams["font.size"] = 10
     with tempfile.TemporaryDirectory() as folder:

@@ -18,11 +18,10 @@ import math
 import os
 import resource
 import statistics
-import subprocess
 import sys
 import tempfile
 
-from instructions import SETTINGS, counted
+from instructions import counted, run_scene
 
 
 def classes(kinds):
@@ -124,16 +123,7 @@ def scene_text(packing, method, lines, steps=STEPS, scale=1):
 
 def processor_seconds(program, scene):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    run = subprocess.run(
-        [program, scene],
-        env={**os.environ, **SETTINGS},
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-    )
-    if run.returncode != 0:
-        sys.exit(f"{program} {scene} failed:\n{run.stderr}")
+    run_scene(program, scene)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return (after.ru_utime + after.ru_stime) - (before.ru_utime + before.ru_stime)
 

@@ -42,6 +42,26 @@ SCENES = {
 }
 
 
+def finished(command):
+    """The finished process of a command with the settings of a measurement."""
+    run = subprocess.run(
+        command,
+        env={**os.environ, **SETTINGS},
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    if run.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed:\n{run.stderr}")
+    return run
+
+
+def run_scene(program, scene):
+    """Runs step_scene, and returns what it prints."""
+    return finished([program, scene]).stdout.strip()
+
+
 def counted(program, scene):
     """Instructions of a run's steps."""
     with tempfile.TemporaryDirectory() as folder:
@@ -54,16 +74,9 @@ def counted(program, scene):
             program,
             scene,
         ]
-        run = subprocess.run(
-            command,
-            env={**os.environ, **SETTINGS},
-            capture_output=True,
-            text=True,
-            timeout=600,
-            check=False,
-        )
+        run = finished(command)
     found = re.search(r"Collected : (\d+)", run.stderr)
-    if run.returncode != 0 or not found:
+    if not found:
         sys.exit(f"{' '.join(command)} failed:\n{run.stderr}")
     return int(found.group(1))
 

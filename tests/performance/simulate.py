@@ -157,22 +157,15 @@ def compare(program):
 def cases():
     """Largest first, for several to run side by side."""
     for ranks in (1024, 256, 64, 16, 1):
-        yield Case(
-            "weak, 1e6 a rank, slow",
-            ranks,
-            20_000 * ranks,
-            stands_for=50,
-            speed=0.01 * math.sqrt(2),
-            is_slow=True,
-        )
-        yield Case(
-            "weak, 4e6 a rank, slow",
-            ranks,
-            20_000 * ranks,
-            stands_for=200,
-            speed=0.01 * math.sqrt(2),
-            is_slow=True,
-        )
+        for discs, stands_for in (("1e6", 50), ("4e6", 200)):
+            yield Case(
+                f"weak, {discs} a rank, slow",
+                ranks,
+                20_000 * ranks,
+                stands_for=stands_for,
+                speed=0.01 * math.sqrt(2),
+                is_slow=True,
+            )
         yield Case("weak, 1e6 a rank", ranks, 20_000 * ranks, stands_for=50, window=3)
         yield Case("weak, 4e6 a rank", ranks, 20_000 * ranks, stands_for=200, window=3)
         yield Case("strong, 1e8", ranks, 2_000_000, stands_for=50, window=3)

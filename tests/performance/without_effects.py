@@ -21,7 +21,7 @@ import subprocess
 import sys
 import tempfile
 
-from instructions import SCENES, SETTINGS, counted
+from instructions import SCENES, counted, run_scene
 
 TOLERANCE = 0.001
 PLAIN = {"PlainDynamics", "StudyDynamics<double>", "StudyDynamics<float>"}
@@ -66,18 +66,6 @@ def build_without(source, cmake, arguments, folder):
     return os.path.join(build, "tests", "step_scene")
 
 
-def hash_of(program, scene):
-    run = subprocess.run(
-        [program, scene],
-        env={**os.environ, **SETTINGS},
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=True,
-    )
-    return run.stdout.strip()
-
-
 def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
@@ -93,7 +81,7 @@ def main():
             with open(scene, "w", encoding="utf-8") as file:
                 file.write(text)
             counts, hashes = [counted(p, scene) for p in (bare, program)], [
-                hash_of(p, scene) for p in (bare, program)
+                run_scene(p, scene) for p in (bare, program)
             ]
             change = counts[1] / counts[0] - 1
             print(

@@ -72,6 +72,12 @@ gas_scene() {
     printf "${text}[time]\nmethod = \"time-stepped\"\nsteps = %s\n" "$@"
 }
 
+# periodic_box SIZE: a scene's table of a square box that is periodic all round.
+periodic_box() {
+    printf '[box]\nsize = %s\n' "$1"
+    printf '%s.kind = "periodic"\n' left right bottom top
+}
+
 # json_value FILE KEY: the value of a key that stands on a line of its own.
 json_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
 

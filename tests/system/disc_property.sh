@@ -37,13 +37,7 @@ awk 'BEGIN { for (i = 0; i < 300; ++i) {
                  k = (i * 7) % 300
                  printf "%d %.17g %.17g %.17g %.17g %.17g\n", k, 1 + 2 * (k % 20),
                         1 + 2 * int(k / 20), sin(k), cos(3 * k), k / 7 - 20 } }' >lines
-cat >periodic.toml <<'END'
-[box]
-size = 40
-left.kind = "periodic"
-right.kind = "periodic"
-bottom.kind = "periodic"
-top.kind = "periodic"
+{ periodic_box 40; cat; } >periodic.toml <<'END'
 [discs]
 count = 300
 radius = 0.5

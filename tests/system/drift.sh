@@ -4,13 +4,7 @@
 # and however long windows are. With the drift D would grow with the window: a velocity V adds
 # V^2 t.
 source "$(dirname "$0")/common.sh"
-cat >gas.toml <<'END'
-[box]
-size = 100
-left = { kind = "periodic" }
-right = { kind = "periodic" }
-bottom = { kind = "periodic" }
-top = { kind = "periodic" }
+{ periodic_box 100; cat; } >gas.toml <<'END'
 [discs]
 count = 1000
 packing = 0.4

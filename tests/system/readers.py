@@ -102,16 +102,18 @@ def read_with_vtk(lines, trajectory, _):
         )
 
 
-def main():
+def main(readers):
+    """Calls the reader that the first word names, with the lines and the other files."""
     reader, lines, *paths = sys.argv[1:]
-    read = {
-        "h5py": read_with_h5py,
-        "pyh5md": read_with_pyh5md,
-        "MDAnalysis": read_with_mdanalysis,
-        "vtk": read_with_vtk,
-    }[reader]
-    read(read_lines(lines), *paths)
+    readers[reader](read_lines(lines), *paths)
 
 
 if __name__ == "__main__":
-    main()
+    main(
+        {
+            "h5py": read_with_h5py,
+            "pyh5md": read_with_pyh5md,
+            "MDAnalysis": read_with_mdanalysis,
+            "vtk": read_with_vtk,
+        }
+    )

@@ -82,13 +82,7 @@ for reader in 'h5py h5py' 'ase ase' 'ovito ovito' 'MDAnalysis h5py MDAnalysis' '
 done
 
 # Flights around a periodic box: image counts, on other machine shapes and across a restart, too.
-cat >flights.toml <<'END'
-[box]
-size = 10
-left.kind = "periodic"
-right.kind = "periodic"
-bottom.kind = "periodic"
-top.kind = "periodic"
+{ periodic_box 10; cat; } >flights.toml <<'END'
 [discs]
 count = 100
 radius = 0.2

@@ -6,10 +6,8 @@ mass 4, 60 of radius 0.957 and mass 1. Positions are those of the lines `step id
 single precision but for those of a checkpoint's XYZ.
 """
 
-import sys
-
 import numpy as np
-from readers import expect_same, read_lines
+from readers import expect_same, main, read_lines
 
 N_LARGE, N_SMALL, SIZE, STEPS = 20, 60, 60, [0, 5, 10, 15, 20]
 RADII = np.array([2.0] * N_LARGE + [0.957] * N_SMALL)
@@ -106,17 +104,13 @@ def see_with_vtk(lines, trajectory, *_):
         expect_same(points[:, :2], lines[step][:, :2], f"points {step}")
 
 
-def main():
-    reader, lines, *paths = sys.argv[1:]
-    see = {
-        "h5py": see_with_h5py,
-        "ase": see_with_ase,
-        "ovito": see_with_ovito,
-        "MDAnalysis": see_with_mdanalysis,
-        "vtk": see_with_vtk,
-    }[reader]
-    see(read_lines(lines), *paths)
-
-
 if __name__ == "__main__":
-    main()
+    main(
+        {
+            "h5py": see_with_h5py,
+            "ase": see_with_ase,
+            "ovito": see_with_ovito,
+            "MDAnalysis": see_with_mdanalysis,
+            "vtk": see_with_vtk,
+        }
+    )

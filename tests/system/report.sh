@@ -47,13 +47,7 @@ rm none.json
 # The drift velocity is that of the centre of mass: 30 discs of mass 2 and 10 of mass 1 that move
 # at (0.25, -0.5) with the left half and at (0.75, 0.5) with the right one. Its reference is the sum
 # over the discs of the last checkpoint, as text.
-cat >streams.toml <<'END'
-[box]
-size = 40
-left = { kind = "periodic" }
-right = { kind = "periodic" }
-bottom = { kind = "periodic" }
-top = { kind = "periodic" }
+{ periodic_box 40; cat; } >streams.toml <<'END'
 [[discs.species]]
 count = 30
 radius = 1
