@@ -45,12 +45,12 @@ def _check_sources(file: h5py.File, path: Path) -> None:
     """Check that segments are there. HDF5 would show zeros in the place of absent ones."""
     names: set[str] = set()
 
-    def look(_: str, item: Any) -> None:
+    def inspect(_: str, item: Any) -> None:
         if isinstance(item, h5py.Dataset) and item.is_virtual:
             names.update(source.file_name for source in item.virtual_sources())
 
     try:
-        file.visititems(look)
+        file.visititems(inspect)
     except (RuntimeError, KeyError, OSError) as error:
         raise FileError(f"{path}: is damaged: {error}") from None
     absent = [

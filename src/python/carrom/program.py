@@ -41,11 +41,11 @@ def find_program(program: str | os.PathLike[str] | None = None) -> Path:
         return _BUNDLED
     if (found := shutil.which("carrom")) is not None:
         return Path(found).absolute()
-    looked = [folder / "build" / "carrom" for folder in _checkouts()]
-    for path in looked:
+    searched = [folder / "build" / "carrom" for folder in _checkouts()]
+    for path in searched:
         if os.access(path, os.X_OK) and path.is_file():
             return path
-    places = ", ".join(["PATH", *map(str, looked)])
+    places = ", ".join(["PATH", *map(str, searched)])
     raise ProgramNotFoundError(f"the program carrom is not in {places}; {_ADVICE}")
 
 

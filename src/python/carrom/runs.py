@@ -43,7 +43,7 @@ class Run:
         checkpoint: str | os.PathLike[str] | None = None,
         check: bool = False,
     ) -> None:
-        """Look at a folder, or at one file. `carrom.open` finds out which it is.
+        """Inspect a folder, or one file. `carrom.open` finds out which it is.
 
         With `check` the checksums of each file are compared when it is first read.
         """

@@ -110,7 +110,7 @@ class Tables(Mapping[str, Table]):
     """The tables of a folder, by name: `run.tables["radial_distribution"]`. Read at each access."""
 
     def __init__(self, folder: Path | None, owner: str) -> None:
-        """Look into a folder, or into none; `owner` is whose tables these are, for messages."""
+        """Search a folder, or none; `owner` is whose tables these are, for messages."""
         self._folder = folder
         self._owner = owner
 

@@ -59,11 +59,11 @@ def _parser() -> argparse.ArgumentParser:
     run = {"help": "a run's folder, or a file of it"}
     frame = add("frame", _frame, "one frame, discs to scale", **run)
     frame.add_argument("--step", type=int, help="default: the last")
-    _add_look(frame)
+    _add_style(frame)
     movie = add("movie", _movie, "all frames, discs to scale", **run)
     movie.add_argument("--every", type=int, default=1, help="show every so-many-th frame")
     movie.add_argument("--rate", type=float, default=15, help="frames per second; default 15")
-    _add_look(movie)
+    _add_style(movie)
     add("history", _history, "kinetic energy and collisions over time", **run)
     add("measurements", _measurements, "the tables of [output.measurements]", **run)
     profiles = add("profiles", _profiles, 'fields of "profiles", as maps or curves', **run)
@@ -83,7 +83,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_look(command: Any) -> None:
+def _add_style(command: Any) -> None:
     command.add_argument("--colour", "--color", choices=COLOURS, default="speed")
     command.add_argument("--ranks", type=int, default=4, help="how many strips; default 4")
     command.add_argument(
@@ -95,7 +95,7 @@ def _add_look(command: Any) -> None:
     command.add_argument("--scene", help="a scene's TOML, to draw its obstacles")
 
 
-def _look(options: Options) -> dict[str, Any]:
+def _style(options: Options) -> dict[str, Any]:
     return {
         "colour": options.colour,
         "ranks": options.ranks,
@@ -110,12 +110,12 @@ def _save(axes: Any, options: Options) -> None:
 
 
 def _frame(options: Options) -> None:
-    _save(plot.frame(options.source, options.step, **_look(options)), options)
+    _save(plot.frame(options.source, options.step, **_style(options)), options)
 
 
 def _movie(options: Options) -> None:
     timing = {"every": options.every, "rate": options.rate, "dpi": options.dpi}
-    plot.movie(options.source, options.output, **timing, **_look(options))
+    plot.movie(options.source, options.output, **timing, **_style(options))
 
 
 def _history(options: Options) -> None:

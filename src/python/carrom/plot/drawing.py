@@ -32,7 +32,7 @@ _NUMBERED = ("strip", "species")
 
 
 @dataclass
-class Look:
+class Style:
     """How discs are drawn.
 
     Attributes:
@@ -119,8 +119,8 @@ def frame(
         ax: where to draw; a new figure if None
     """
     shown = frame_of(source, step)
-    look = Look(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
-    picture = Picture(shown, look, scene_of(source) if scene is None else scene, ax)
+    style = Style(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
+    picture = Picture(shown, style, scene_of(source) if scene is None else scene, ax)
     picture.show(shown)
     return picture.axes
 
@@ -129,14 +129,14 @@ class Picture:
     """Axes that show one frame after the other."""
 
     def __init__(
-        self, first: Frame, look: Look, scene: Mapping[str, Any], ax: Axes | None = None
+        self, first: Frame, style: Style, scene: Mapping[str, Any], ax: Axes | None = None
     ) -> None:
         """Set the scale of colours by the first frame; it is the same for all."""
         if ax is None:
             _, ax = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
         self.axes = ax
-        self.look = look
-        whole = (0.0, 0.0, *first.box) if look.view is None else look.view
+        self.style = style
+        whole = (0.0, 0.0, *first.box) if style.view is None else style.view
         x0, y0, x1, y1 = np.asarray(whole, dtype=float).tolist()
         self.view = (x0, y0, x1, y1)
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
@@ -153,7 +153,7 @@ class Picture:
         )
         self.discs.set_clim(*self._limits(first))
         ax.add_collection(self.discs)
-        if look.bar and ax.figure is not None:
+        if style.bar and ax.figure is not None:
             self._add_bar(first)
 
     def show(self, frame: Frame) -> None:
@@ -172,7 +172,7 @@ class Picture:
         self.axes.set_title(f"step {frame.step}")
 
     def _values(self, frame: Frame) -> Array:
-        colour = self.look.colour
+        colour = self.style.colour
         if not isinstance(colour, str):
             values = np.asarray(colour)
             if values.shape != (frame.n_discs,):
@@ -180,36 +180,36 @@ class Picture:
                 raise ValueError(f"colour has the shape {values.shape}, not {wanted}")
             return values
         if colour == "strip":
-            return frame.strips(self.look.ranks)
+            return frame.strips(self.style.ranks)
         if colour in ("vx", "vy"):
             return np.asarray(frame.v[:, 0 if colour == "vx" else 1])
         return np.asarray(getattr(frame, colour))
 
     def _n_numbers(self, first: Frame) -> int:
         """How many numbered colours there are."""
-        if self.look.colour == "strip":
-            return self.look.ranks
+        if self.style.colour == "strip":
+            return self.style.ranks
         return int(first.species.max(initial=0)) + 1
 
     def _is(self, kinds: tuple[str, ...]) -> bool:
-        return isinstance(self.look.colour, str) and self.look.colour in kinds
+        return isinstance(self.style.colour, str) and self.style.colour in kinds
 
     def _cmap(self, first: Frame) -> str | Colormap:
-        if self.look.cmap is not None:
-            return self.look.cmap
+        if self.style.cmap is not None:
+            return self.style.cmap
         if self._is(_NUMBERED):
             tab = mpl.colormaps["tab10"]
             return ListedColormap([tab(k % 10) for k in range(self._n_numbers(first))])
         return "coolwarm" if self._is(_TWO_SIDED) else "viridis"
 
     def _limits(self, first: Frame) -> tuple[float, float]:
-        if self.look.limits is not None:
-            first_colour, last_colour = np.asarray(self.look.limits, dtype=float).tolist()
+        if self.style.limits is not None:
+            first_colour, last_colour = np.asarray(self.style.limits, dtype=float).tolist()
             return first_colour, last_colour
         if self._is(_NUMBERED):
             return -0.5, self._n_numbers(first) - 0.5
         values = self._values(first)[first.present]
-        strongest = self.look.fastest
+        strongest = self.style.fastest
         if strongest is None:
             strongest = float(np.quantile(np.abs(values), 0.99)) if len(values) else 1.0
             strongest = strongest or 1.0
@@ -221,9 +221,9 @@ class Picture:
         return lowest, strongest
 
     def _add_bar(self, first: Frame) -> None:
-        label = self.look.label
-        if label is None and isinstance(self.look.colour, str):
-            label = _LABELS[self.look.colour]
+        label = self.style.label
+        if label is None and isinstance(self.style.colour, str):
+            label = _LABELS[self.style.colour]
         ticks = range(self._n_numbers(first)) if self._is(_NUMBERED) else None
         self.axes.figure.colorbar(
             self.discs, ax=self.axes, label=label or "", shrink=0.9, ticks=ticks

@@ -18,11 +18,11 @@ def draw_field(ax: Axes, fields: Fields, column: str, block: int) -> Any:
     ax.set_title(f"{column}, up to step {fields.steps[block]:.0f}", fontsize="medium")
     if fields.is_map:
         low, high = np.nanmin(values[block]), np.nanmax(values[block])
-        look: dict[str, Any] = {"cmap": "viridis"}
+        style: dict[str, Any] = {"cmap": "viridis"}
         if low < 0 < high:  # flows: white where nothing moves
-            look = {"cmap": "RdBu_r", "vmin": -max(-low, high), "vmax": max(-low, high)}
+            style = {"cmap": "RdBu_r", "vmin": -max(-low, high), "vmax": max(-low, high)}
         mesh = ax.pcolormesh(
-            fields.x[block], fields.y[block], values[block], shading="nearest", **look
+            fields.x[block], fields.y[block], values[block], shading="nearest", **style
         )
         ax.set(xlabel="x", ylabel="y", aspect="equal")
         ax.figure.colorbar(mesh, ax=ax)

@@ -22,7 +22,7 @@ from PIL import Image
 
 from carrom.errors import FileError, MissingPackageError
 from carrom.frame import Frame
-from carrom.plot.drawing import Look, Picture, colour_of
+from carrom.plot.drawing import Style, Picture, colour_of
 from carrom.plot.sources import Drawable, frames_of, scene_of
 
 Pixels = npt.NDArray[np.uint8]
@@ -75,8 +75,8 @@ def movie(
         raise FileError(f"{path}: there is no folder {path.parent}")
     ffmpeg = "" if path.suffix == ".gif" else find_ffmpeg()
     frames = frames_of(source)[::every]
-    look = Look(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
-    film = _Film(frames[0], look, scene_of(source) if scene is None else scene, dpi)
+    style = Style(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
+    film = _Film(frames[0], style, scene_of(source) if scene is None else scene, dpi)
     with tempfile.TemporaryDirectory(prefix=".carrom-", dir=path.parent) as folder:
         part = Path(folder, path.name)
         images = film.images(frames)
@@ -106,11 +106,11 @@ def find_ffmpeg() -> str:
 class _Film:
     """Draws frames fast: only discs and title are drawn anew."""
 
-    def __init__(self, first: Frame, look: Look, scene: Mapping[str, Any], dpi: int) -> None:
+    def __init__(self, first: Frame, style: Style, scene: Mapping[str, Any], dpi: int) -> None:
         self.figure = Figure(figsize=(7.2, 6.2), layout="constrained", dpi=dpi)
         self.canvas = FigureCanvasAgg(self.figure)
         with plt.rc_context({"figure.dpi": dpi}):
-            self.picture = Picture(first, look, scene, self.figure.add_subplot())
+            self.picture = Picture(first, style, scene, self.figure.add_subplot())
         self.picture.show(first)
         self.canvas.draw()  # finds the layout, which is slow to find and the same for all
         self.figure.set_layout_engine("none")

@@ -54,7 +54,7 @@ def steps_of(frames: Frames | Checkpoints) -> list[int]:
 
 
 class Curves:
-    """Keeps what has been read, and reads on a little at each look."""
+    """Keeps what has been read, and reads on a little each time."""
 
     def __init__(self) -> None:
         """Know nothing yet."""
@@ -67,7 +67,7 @@ class Curves:
         self._log_rows = 0
         self._log_counts: dict[int, int] = {}
 
-    def look(
+    def read(
         self, run: Run, frames: Frames | Checkpoints, n_discs: int, seconds: float
     ) -> dict[str, Curve]:
         """Return the curves as far as they are known, after so much more reading."""
@@ -108,7 +108,7 @@ class Curves:
         return _curve(steps, values, "from frames", title)
 
     def _read_log(self, run: Run, until: float) -> None:
-        """Counts of pairs by step, from where the last look ended."""
+        """Counts of pairs by step, from where the last reading ended."""
         path = None if run.folder is None else run.folder / "collisions.h5"
         if path is None or not path.exists():
             return

@@ -25,7 +25,7 @@ class NewestField:
         self._stamp: tuple[int, int] | None = None
         self._fields: Fields | None = None
 
-    def look(self, run: Run, name: str) -> dict[str, Any]:
+    def read(self, run: Run, name: str) -> dict[str, Any]:
         """Return a field of the newest block, rows from below; cells without discs are None.
 
         Raises:

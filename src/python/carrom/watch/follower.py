@@ -2,7 +2,7 @@
 """One run as the page sees it: its state, its frames, its curves.
 
 A follower opens files when they have changed, to read. Runs take no HDF5 locks, so they never wait
-for it. It measures the processor's time that looks take, and asks the page to look again so late
+for it. It measures the processor's time that reading takes, and asks the page to ask again so late
 that they take less than a hundredth of one core.
 """
 
@@ -34,7 +34,7 @@ class Follower:
     """Reads a run for the page. Threads may call it at once."""
 
     def __init__(self, path: Path, *, may_wait: bool = False) -> None:
-        """Look at a folder, or at one file.
+        """Follow a folder, or one file.
 
         Raises:
             FileError: there is nothing, or nothing of a run; an empty folder is a run to come
@@ -60,11 +60,11 @@ class Follower:
 
         The page knows the first `n_known` frames, of which the last is of step `last_known`.
         """
-        with self._looking():
+        with self._measured():
             return self._state(n_known, last_known)
 
     @contextmanager
-    def _looking(self, *, is_counted: bool = True) -> Iterator[None]:
+    def _measured(self, *, is_counted: bool = True) -> Iterator[None]:
         """Keep other threads out, and measure the processor's time."""
         with self._lock:
             begin = time.thread_time()
@@ -106,7 +106,7 @@ class Follower:
         self._curves.clear()
         self._field.clear()
         try:
-            # The page shows a run at once, and looks again each second.
+            # The page shows a run at once, and asks again each second.
             self._run = open_run(self.path, check=False)
         except FileError:
             if self.path.exists() and not self.path.is_dir():
@@ -179,23 +179,23 @@ class Follower:
 
     def curves(self) -> dict[str, Any]:
         """Return the curves as far as they have been read; see `Curves`."""
-        with self._looking():
+        with self._measured():
             run = self._begun_run()
             frames, _ = self._frames()
             n_discs = frames[-1].n_discs if len(frames) else 0
             seconds = 0.05 if self._is_running() else 0.5
-            return self._curves.look(run, frames, n_discs, seconds)
+            return self._curves.read(run, frames, n_discs, seconds)
 
     def field(self, name: str) -> dict[str, Any]:
         """Return a field of the newest block of profiles; see `NewestField`."""
-        with self._looking():
-            return self._field.look(self._begun_run(), name)
+        with self._measured():
+            return self._field.read(self._begun_run(), name)
 
     def frame(
         self, step: int, colour: str, view: View | None, follows: bool
     ) -> tuple[dict[str, Any], bytes]:
         """Return the picture of a step. What a reader plays back is not counted as following."""
-        with self._looking(is_counted=follows):
+        with self._measured(is_counted=follows):
             self._begun_run()
             frames, _ = self._frames()
             steps = steps_of(frames)
@@ -212,7 +212,7 @@ def _message(status: str, steps: list[int], is_trajectory: bool, step: int, path
             f"Go on with: carrom run -o {path} --resume"
         )
     if not steps:
-        return "There are no frames yet. The first comes with the first look at the trajectory."
+        return "There are no frames yet. The first comes when the trajectory is first read."
     if not is_trajectory:
         return (
             "There is no trajectory: these are the newest checkpoints. "

@@ -17,7 +17,7 @@ def hexatic_order(x: Array, periods: Array) -> Array:
     The neighbours are the six nearest centres. `x` is (N, 2); `periods` is (2,), lengths, 0 for
     sides that are not periodic. Fewer than seven discs have psi6 = 0.
 
-    Centres are sorted into square cells of some two discs. A disc looks into rings of cells until
+    Centres are sorted into square cells of some two discs. A disc searches rings of cells until
     its sixth neighbour is nearer than any cell beyond. Costs some 5 us a disc.
     """
     n = len(x)

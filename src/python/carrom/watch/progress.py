@@ -8,29 +8,29 @@ import time
 from collections import deque
 from pathlib import Path
 
-_REMEMBERED = 60  # looks that a rate is taken over
+_REMEMBERED = 60  # steps that a rate is taken over
 _FRESH = 30.0  # seconds
 
 
 class Rate:
-    """Steps a second, from looks at the newest step."""
+    """Steps a second, from when the newest step has changed."""
 
     def __init__(self) -> None:
         """Remember nothing yet."""
-        self._looks: deque[tuple[float, int]] = deque(maxlen=_REMEMBERED)
+        self._seen: deque[tuple[float, int]] = deque(maxlen=_REMEMBERED)
 
     def note(self, step: int, now: float) -> None:
         """Remember a step when it has changed. A smaller one begins anew."""
-        if self._looks and step < self._looks[-1][1]:
-            self._looks.clear()
-        if not self._looks or step > self._looks[-1][1]:
-            self._looks.append((now, step))
+        if self._seen and step < self._seen[-1][1]:
+            self._seen.clear()
+        if not self._seen or step > self._seen[-1][1]:
+            self._seen.append((now, step))
 
     def steps_per_second(self) -> float | None:
         """Return the rate, or None while too little is known."""
-        if len(self._looks) < 2:
+        if len(self._seen) < 2:
             return None
-        (begin, first), (end, last) = self._looks[0], self._looks[-1]
+        (begin, first), (end, last) = self._seen[0], self._seen[-1]
         return (last - first) / (end - begin) if end > begin else None
 
 

@@ -159,7 +159,7 @@ function takeSteps(state) {
   }
 }
 
-async function look() {
+async function ask() {
   let pause = 2;
   try {
     const have = page.steps.length, last = have ? page.steps[have - 1] : -1;
@@ -181,7 +181,7 @@ async function look() {
     element("message").textContent = error instanceof TypeError
       ? "The server has ended. Start it again: python -m carrom.watch FOLDER" : error.message;
   }
-  setTimeout(look, 1000 * pause);
+  setTimeout(ask, 1000 * pause);
 }
 
 // A run without profiles answers 404, and the figure stays hidden.
@@ -291,7 +291,7 @@ function start() {
   });
   takeWishes(asked);
   requestAnimationFrame(tick);
-  look();
+  ask();
 }
 
 // The address may ask for a colour, a step and a direction: ?colour=psi6&step=120&play=-1
