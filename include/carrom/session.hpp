@@ -21,7 +21,8 @@ public:
     ///
     /// Where it starts MPI, the session changes the process. A rank without memory then ends all
     /// ranks with code 3. SIGXFSZ is ignored. HDF5 closes no files at exit: close your own. Where
-    /// it takes part, it changes none of these.
+    /// it takes part, it changes none of these. It never sets how OpenMP's threads wait: set
+    /// OMP_WAIT_POLICY=passive before the program starts, where other programs use its cores.
     Session();
 
     /// Takes part with the ranks of one communicator, which the program gives as its Fortran

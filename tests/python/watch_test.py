@@ -13,8 +13,10 @@ import unittest
 import urllib.error
 from pathlib import Path
 
+import carrom
 import h5py
 import numpy as np
+from carrom.watch.curves import Curves
 from carrom.watch.order import hexatic_order
 from carrom.watch.picture import View, picture
 from watch_support import PROGRAM, SCENE, Page, run, start, stored, wait_for
@@ -70,6 +72,7 @@ class ServerTest(unittest.TestCase):
         _, _, velocities = stored("curves")
         report = json.loads(Path("curves/report.json").read_text(encoding="ascii"))
         with Page("curves") as page:
+            wait_for(lambda: len(page.json("curves")["energy"]["steps"]) == len(velocities))
             curves = page.json("curves")
         energies = 0.5 * (velocities.astype(float) ** 2).sum(axis=(1, 2))
         np.testing.assert_allclose(curves["energy"]["values"], energies, rtol=1e-12)
@@ -81,6 +84,17 @@ class ServerTest(unittest.TestCase):
         np.testing.assert_allclose(
             curves["pressure"]["values"], table[:, 2:].mean(axis=1), rtol=1e-12
         )
+
+    def test_looks_without_time_still_span_the_run(self):
+        run("hasty", steps=60, every=5)
+        curves, asked = Curves(), carrom.open("hasty")
+        gaps = []
+        for _ in range(12):
+            steps = curves.look(asked, asked.frames, 200, seconds=-1)["energy"]["steps"]
+            self.assertEqual((steps[0], steps[-1]), (0, 60))
+            gaps.append(max(np.diff(steps)))
+        self.assertEqual(gaps[:4], [60, 40, 20, 20])  # steps 0 and 60, then 40, 20, 10
+        self.assertEqual(gaps[-1], 5)
 
     def test_only_new_steps_are_sent(self):
         run("news")

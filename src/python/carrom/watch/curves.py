@@ -53,6 +53,16 @@ def steps_of(frames: Frames | Checkpoints) -> list[int]:
     return [int(match[1]) if match else frames[i].step for i, match in enumerate(found)]
 
 
+def _coarse_first(places: range, newest: int) -> list[int]:
+    """Put the newest first, then places far apart, so that few of them already span the run."""
+    found = dict.fromkeys([newest] if places else [])
+    every = 1 << len(places).bit_length()
+    while every:
+        found.update(dict.fromkeys(places[::every]))
+        every //= 2
+    return list(found)
+
+
 class Curves:
     """Keeps what has been read, and reads on a little each time."""
 
@@ -81,18 +91,18 @@ class Curves:
         }
 
     def _read_frames(self, frames: Frames | Checkpoints, until: float) -> None:
-        """Energy and counters of some frames, evenly spaced, the newest among them."""
+        """Energy and counters of some frames: the newest, then others, ever more closely spaced."""
         steps = steps_of(frames)
         if isinstance(frames, Frames):  # older checkpoints are removed, but what they said stays
             last = steps[-1] if steps else -1
             self._of_frames = {s: v for s, v in self._of_frames.items() if s <= last}
         every = max(1, -(-len(steps) // _POINTS))
-        for index in {*range(0, len(steps), every), len(steps) - 1} if steps else set():
+        for index in _coarse_first(range(0, len(steps), every), len(steps) - 1):
             if steps[index] in self._of_frames:
                 continue
             self._of_frames[steps[index]] = _sums(frames[index])
-            if time.monotonic() > until:
-                return
+            if index != len(steps) - 1 and time.monotonic() > until:
+                return  # one beside the newest at least, else a slow reader would know no others
 
     def _energy(self) -> Curve:
         return self._column("energy", _ENERGY) or _curve(
