@@ -21,11 +21,13 @@ source job_scripts/mpi.sh
     "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
 
 # launch_with RANKS THREADS: sets `launch`, the words that come before the program. Each rank is
-# bound to THREADS cores of its own, on which its threads may move; ranks fill one node after the
-# other.
+# bound to THREADS cores of its own, and each of its threads to one of them, because a thread that
+# moves leaves its memory behind; ranks fill one node after the other. OMP_PLACES and OMP_PROC_BIND
+# may be set to something else.
 launch_with() {
     local ranks=$1 threads=$2
     export OMP_NUM_THREADS=$threads
+    export OMP_PLACES=${OMP_PLACES:-cores} OMP_PROC_BIND=${OMP_PROC_BIND:-close}
     case $LAUNCHER in
     srun)
         launch=(srun --mpi="${SRUN_MPI:-$(srun_plugin "$PROGRAM")}" --ntasks="$ranks"

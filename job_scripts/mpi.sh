@@ -30,6 +30,13 @@ srun_plugin() {
 # cores: those that this process may use; nproc by itself takes OMP_NUM_THREADS for their number
 cores() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
 
+# whole_cores: as `cores`, but two hardware threads of one core count once
+whole_cores() {
+    local whole
+    whole=$(lscpu -p=core,socket 2>/dev/null | grep -v '^#' | sort -u | wc -l) || whole=0
+    if [ "$whole" -ge 1 ] && [ "$whole" -lt "$(cores)" ]; then echo "$whole"; else cores; fi
+}
+
 # use_mpi_settings WORKERS: exports what mpi_settings.txt says for so many threads of all ranks
 # together
 use_mpi_settings() {
