@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -189,7 +190,7 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
 
 void abort_from_signal(std::string_view text, int code) {
     static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
-    static volatile std::sig_atomic_t last_code;
+    static std::atomic<int> last_code; // any thread may run the handler
     last_code = code;
     std::signal(SIGALRM, [](int) { std::_Exit(last_code); });
     sigset_t alarms; // blocked where the caller handles one

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/shell/stop_signals.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <string_view>
@@ -13,7 +14,9 @@ namespace carrom {
 
 namespace {
 
-volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0; // for the answer only
+// The kernel lets any thread of the process run the handler, so `volatile` would not be enough.
+std::atomic<int> signal_that_has_come = 0; // for the answer only
+std::atomic<bool> is_answer_due = false;
 
 /// Calls only functions that a handler may call.
 void answer(int number) {
@@ -30,8 +33,7 @@ void answer(int number) {
 void note_signal(int number) {
     signal_that_has_come = number;
     request_stop();
-    if (is_answer_due == 0) return;
-    is_answer_due = 0;
+    if (!is_answer_due.exchange(false)) return;
     const int number_of_error = errno;
     answer(number);
     errno = number_of_error;
@@ -59,13 +61,12 @@ void note_stop_signals() {
 StopSignals::StopSignals(bool are_reported) {
     note_stop_signals();
     if (!are_reported) return;
-    is_answer_due = 1;
-    if (signal_that_has_come == 0 || is_answer_due == 0) return;
-    is_answer_due = 0;
+    is_answer_due = true;
+    if (signal_that_has_come == 0 || !is_answer_due.exchange(false)) return;
     answer(signal_that_has_come);
 }
 
-StopSignals::~StopSignals() { is_answer_due = 0; }
+StopSignals::~StopSignals() { is_answer_due = false; }
 
 bool StopSignals::has_come() const { return is_stop_requested(); }
 
