@@ -4,9 +4,9 @@
 
     threads.py SOURCE_FOLDER
 
-prints each source file that orders threads by itself and that the page does not name, and each file
-that the page names although it does no such thing; it exits with 1 if there is one. So nobody adds an
-atomic without giving the reason for its memory order.
+prints each source file that orders threads by itself and that the page does not name, and each
+file that the page names although it does no such thing. It exits with 1 if there is one. So nobody
+adds an atomic without giving the reason for its memory order.
 """
 import re
 import sys
@@ -18,7 +18,7 @@ ORDERS_THREADS = re.compile(
     r"|\bvolatile\b|\bthread_local\b"
     r"|#pragma omp (atomic|flush|critical|barrier|single|master|masked|task|ordered)"
     r"|\b(__atomic|__sync)_|\bomp_\w*lock\b|\bpthread_|\bMPI_Win_")
-COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/', re.DOTALL)
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 PAGE = "docs/understanding/threads.md"
 
 
