@@ -250,7 +250,7 @@ def is_right(row, largest_error):
     names = [name[:-6] for name in row if name.endswith("_known") and row[name] != ""]
     return all(abs(row[name] - row[f"{name}_known"]) <=
                4 * math.hypot(row[f"{name}_error"], row[f"{name}_known_error"]) and
-               row[f"{name}_error"] <= largest_error * row[f"{name}_known"] for name in names)
+               row[f"{name}_error"] <= largest_error * abs(row[f"{name}_known"]) for name in names)
 
 
 def main(description, studies):
