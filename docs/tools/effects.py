@@ -30,7 +30,7 @@ PICTURES = {
     "dense": (500, "--view 0 0 100 100"),
     "dense_liquid": (100, "--view 0 0 100 100"),
     "drag": (200, ""),
-    "effusion": (200, "--scene --colour vx --view 50 30 200 170"),
+    "effusion": (600, "--scene --colour vx --fastest 0.3 --view 40 20 200 180"),
     "galton": (400, "--scene"),
     "gas": (100, "--view 0 0 100 100"),
     "haff": (500, ""),

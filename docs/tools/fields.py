@@ -36,9 +36,10 @@ def draw_shock(figure, measured):
     curves = (("density", table["density"], 0.7490), ("kT", table["temperature"], 1.9130),
               ("pressure", table["xx"] + table["contact_xx"], 2.1787))
     for axes, (name, values, known) in zip(figure.subplots(1, 3), curves):
-        axes.plot(table["x"], values, color="#0060b0")
-        axes.axhline(known, color="black", linewidth=0.8, linestyle="--")
-        axes.set(xlabel="x", ylabel=name, ylim=(0, None))
+        axes.plot(table["x"], values, color="#0060b0", label="run")
+        axes.axhline(known, color="black", linewidth=1, linestyle="--", label="jumps")
+        axes.set(xlabel="x", ylabel=name, ylim=(0, 1.15 * np.nanmax(values)))
+    figure.axes[0].legend(loc="lower right")
 
 
 def draw_transport(figure, measured):
@@ -51,8 +52,9 @@ def draw_transport(figure, measured):
                       label="Green-Kubo")
         axes.errorbar(table["steps"], table[name], table[f"{name}_error"], color="#0060b0",
                       label="Helfand")
-        axes.axhline(known, color="black", linewidth=0.8, linestyle="--")
-        axes.set(xlabel="steps", ylabel=LABELS[name], ylim=(0, None))
+        axes.axhline(known, color="black", linewidth=1, linestyle="--", label="Enskog")
+        highest = max(np.nanmax(table[f"{name}_slope"]), np.nanmax(table[name]))
+        axes.set(xlabel="steps", ylabel=LABELS[name], ylim=(0, 1.1 * highest))
     figure.axes[0].legend()
 
 

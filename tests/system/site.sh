@@ -11,6 +11,9 @@ if [ "$code" -eq 77 ]; then
 fi
 expect_code 0 'the site'
 [ -s "$1/index.html" ] || complain 'there is no index.html'
+# Pages opened as files, without a network, have to find everything beside them.
+grep -rqE '<(script|link|img)[^>]* (src|href)="https?://' --include='*.html' "$1" &&
+    complain 'a page loads something from another server'
 
 mkdir copy
 cp -r "$CARROM_SOURCE_DIR/docs" "$CARROM_SOURCE_DIR/mkdocs.yml" copy
