@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # What CMake says before anything is compiled: systems without a chance are refused in one line, a
-# project that adds Carrom as a folder keeps its build type, and --version shows changes.
+# project that adds Carrom as a folder keeps its build type, flags that change arithmetic are taken
+# back, and --version shows changes.
 #
 # usage: builds.sh CMAKE CXX
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
@@ -62,9 +63,30 @@ project(parent LANGUAGES C CXX)
 add_subdirectory("$CARROM_SOURCE_DIR" carrom)
 END
 unset CMAKE_BUILD_TYPE
-configured parent || { complain 'a parent project'; tail -n 5 log; }
+configured parent -DCMAKE_EXPORT_COMPILE_COMMANDS=ON || { complain 'a parent project'; tail -n 5 log; }
 grep -qx 'CMAKE_BUILD_TYPE:STRING=' "$test_folder/build/CMakeCache.txt" ||
     complain "the parent's build type: $(grep BUILD_TYPE: "$test_folder/build/CMakeCache.txt")"
+
+# Whatever arithmetic a user's flags ask for is taken back. The compiler says itself what is on.
+mapfile -t flags < <(grep -m 1 '"command".*src/core/' "$test_folder/build/compile_commands.json" |
+    grep -o ' -f[a-z=-]*' | tr -d ' ')
+in_force() {
+    case $("$compiler" --version) in
+        *clang*) "$compiler" -O3 "$@" -'###' -c -x c++ -o out.o main.cpp 2>&1 | grep -- -cc1 ;;
+        *) "$compiler" -O3 "$@" -Q --help=optimizers | grep -v '^ *-o ' ;;
+    esac
+}
+: >main.cpp
+in_force "${flags[@]}" >plain
+[ ${#flags[@]} -gt 2 ] || complain "the core is compiled without flags: ${flags[*]}"
+for unsafe in '-ffast-math -fno-finite-math-only' -funsafe-math-optimizations -freciprocal-math \
+    '-fassociative-math -fno-signed-zeros -fno-trapping-math' -ffp-contract=fast; do
+    read -ra words <<<"$unsafe"
+    in_force "${flags[@]}" "${words[@]}" | cmp -s - plain &&
+        complain "the compiler does not show what $unsafe does"
+    in_force "${words[@]}" "${flags[@]}" >unsafe
+    diff plain unsafe >differences || complain "$unsafe has an effect: $(head -n 3 differences)"
+done
 
 # The commit of a tree that was changed is marked.
 if command -v git >/dev/null && git -C "$CARROM_SOURCE_DIR" rev-parse HEAD >/dev/null 2>&1; then
