@@ -72,7 +72,9 @@ mapfile -t flags < <(grep -m 1 '"command".*src/core/' "$test_folder/build/compil
     grep -o ' -f[a-z=-]*' | tr -d ' ')
 in_force() {
     case $("$compiler" --version) in
-        *clang*) "$compiler" -O3 "$@" -'###' -c -x c++ -o out.o main.cpp 2>&1 | grep -- -cc1 ;;
+        *clang*)
+            "$compiler" -O3 "$@" -'###' -c -x c++ -o out.o main.cpp 2>&1 | grep -e -cc1
+            ;;
         *) "$compiler" -O3 "$@" -Q --help=optimizers | grep -v '^ *-o ' ;;
     esac
 }
