@@ -63,7 +63,8 @@ project(parent LANGUAGES C CXX)
 add_subdirectory("$CARROM_SOURCE_DIR" carrom)
 END
 unset CMAKE_BUILD_TYPE
-configured parent -DCMAKE_EXPORT_COMPILE_COMMANDS=ON || { complain 'a parent project'; tail -n 5 log; }
+configured parent -DCMAKE_EXPORT_COMPILE_COMMANDS=ON ||
+    { complain 'a parent project'; tail -n 5 log; }
 grep -qx 'CMAKE_BUILD_TYPE:STRING=' "$test_folder/build/CMakeCache.txt" ||
     complain "the parent's build type: $(grep BUILD_TYPE: "$test_folder/build/CMakeCache.txt")"
 
