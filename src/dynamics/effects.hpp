@@ -126,6 +126,7 @@ struct Thermostat {
     std::uint64_t seed = 3210;
 
     bool is_any() const { return kind != ThermostatKind::none; }
+    bool has_temperature() const { return is_any() && kind != ThermostatKind::kicks; }
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 

@@ -2,8 +2,9 @@
 // Species: the radius and the mass of each disc, which a run never changes.
 //
 // Species come in the order of ids, so a disc's species follows from its id: no array,
-// no byte in messages and checkpoints. Few species are found by comparisons; many are
-// spread into a table by id, 16 bytes a disc on every rank.
+// no byte in messages and checkpoints. Few species are found by comparisons. Many have a
+// table by id on every rank: up to 65,536 species take 2 bytes a disc, which name the
+// species, and more take 16, because radius and mass stand there themselves.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +38,7 @@ public:
     SpeciesTable(std::span<const Species> species, double radius);
 
     const SizeAndMass& of(DiscId id) const {
-        if (by_id_) return by_id_[id];
+        if (sizes_) return sizes_[species_of_id_ ? species_of_id_[id] : id];
         const Range* range = ranges_;
         while (id >= range->end) ++range;
         return range->values;
@@ -50,12 +51,17 @@ private:
     };
     struct Table {
         std::vector<Range> ranges;
-        std::vector<SizeAndMass> by_id; ///< empty if there are few ranges
+        DiscId n_discs = 0;
+        std::vector<SizeAndMass> sizes;           ///< of each species, or of each disc; or empty
+        std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
+
+        void spread(std::span<const Species> species);
     };
 
     std::shared_ptr<const Table> table_;
     const Range* ranges_ = nullptr;
-    const SizeAndMass* by_id_ = nullptr;
+    const SizeAndMass* sizes_ = nullptr; ///< null if there are few species
+    const std::uint16_t* species_of_id_ = nullptr;
 };
 
 } // namespace carrom

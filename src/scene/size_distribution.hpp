@@ -4,7 +4,7 @@
 // Radii are not drawn: the distribution is cut into parts of equal probability, and each part is a
 // species with the radius in its middle. So two seeds have the same radii, and differ by places and
 // velocities only; a thousand parts tell a distribution from its limit by less than a thousandth.
-// Each disc's radius and mass are found by its id, 16 bytes a disc on every rank (species.hpp).
+// Each disc's radius and mass are found by its id, 2 bytes a disc on every rank (species.hpp).
 //
 // + - * / and sqrt only: the same bits on every machine.
 #pragma once

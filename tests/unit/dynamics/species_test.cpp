@@ -38,6 +38,21 @@ TEST_CASE("Each disc has the radius and the mass of its species, be they few or 
     CHECK(SpeciesTable({}, 7).of(3).mass == 1);
 }
 
+TEST_CASE("More species than 16 bits can number have their radii, too") {
+    for (const std::size_t n : {65'536u, 65'537u}) {
+        std::vector<Species> species;
+        for (std::size_t k = 0; k < n; ++k)
+            species.push_back({2, 1 + static_cast<double>(k), 3 + static_cast<double>(k)});
+        const SpeciesTable table(species, 7);
+        bool are_right = true;
+        for (DiscId id = 0; id < 2 * n; ++id) {
+            const Species& one = species[id / 2];
+            are_right &= table.of(id).radius == one.radius && table.of(id).mass == one.mass;
+        }
+        CHECK(are_right);
+    }
+}
+
 TEST_CASE("Tables of the same many species share their memory, and others do not") {
     const std::vector<Species> many = species_of(20, 5);
     const SpeciesTable first(many, 1), second(many, 1), longer(species_of(20, 6), 1);
