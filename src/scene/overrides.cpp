@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/overrides.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "scene/checked_value.hpp"
@@ -39,6 +41,20 @@ void check_replaced(Settings& settings, const Settings& given, Problems& problem
     }
 }
 
+/// Some keys, as 'discs.radius', are a value or a table. The command line's replaces the input's.
+void remove_other_forms(Settings& settings, const Settings& given) {
+    std::erase_if(settings.all(), [&given](const Setting& one) {
+        const Key* key = find_key(one.key);
+        if (!key) return false;
+        if (find_key(key->table()) && given.has(key->table())) return true;
+        return find_table(one.key) &&
+               std::any_of(given.all().begin(), given.all().end(), [&one](const Setting& other) {
+                   const Key* inner = find_key(other.key);
+                   return inner && inner->table() == one.key;
+               });
+    });
+}
+
 /// Removes settings of the input that are excluded by those of the command line.
 void remove_rivals(Settings& settings, const Settings& given) {
     for (const Key& key : keys()) {
@@ -47,7 +63,35 @@ void remove_rivals(Settings& settings, const Settings& given) {
             if (given.has(other)) settings.remove(key.name);
         }
     }
+    remove_other_forms(settings, given);
     remove_keys_of_other_generators(settings, given);
+}
+
+void add_table(Settings& given, Problems& problems, const Place& place, const std::string& table,
+               const NamedValues& values) {
+    for (const auto& [part, value] : values) {
+        const std::string name = table + '.' + part;
+        const auto* inner = std::get_if<NamedValues>(&value.data);
+        if (inner && find_table(name))
+            add_table(given, problems, place, name, *inner);
+        else if (find_key(name))
+            given.set({name, place, value});
+        else
+            add_problem(problems, place, unknown_key_text(name, value));
+    }
+}
+
+/// Takes `table={key = value}` for `table.key=value`, as scenes do.
+void add_inline_table(Settings& given, Problems& problems, const Place& place,
+                      const std::string& name, const std::string& text) {
+    const auto values = parse_table(text);
+    if (values)
+        add_table(given, problems, place, name, *values);
+    else
+        add_problem(problems, place,
+                    fmt::format("must be a table of TOML, {{key = value, other_key = \"word\"}}, "
+                                "not {}; quote it for the shell, or try: --set {}.KEY=VALUE",
+                                in_quotes(text), name));
 }
 
 } // namespace
@@ -75,6 +119,8 @@ void add_overrides(Settings& settings, Problems& problems,
         } else if (text.find('\n') != std::string::npos) { // it has to fit on one line of files
             add_problem(problems, place,
                         fmt::format("must stand on one line, not {}", in_quotes(word)));
+        } else if (word.starts_with('{') && find_table(name)) {
+            add_inline_table(given, problems, place, name, word);
         } else if (!key) {
             add_problem(problems, place, unknown_key_text(name, Value{word}));
         } else {

@@ -130,6 +130,19 @@ void forget_lines(Value& value) {
         for (auto& [name, one] : *values) forget_lines(one);
 }
 
+/// The value of `--set`; nothing if it is no value.
+std::optional<Value> parse_any(const std::string& text) {
+    const std::string line = "value = " + text;
+    if (text.find('\n') != std::string::npos || line_of_deep_key(line) > 0) return std::nullopt;
+    try {
+        Value value = to_value(*toml::parse(line).get("value"));
+        forget_lines(value);
+        return value;
+    } catch (const toml::parse_error&) {
+        return std::nullopt;
+    }
+}
+
 std::string quoted_text(const std::string& text) {
     std::string all = "\"";
     for (const char c : text) {
@@ -189,15 +202,14 @@ std::optional<Value> parse_value(const Key& key, const std::string& text) {
     const bool takes_word = key.kind == Kind::text || key.kind == Kind::choice;
     const bool is_quoted = !text.empty() && (text[0] == '"' || text[0] == '\'');
     if (takes_word && !is_quoted) return Value{text};
-    const std::string line = "value = " + text;
-    if (text.find('\n') != std::string::npos || line_of_deep_key(line) > 0) return std::nullopt;
-    try {
-        Value value = to_value(*toml::parse(line).get("value"));
-        forget_lines(value);
-        return value;
-    } catch (const toml::parse_error&) {
-        return std::nullopt;
-    }
+    return parse_any(text);
+}
+
+std::optional<NamedValues> parse_table(const std::string& text) {
+    auto value = parse_any(text);
+    auto* values = value ? std::get_if<NamedValues>(&value->data) : nullptr;
+    if (!values) return std::nullopt;
+    return std::move(*values);
 }
 
 std::string toml_text(const Key& key, const Value& value) {

@@ -19,6 +19,9 @@ bool add_toml(Settings& settings, Problems& problems, std::string_view text,
 /// key takes a word. Nothing if it is no value.
 std::optional<Value> parse_value(const Key& key, const std::string& text);
 
+/// Reads an inline table of `--set`. Nothing if it is none.
+std::optional<NamedValues> parse_table(const std::string& text);
+
 /// A checked value in TOML's syntax; it reads back as the same bits.
 std::string toml_text(const Key& key, const Value& value);
 

@@ -6,6 +6,7 @@
 
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
+#include "scene/limits.hpp"
 #include "scene/rule_parts.hpp"
 
 namespace carrom {
@@ -65,6 +66,23 @@ std::vector<Rule> rules_of_shear() {
     };
 }
 
+/// A flow has the temperature that its rate and its losses give it, whatever it began with.
+void warn_of_temperature(const Check& check) {
+    Scene& scene = check.scene;
+    if (!scene.effects.are_sheared() || !check.settings.has("discs.temperature")) return;
+    const Thermostat& thermostat = scene.effects.thermostat;
+    if (thermostat.has_temperature() && thermostat.temperature == scene.temperature) return;
+    const char* then =
+        thermostat.has_temperature() ? "the thermostat keeps its own afterwards"
+        : are_pairs_lossy(scene.effects)
+            ? "the flow comes to the temperature at which collisions lose what it gives, and the "
+              "report has it; effects.thermostat.kind = \"rescale\" keeps one"
+            : "the flow heats discs that lose no energy for ever; effects.thermostat.kind = "
+              "\"rescale\" keeps a temperature";
+    scene.warnings.push_back(
+        fmt::format("discs.temperature is that of the start only, because {}", then));
+}
+
 } // namespace
 
 namespace effects {
@@ -73,6 +91,7 @@ EffectDeclaration shear() {
     return {.tables = {{"effects.shear", "A flow between sheared sides, whose images move."}},
             .keys = keys_of_shear(),
             .rules = rules_of_shear(),
+            .check_room = warn_of_temperature,
             .summary =
                 [](const Effects& e) {
                     return e.are_sheared() ? fmt::format("shear at the rate {:g}", e.shear) : "";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Words that other programs have for sides, contacts and thermostats are errors that name what
-// there is instead.
+// there is instead. Tables on the command line mean what they mean in scenes, and a temperature
+// that a flow does not keep is a warning.
 #include <string>
 #include <utility>
 
@@ -30,4 +31,60 @@ TEST_CASE("Words of other programs are errors that name what there is") {
         const std::string text = setting;
         CHECK(mentions(problems_of([&] { read_scene(scene, "s.toml", {text}); }), advice));
     }
+}
+
+TEST_CASE("A table on the command line is that of a scene") {
+    const std::string scene = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = "
+                              "10\n";
+    const auto sizes =
+        read_scene(scene, "s.toml",
+                   {"discs.radius={distribution = \"lognormal\", mean = 2, polydispersity = 0.2}"})
+            .sizes;
+    REQUIRE(sizes);
+    CHECK(sizes->kind == SizeKind::lognormal);
+    CHECK(sizes->mean == 2);
+    CHECK(sizes->polydispersity == 0.2);
+    const Scene equal = read_scene("[box]\nsize = 100\n[discs]\ncount = 50\n[discs.radius]\n"
+                                   "distribution = \"normal\"\nmean = 1\n[time]\nsteps = 10\n",
+                                   "s.toml", {"discs.radius=2"});
+    CHECK(!equal.sizes);
+    CHECK(equal.radius == 2);
+    const Scene thermal = read_scene(scene, "s.toml",
+                                     {"box={left = {kind = \"thermal\", temperature = 0.5}}"});
+    CHECK(thermal.effects.boundaries[0].temperature == 0.5);
+    for (const auto& [setting, advice] : {
+             std::pair{"discs.radius={distribution=lognormal}", "quote it for the shell"},
+             {"discs.radius={distribution = \"lognormal\"", "quote it for the shell"},
+             {"discs.radius={spread = 0.2}", "no such key 'discs.radius.spread'"},
+             {"discs.radius={distribution = 3}", "must be \"uniform\""},
+         }) {
+        INFO(setting);
+        const std::string text = setting;
+        CHECK(mentions(problems_of([&] { read_scene(scene, "s.toml", {text}); }), advice));
+    }
+}
+
+TEST_CASE("A flow that does not keep its temperature has a warning") {
+    std::string scene = "[box]\nsize = 100\n";
+    for (const std::string side : {"left", "right"}) scene += side + ".kind = \"periodic\"\n";
+    for (const std::string side : {"bottom", "top"}) scene += side + ".kind = \"sheared\"\n";
+    scene += "[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n[effects.shear]\nrate = 0.1\n";
+    const auto warnings = [&scene](std::vector<std::string> overrides) {
+        std::string all;
+        for (const std::string& text : read_scene(scene, "s.toml", overrides).warnings)
+            all += text + '\n';
+        return all;
+    };
+    CHECK(warnings({"discs.speed=0.1"}).empty());
+    const std::string start = "discs.temperature=0.01", rescale = "effects.thermostat.kind=rescale";
+    const auto has = [](const std::string& text, const char* part) {
+        return text.find(part) != std::string::npos;
+    };
+    CHECK(has(warnings({start}), "heats discs that lose no energy for ever"));
+    CHECK(has(
+        warnings({start, "effects.contact.kind=restitution", "effects.contact.restitution=0.8"}),
+        "collisions lose what it gives"));
+    CHECK(has(warnings({start, rescale, "effects.thermostat.temperature=0.02"}),
+              "the thermostat keeps its own"));
+    CHECK(warnings({start, rescale, "effects.thermostat.temperature=0.01"}).empty());
 }
