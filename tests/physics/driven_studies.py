@@ -205,7 +205,7 @@ def langevin(program, is_short):
     kt, gamma, count = 0.01, 0.01, 1000 if is_short else 2000
     window = 2_000 # 20 times the memory
     windows = 2 if is_short else 6
-    for packing in (0.0001,) if is_short else (0.0001, 0.003):
+    for packing in (0.0001,) if is_short else (0.0001, 0.003, 0.01, 0.03):
         nu = frequency(packing) * math.sqrt(kt)
         found = []
         for seed in range(1, 9):
