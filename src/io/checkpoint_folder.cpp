@@ -41,7 +41,11 @@ std::string checkpoint_path(const std::string& folder, std::int64_t step) {
         .string();
 }
 
-bool is_named_as_checkpoint(const std::string& path) { return as_checkpoint(path).has_value(); }
+bool is_named_as_checkpoint(const std::string& path) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    const std::optional<FoundFile> found = as_checkpoint(name);
+    return found && name == checkpoint_path("", found->step);
+}
 
 std::vector<FoundFile> find_checkpoints(const std::string& folder) {
     std::vector<FoundFile> found;
@@ -62,8 +66,7 @@ WriteProblem write_problem_of_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return write_problem("cannot be made", error.value());
-    const std::string probe =
-        (std::filesystem::path(folder) / fmt::format(".carrom-{}", ::getpid())).string();
+    const std::string probe = (std::filesystem::path(folder) / name_beside()).string();
     const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) return write_problem("no file can be made there", errno);
     ::close(file);

@@ -93,6 +93,8 @@ bool CollisionLog::go_on(std::int64_t step) {
                         [&](hid_t file) {
                             if (!h5::has(file, "/carrom/collisions"))
                                 throw FileError("is no log of collisions");
+                            if (h5::has(file, last_step_path))
+                                h5::read_scalar(file, last_step_path, recorded_before_);
                             steps_ = steps_at(file, step);
                         });
 }

@@ -42,6 +42,8 @@ public:
     /// to `step` that are not in it become a gap, which the file names. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
+    /// The step up to which the file went before `go_on` has cut it back, on rank 0; -1 if unknown.
+    std::int64_t recorded_before() const { return recorded_before_; }
     void commit();
 
     /// The first and the last step of each gap, on rank 0.
@@ -53,6 +55,7 @@ public:
 
 private:
     LoggedSteps steps_;
+    std::int64_t recorded_before_ = -1;
     std::unique_ptr<SegmentedFile> file_;
     const Communicator& communicator_;
 };

@@ -15,11 +15,13 @@
 
 #include <fmt/format.h>
 
+#include "io/checkpoint_folder.hpp"
+
 namespace carrom {
 
 namespace {
 
-constexpr std::string_view partial_prefix = ".carrom-", checkpoint_prefix = "checkpoint-";
+constexpr std::string_view partial_prefix = ".carrom-";
 
 /// Names like "report.json.1234-0.partial", of reports and tables: the process and a number.
 bool is_text_beside(std::string_view name) {
@@ -125,13 +127,16 @@ UnfinishedFile::~UnfinishedFile() {
     if (is_mine_) ::unlink(path_.c_str());
 }
 
+std::string name_beside() {
+    std::random_device random;
+    return fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(), unfinished_suffix);
+}
+
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write) {
     refuse_special(path);
-    std::random_device random;
-    const std::string name = fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(),
-                                         unfinished_suffix);
-    const UnfinishedFile beside((std::filesystem::path(folder_of(path)) / name).string(), true);
+    const UnfinishedFile beside((std::filesystem::path(folder_of(path)) / name_beside()).string(),
+                                true);
     write(beside.path());
     rename_durably(beside.path(), path);
 }
@@ -149,9 +154,11 @@ void remove_unfinished(const std::string& folder) {
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        const bool is_ours = name.starts_with(partial_prefix) ||
-                             name.starts_with(checkpoint_prefix) || is_text_beside(name);
-        if (is_ours && name.ends_with(unfinished_suffix)) ::unlink(entry->path().c_str());
+        if (!name.ends_with(unfinished_suffix)) continue;
+        const std::string whole = name.substr(0, name.size() - unfinished_suffix.size());
+        if (name.starts_with(partial_prefix) || is_named_as_checkpoint(whole) ||
+            is_text_beside(name))
+            ::unlink(entry->path().c_str());
     }
 }
 

@@ -80,6 +80,9 @@ private:
     bool is_mine_;
 };
 
+/// A name that nobody can guess, of a file that `remove_unfinished` removes if a killed program
+/// has left it.
+std::string name_beside();
 /// Replaces a file by a new one, as a whole or not at all. `write` makes it under a
 /// name that nobody can guess, and brings it to disk.
 void replace_file(const std::string& path,

@@ -23,7 +23,10 @@ struct ColumnSource {
 
 namespace {
 
+constexpr const char *radii_path = "/particles/discs/radius",
+                     *masses_path = "/particles/discs/mass";
 constexpr std::size_t longest_word = 1000;
+constexpr std::uint64_t bodies_at_a_time = std::uint64_t{1} << 16;
 
 /// In the order of FileSummary::columns.
 std::vector<ColumnSource> sources_of_frames() {
@@ -114,6 +117,19 @@ void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
     read_sides("/parameters/wall_amplitudes", system.amplitudes);
 }
 
+/// Radii and masses are for other programs, and must be what bodies can have.
+void check_bodies(hid_t file, const FileSummary& summary) {
+    for (const char* path : {radii_path, masses_path}) {
+        if (!h5::has(file, path)) continue;
+        for (std::uint64_t begin = 0; begin < summary.n_rows; begin += bodies_at_a_time) {
+            const std::uint64_t end = std::min(begin + bodies_at_a_time, summary.n_rows);
+            for (const double number : read_block(file, path, {begin, end}))
+                if (!(std::isfinite(number) && number > 0))
+                    throw FileError(std::string(path) + " holds what is no finite number above 0");
+        }
+    }
+}
+
 template <class Act> void with_path(const std::string& path, const Act& act) {
     try {
         act();
@@ -177,6 +193,8 @@ void FrameFile::open() {
             summary_.columns.push_back(source.column);
         summary_.n_rows = h5::n_rows_of(
             h5::open_checked(file, state_->sources.front().dataset, h5::Shape{std::nullopt}).id());
+        if (h5::has(file, radii_path))
+            summary_.n_discs = h5::n_rows_of(h5::open_checked(file, radii_path).id());
     } else if (h5::has(file, "/particles/discs")) {
         open_trajectory();
     } else {
@@ -226,8 +244,18 @@ void FrameFile::try_all_parts() const {
     }
 }
 
+std::vector<std::string> FrameFile::segments() const {
+    std::vector<std::string> paths;
+    for (const FileSegment& segment : state_->segments)
+        paths.push_back(segment_path(path_, segment.name));
+    return paths;
+}
+
 void FrameFile::check_numbers() const {
-    with_path(path_, [&] { static_cast<void>(read_checked_index(path_, true)); });
+    with_path(path_, [&] {
+        static_cast<void>(read_checked_index(path_, true));
+        if (summary_.kind == FileKind::trajectory) check_bodies(state_->file.id(), summary_);
+    });
 }
 
 void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const {

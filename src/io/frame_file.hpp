@@ -48,6 +48,9 @@ public:
 
     const FileSummary& summary() const { return summary_; }
 
+    /// The paths of the segments that a recording joins.
+    std::vector<std::string> segments() const;
+
     /// Checks every byte of a recording. Opening it checks all but its numbers.
     void check_numbers() const;
 

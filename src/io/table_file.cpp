@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 
+#include "io/child_process.hpp"
 #include "io/files.hpp"
 #include "io/hdf5.hpp"
 
@@ -10,9 +11,24 @@ namespace carrom {
 
 namespace {
 
+constexpr const char* remarks_name = "remarks";
+constexpr std::size_t longest_name = 1000;
+
+/// Fails for names that no table has.
+std::string name_of_link(hid_t group, hsize_t number) {
+    std::string name(longest_name, '\0');
+    const ssize_t length = h5::checked(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC,
+                                                          number, name.data(), name.size(),
+                                                          H5P_DEFAULT),
+                                       "a name cannot be read");
+    if (static_cast<std::size_t>(length) >= name.size()) throw FileError("has a name too long");
+    name.resize(static_cast<std::size_t>(length));
+    return name;
+}
+
 void write_table(hid_t file, const MeasuredTable& table) {
     const h5::Group group = h5::create_group(file, table.name);
-    h5::write_attribute(group.id(), "remarks", table.remarks);
+    h5::write_attribute(group.id(), remarks_name, table.remarks);
     std::vector<double> numbers(table.rows.size());
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
         for (std::size_t row = 0; row < numbers.size(); ++row)
@@ -21,7 +37,28 @@ void write_table(hid_t file, const MeasuredTable& table) {
     }
 }
 
+void check_tables(hid_t file) {
+    H5G_info_t all{};
+    h5::checked(H5Gget_info(file, &all), "cannot be listed");
+    if (all.nlinks == 0) throw FileError("has no table");
+    for (hsize_t k = 0; k < all.nlinks; ++k)
+        if (h5::checked(
+                H5Aexists_by_name(file, name_of_link(file, k).c_str(), remarks_name, H5P_DEFAULT),
+                "cannot be read") == 0)
+            throw FileError("has what is no table");
+}
+
 } // namespace
+
+bool is_table_file(const std::string& path) {
+    try {
+        inspect_in_child_first(
+            [&path] { check_tables(h5::open_file(path, h5::Access::read).id()); });
+        return true;
+    } catch (const FileError&) {
+        return false;
+    }
+}
 
 std::string write_table_file(const std::string& path, std::span<const MeasuredTable> tables) {
     try {

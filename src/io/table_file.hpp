@@ -13,4 +13,8 @@ namespace carrom {
 /// Replaces `path` by a whole file, from one process. Returns the problem, or empty.
 std::string write_table_file(const std::string& path, std::span<const MeasuredTable> tables);
 
+/// Whether a file is one of tables. Others of that name are somebody's, as those are that cannot be
+/// read.
+bool is_table_file(const std::string& path);
+
 } // namespace carrom

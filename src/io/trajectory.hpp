@@ -49,6 +49,8 @@ public:
     /// is none. Reads all of it, and throws code 2 if its layout differs or it is damaged.
     /// Returns, on rank 0, the step of the last frame that is left, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
+    /// The step of the last frame before `go_on` has cut the file back, on rank 0; -1 without one.
+    std::int64_t recorded_before() const { return recorded_before_; }
 
     /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, with the
     /// layout's columns along them, and orders, if it has psi6 or neighbours. `images`,
@@ -70,7 +72,8 @@ private:
     const Communicator& communicator_;
     std::unique_ptr<SegmentedFile> file_;
     std::vector<std::int64_t> steps_; ///< steps of all frames, on rank 0
-    std::size_t n_described_ = 0;     ///< number of frames in the XDMF file
+    std::int64_t recorded_before_ = -1;
+    std::size_t n_described_ = 0; ///< number of frames in the XDMF file
 };
 
 } // namespace carrom

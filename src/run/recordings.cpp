@@ -58,10 +58,9 @@ Recordings::Recordings(Run& run, const Messages& messages)
 
 void Recordings::open_trajectory() {
     trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
-    if (run_.is_restart())
-        report_missing_frames(trajectory_->go_on(run_.step()), run_.step());
-    else
-        trajectory_->begin();
+    if (!run_.is_restart()) return trajectory_->begin();
+    report_missing_frames(trajectory_->go_on(run_.step()), run_.step());
+    report_loss(scene_.trajectory->file, trajectory_->recorded_before());
 }
 
 void Recordings::open_log() {
@@ -75,7 +74,16 @@ void Recordings::open_log() {
     else if (const auto& gaps = log_->gaps(); !gaps.empty() && gaps.back() == step)
         messages_.warn("{}: has no collisions of steps {} to {}, and goes on with step {}\n",
                        scene_.collisions->file, gaps[gaps.size() - 2], step, step + 1);
+    report_loss(scene_.collisions->file, log_->recorded_before());
     run_.simulation().log_to(&collisions_);
+}
+
+/// Reports what a file had of steps that this run does not come to, so does not record again.
+void Recordings::report_loss(const std::string& file, std::int64_t recorded) const {
+    if (recorded > scene_.steps)
+        messages_.warn("{}: had steps up to {}, and loses those after step {}, where this run "
+                       "ends\n",
+                       file, recorded, scene_.steps);
 }
 
 /// Reports frames that the restart of a run lacks in its trajectory.

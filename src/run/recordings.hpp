@@ -45,6 +45,7 @@ public:
 private:
     void open_trajectory();
     void open_log();
+    void report_loss(const std::string& file, std::int64_t recorded) const;
     void report_missing_frames(std::int64_t last, std::int64_t step) const;
     void record_collisions(std::int64_t step);
     void add_rows();

@@ -82,6 +82,15 @@ grep -q '^first: step 0, disc 0, x: ' "$test_folder/out" ||
     complain 'diff does not name the first disc and field'
 grep -q '^largest: ' "$test_folder/out" || complain 'diff does not tell the largest difference'
 
+# No output takes the place of what it is made from, which includes a recording's segments.
+for file in trajectory collisions; do
+    run 1 convert "kept/$file.h5" --to csv --output "kept/$file/0001.h5"
+    expect_code 2 "convert onto a segment of $file.h5"
+    expect_told "kept/$file/0001.h5: is a part of the file to convert itself" "$file onto a segment"
+    run 1 verify "kept/$file.h5"
+    expect_code 0 "$file.h5 after that"
+done
+
 # A flipped bit among the numbers of a recording is noticed by its own checksums.
 for file in kept/trajectory.h5 kept/collisions.h5; do
     cp "$file" damaged.h5

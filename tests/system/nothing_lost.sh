@@ -123,7 +123,9 @@ expect_code 0 'a run that recorded its start only'
 # --overwrite removes what the run has written, and nothing else, and nothing behind a link.
 cp -r kept mine
 foreign=(mine/measurements/lab.csv mine/measurements/thermo_old.csv mine/trajectory/notes.h5
-         mine/collisions/lab.csv mine/checkpoints/checkpoint-best.h5 mine/checkpoints/lab.h5)
+         mine/collisions/lab.csv mine/checkpoints/checkpoint-best.h5 mine/checkpoints/lab.h5
+         mine/checkpoints/checkpoint-20.h5 mine/checkpoints/checkpoint-notes.partial
+         mine/measurements/tables.h5)
 for file in "${foreign[@]}"; do echo mine >"$file"; done
 touch mine/trajectory/0009.h5
 run 2 run "${scene[@]}" -o mine --overwrite --steps 4
@@ -147,6 +149,46 @@ for how in '-o tabled' '-o kept --resume' '-o kept --overwrite'; do
     [ "$folder" = tabled ] || mv aside.csv kept/measurements/thermo.csv
 done
 sums_of kept | cmp - before || complain 'the test has not brought the table back'
+
+# Nor is a file of tables, which a run with `hdf5` would replace.
+cp -r mine/measurements/tables.h5 tabled/measurements/
+rm tabled/measurements/thermo.csv
+run 1 run "${scene[@]}" -o tabled --overwrite --steps 1 --set output.measurements.hdf5=1 \
+    --set 'output.measurements.quantities=["profiles"]'
+expect_code 2 'a foreign tables.h5'
+expect_told 'tabled/measurements/tables.h5 is no table that a run has written' 'a foreign tables.h5'
+rm tabled/measurements/tables.h5
+for k in 1 2; do
+    run 1 run "${scene[@]}" -o tabled --overwrite --steps $k --set output.measurements.hdf5=1 \
+        --set 'output.measurements.quantities=["profiles"]'
+    expect_code 0 "tables that a run has written, $k"
+done
+
+# A run that ends before the recordings that it goes on with drops what is beyond, and says so.
+rm -rf part
+cp -r kept part
+earlier=part/checkpoints/checkpoint-000000000010.h5
+run 2 run --restart "$earlier" -o part --steps 14 --quiet
+expect_code 0 'an end before that of what is recorded'
+for name in trajectory collisions; do
+    expect_told "part/$name.h5: had steps up to 20, and loses those after step 14" \
+        'an end before that of what is recorded'
+done
+run 1 run --restart "$earlier" -o part --steps 20 --quiet
+expect_code 0 'an earlier checkpoint, and the end of before'
+grep 'loses' "$test_folder/err" && complain 'a loss is told where there is none'
+run 1 diff part/trajectory.h5 kept/trajectory.h5
+expect_code 0 'an earlier checkpoint, and the end of before: the same frames'
+
+# A folder whose name has a line break: a scene's copy could not name its file of discs.
+mkdir $'two\nlines'
+printf '0 3 3 1 0\n1 8 8 0 1\n' >$'two\nlines/discs.txt'
+printf '[box]\nsize = 20\n[discs]\ncount = 2\nradius = 1\nfile = "discs.txt"\n%s' \
+    $'[time]\nsteps = 2\nmethod = "event-driven"\n[output]\ntext = "none"\n' \
+    >$'two\nlines/scene.toml'
+run 1 run $'two\nlines/scene.toml' -o broken --quiet
+expect_code 2 'a line break in the path of discs'
+expect_told 'the path of that file has a line break' 'a line break in the path of discs'
 
 mkdir far
 mv mine/checkpoints/* far/

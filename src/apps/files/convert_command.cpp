@@ -191,11 +191,13 @@ std::string reason_against(const FileSummary& summary, Format format) {
 
 /// Returns the failure of the output, or empty.
 std::string convert_alone(const std::string& path, Format format, const std::string& target) {
-    std::vector<Problem> problems;
-    if (!target.empty())
-        problems = problems_with({{"--output", target, true}}, {{"the file to convert", path}});
-    if (!problems.empty()) throw InputError(std::move(problems));
     const FrameFile file(path);
+    std::vector<NamedFile> sources = {{"the file to convert", path}};
+    for (const std::string& segment : file.segments())
+        sources.push_back({"a part of the file to convert", segment});
+    std::vector<Problem> problems;
+    if (!target.empty()) problems = problems_with({{"--output", target, true}}, sources);
+    if (!problems.empty()) throw InputError(std::move(problems));
     file.check_numbers();
     if (const std::string failure = reason_against(file.summary(), format); !failure.empty())
         throw InputError({{path, 0, failure}});

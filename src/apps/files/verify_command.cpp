@@ -163,17 +163,26 @@ void verify_frames(const FrameFile& file, const std::string& path) {
     }
 }
 
+/// Files of other programs may not say how many discs there are.
+bool is_disc(double id, const FileSummary& summary) {
+    return id >= 0 && (summary.n_discs == 0 || id < static_cast<double>(summary.n_discs));
+}
+
 void verify_log(const FrameFile& file, const std::string& path) {
+    const FileSummary& summary = file.summary();
     NamedRows rows(file);
     double last_step = 0, last_time = 0;
-    for (std::uint64_t begin = 0; begin < file.summary().n_rows; begin += rows_at_a_time) {
+    for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
         rows.read(0, begin);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const double step = rows(i, "step"), time = rows(i, "time"), p = rows(i, "p"),
                          q = rows(i, "q");
+            if (!rows.are_finite(i))
+                refuse(path,
+                       fmt::format("collision {} has a number that is not finite", begin + i));
             if (step < last_step || time < last_time)
                 refuse(path, fmt::format("goes back in time at step {}", step));
-            if (p < 0 || q < -1 || p == q)
+            if (!is_disc(p, summary) || !(q == -1 || is_disc(q, summary)) || p == q)
                 refuse(path, fmt::format("has a collision of {} and {}", p, q));
             last_step = step;
             last_time = time;
@@ -203,7 +212,8 @@ ExitCode verify(const std::string& path, const Communicator& ranks) {
         if (!summary.has_checksums) {
             code = static_cast<int>(no_checksums);
             verdict = "no checksums, so nobody knows whether it is as it was written; its numbers "
-                      "are finite, and its discs inside the box";
+                      "are finite, and its discs ";
+            verdict += summary.kind == FileKind::collisions ? "exist" : "inside the box";
         } else if (!summary.gaps.empty()) {
             code = static_cast<int>(incomplete);
             verdict = "as it was written, and without the collisions of steps " +

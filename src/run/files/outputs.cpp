@@ -42,6 +42,7 @@ std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
         if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
             return path + " is not a plain file";
     }
+    if (std::string with_copy = problem_with_copy(scene); !with_copy.empty()) return with_copy;
     const std::string with_tables = problem_with_tables(scene);
     if (!with_tables.empty()) return with_tables;
     const std::string trace = trace_of_run(folder);

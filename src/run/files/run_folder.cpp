@@ -16,6 +16,8 @@
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
 #include "io/frame_file.hpp"
+#include "io/table_file.hpp"
+#include "measure/hdf5_key.hpp"
 #include "measure/measurement.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 constexpr std::array copies = {"scene.toml", "scene.in"};
 constexpr std::array files = {"report.json", "trajectory.h5", "trajectory.xdmf", "collisions.h5"};
 constexpr std::array folders = {"checkpoints", "trajectory", "collisions", "measurements"};
+constexpr std::string_view table_file = "tables.h5";
 constexpr std::string_view override_mark = "# --set ";
 
 std::string in(const std::string& folder, const std::string& name) {
@@ -76,10 +79,10 @@ bool is_written_by_run(std::string_view folder, const fs::path& path) {
     if (folder == "checkpoints") return is_named_as_checkpoint(path.string());
     const std::string stem = path.stem().string();
     if (folder == "measurements") {
+        if (path.filename() == table_file) return is_table_file(path.string());
         std::ifstream file(path);
         std::string line;
         std::getline(file, line);
-        if (path.filename() == "tables.h5") return true;
         return path.extension() == ".csv" && line.starts_with("# ") && line.ends_with(": " + stem);
     }
     return is_segment(path);
@@ -96,15 +99,20 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
     return {};
 }
 
-/// TOML that has been changed by `--set` lists the changes in its first lines.
-std::string text_of_copy(const Scene& scene) {
-    std::string text;
+/// The settings that a copy of the scene lists in its first lines: those of `--set`, and where
+/// files are, because the copy is in another folder.
+std::vector<std::string> overrides_for_copy(const Scene& scene) {
     std::vector<std::string> overrides = scene.overrides;
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
     if (!scene.discs_from.empty())
         overrides.push_back("discs.from=" + fs::absolute(discs_path(scene)).string());
-    for (const std::string& override : overrides)
+    return overrides;
+}
+
+std::string text_of_copy(const Scene& scene) {
+    std::string text;
+    for (const std::string& override : overrides_for_copy(scene))
         text += fmt::format("{}{}\n", override_mark, override);
     return text + scene.text;
 }
@@ -158,12 +166,16 @@ std::string problem_with_tables(const Scene& scene) {
     if (!scene.measurements) return {};
     const std::string& folder = scene.measurements->folder;
     std::error_code error;
-    const std::string found = find_entry(folder, error, [](const fs::path& path) {
+    const bool has_table_file = hdf5_setting.of(*scene.measurements) != 0;
+    const std::string found = find_entry(folder, error, [&](const fs::path& path) {
         std::error_code ignored;
         const bool is_empty = fs::is_regular_file(fs::symlink_status(path, ignored)) &&
                               fs::file_size(path, ignored) == 0;
-        return path.extension() == ".csv" && is_name_of_table(path.stem().string()) && !is_empty &&
-               !is_written_by_run("measurements", path);
+        const bool may_be_replaced = path.filename() == table_file
+                                         ? has_table_file
+                                         : path.extension() == ".csv" &&
+                                               is_name_of_table(path.stem().string());
+        return may_be_replaced && !is_empty && !is_written_by_run("measurements", path);
     });
     if (error) return fmt::format("{} cannot be listed: {}", folder, error.message());
     if (found.empty()) return {};
@@ -171,6 +183,14 @@ std::string problem_with_tables(const Scene& scene) {
     return fmt::format("{} {}, and this run may write a table of that name; move it away",
                        in(folder, found),
                        is_readable ? "is no table that a run has written" : "cannot be read");
+}
+
+std::string problem_with_copy(const Scene& scene) {
+    for (const std::string& line : overrides_for_copy(scene))
+        if (line.find_first_of("\r\n") != std::string::npos)
+            return "its copy of the scene names the file of discs on one line, and the path of "
+                   "that file has a line break; move the file";
+    return {};
 }
 
 std::string scene_copy_of(const std::string& folder) {

@@ -28,6 +28,9 @@ std::string recorded_beyond_start(const std::string& folder);
 /// Describes a file of somebody else that a table of the scene may replace; empty if there is none.
 std::string problem_with_tables(const Scene& scene);
 
+/// Describes why a copy of the scene could not be read again; empty if it can.
+std::string problem_with_copy(const Scene& scene);
+
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
 

@@ -35,9 +35,14 @@ def asked(program: Path, *words: str | Path) -> tuple[int, str, int]:
     return child.returncode, printed, usage.ru_maxrss // 1024
 
 
-def rewritten(run: carrom.Run, path: Path, change: Change = lambda file: None) -> Path:
-    """The run's trajectory as one file without Carrom's checksums, as h5repack makes it."""
-    with h5py.File(run.frames.path) as old, h5py.File(path, "w") as new:
+def rewritten(
+    run: carrom.Run,
+    path: Path,
+    change: Change = lambda file: None,
+    name: str = "trajectory.h5",
+) -> Path:
+    """A recording as one file without Carrom's checksums, as h5repack makes it."""
+    with h5py.File(Path(str(run.folder)) / name) as old, h5py.File(path, "w") as new:
 
         def take(name: str, item: Any) -> None:
             if isinstance(item, h5py.Group):
@@ -48,7 +53,8 @@ def rewritten(run: carrom.Run, path: Path, change: Change = lambda file: None) -
                 group.attrs.create(key, value, dtype=item.attrs.get_id(key).dtype)
 
         old.visititems(take)
-        new.pop("carrom", None)
+        for group in ("recording", "scene"):
+            new.pop(f"carrom/{group}", None)
         change(new)
     return path
 
@@ -99,12 +105,32 @@ def test_a_file_without_checksums_is_not_whole(
         (f"{DISCS}/box/edges/value", (0, 0), np.nan),
         (f"{DISCS}/box/edges/value", (4, 1), np.inf),
         (f"{DISCS}/box/edges/step", 2, 1),
+        (f"{DISCS}/radius", 3, np.nan),
+        (f"{DISCS}/mass", 3, -1.0),
     ],
 )
 def test_numbers_that_no_run_has_are_errors(
     run: carrom.Run, program: Path, tmp_path: Path, name: str, place: Any, value: float
 ) -> None:
     path = rewritten(run, tmp_path / "forged.h5", put(name, place, value))
+    code, text, _ = asked(program, "verify", path)
+    assert code == 2, text
+    assert str(path) in text
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("impulse", np.nan), ("time", np.nan), ("time", np.inf), ("p", 60), ("q", 10**9)],
+)
+def test_collisions_that_no_run_has_are_errors(
+    run: carrom.Run, program: Path, tmp_path: Path, name: str, value: float
+) -> None:
+    path = rewritten(run, tmp_path / "log.h5", name="collisions.h5")
+    code, text, _ = asked(program, "verify", path)
+    assert code == 5, text
+    assert "discs exist" in text
+    with h5py.File(path, "a") as file:
+        file[f"carrom/collisions/{name}"][-1] = value
     code, text, _ = asked(program, "verify", path)
     assert code == 2, text
     assert str(path) in text
