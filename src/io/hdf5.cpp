@@ -43,6 +43,7 @@ herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
     if (number < 2 && error->desc != nullptr && *error->desc != '\0')
         all += std::string(all.empty() ? "" : "; ") + error->desc;
+    std::replace(all.begin(), all.end(), '\n', ' '); // a time of day ends in one
     return 0;
 }
 

@@ -13,6 +13,7 @@ scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=20000 --set discs.
 failed() {
     expect_code 4 "$1"
     expect_told "$2" "$1"
+    grep '^,' "$test_folder/err" && complain "a message of two lines: $1"
 }
 goes_on_from() { # FOLDER STEP WHAT
     [ "$(ls "$1/checkpoints")" = "$(printf 'checkpoint-%012d.h5' "$2")" ] ||

@@ -120,6 +120,18 @@ rm start/report.json
 run 2 run "${scene[@]}" -o start --steps 10 --resume
 expect_code 0 'a run that recorded its start only'
 
+# --overwrite removes nothing before the new run is sure to begin. Discs that overlap and a check of
+# what it does not know are errors that show late.
+printf '0 3 3 1 0\n1 3.5 3 0 1\n' >overlapping.txt
+printf '[box]\nsize = 20\n[discs]\ncount = 2\nradius = 1\nfile = "overlapping.txt"\n%s' \
+    $'[time]\nsteps = 2\nmethod = "event-driven"\n[output]\ntext = "none"\n' >overlapping.toml
+for ranks in 1 2; do
+    run "$ranks" run overlapping.toml -o kept --overwrite --quiet
+    still_there "discs that overlap, --overwrite on $ranks ranks"
+done
+run 1 run "${scene[@]}" -o kept --overwrite --check --set time.precision=single
+still_there 'a check that cannot be, --overwrite'
+
 # --overwrite removes what the run has written, and nothing else, and nothing behind a link.
 cp -r kept mine
 foreign=(mine/measurements/lab.csv mine/measurements/thermo_old.csv mine/trajectory/notes.h5

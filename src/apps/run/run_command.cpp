@@ -21,6 +21,7 @@
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "run/checkpoints.hpp"
+#include "run/files/outputs.hpp"
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/hard_cases.hpp"
@@ -191,6 +192,8 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     const Scene& scene = run.scene();
     Simulation& simulation = run.simulation();
     if (options.check) check_every_step(simulation, scene);
+    // What --overwrite removes stays if the new run has a mistake or too little memory.
+    prepare_outputs(scene, !run.is_restart(), ranks);
     RunResult result;
     result.threads = tuning.threads;
     result.first_step = simulation.step();

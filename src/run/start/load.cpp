@@ -245,7 +245,6 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     if (!loaded.start.stored)
         loaded.start.discs = first_discs(scene, source.stream.get(), ranks, tuning);
     warn_of_units(options, scene, loaded.start.discs, ranks);
-    prepare_outputs(scene, !loaded.start.stored, ranks);
     for (const std::string& warning : scene.warnings)
         options.messages.warn("{}: warning: {}\n", scene.name, warning);
     return loaded;
