@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <carrom/box.hpp>
@@ -38,15 +39,12 @@ struct ContactEffect {
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
 
-/// What a side of the box can be: scenes have the same words (scene/boundaries/boundary.hpp).
-#define CARROM_FOR_EACH_BOUNDARY(kind)                                                             \
-    kind(wall) kind(thermal) kind(moving) kind(oscillating) kind(open) kind(periodic) kind(sheared)
+/// What a side of the box can be. Each kind has a file in scene/boundaries.
+enum class BoundaryKind { wall, thermal, moving, oscillating, open, periodic, sheared };
 
-enum class BoundaryKind {
-#define CARROM_NAME(kind) kind,
-    CARROM_FOR_EACH_BOUNDARY(CARROM_NAME)
-#undef CARROM_NAME
-};
+/// The words of scenes, in the order of BoundaryKind.
+inline constexpr auto boundary_words = std::to_array<std::string_view>(
+    {"wall", "thermal", "moving", "oscillating", "open", "periodic", "sheared"});
 
 /// What a wall or an obstacle does along its surface (rubbing.hpp).
 struct Surface {

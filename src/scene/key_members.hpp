@@ -56,11 +56,12 @@ inline constexpr std::array words_of<ContactKind>{
     Word{"elastic", ContactKind::elastic}, Word{"none", ContactKind::none},
     Word{"restitution", ContactKind::restitution}, Word{"rough", ContactKind::rough}};
 template <>
-inline constexpr std::array words_of<BoundaryKind>{
-#define CARROM_WORD(kind) Word{std::string_view(#kind), BoundaryKind::kind},
-    CARROM_FOR_EACH_BOUNDARY(CARROM_WORD)
-#undef CARROM_WORD
-};
+inline constexpr auto words_of<BoundaryKind> = [] {
+    std::array<Word<BoundaryKind>, boundary_words.size()> words;
+    for (std::size_t k = 0; k < words.size(); ++k)
+        words[k] = {boundary_words[k], static_cast<BoundaryKind>(k)};
+    return words;
+}();
 template <>
 inline constexpr std::array words_of<Transfers>{Word{"independent", Transfers::independent},
                                                 Word{"collective", Transfers::collective}};

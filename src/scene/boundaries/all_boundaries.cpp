@@ -3,25 +3,23 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
 
 namespace carrom {
 
-namespace boundaries {
-#define CARROM_DECLARE(kind) BoundaryDeclaration kind();
-CARROM_FOR_EACH_BOUNDARY(CARROM_DECLARE)
-#undef CARROM_DECLARE
-} // namespace boundaries
-
 namespace {
 
 const BoundaryDeclaration& declaration_of(BoundaryKind kind) {
-    return all_boundaries()[static_cast<std::size_t>(kind)];
+    const auto found = std::ranges::find(all_boundaries(), kind, &BoundaryDeclaration::kind);
+    ensure(found != all_boundaries().end(),
+           "a kind of side is missing in the list of src/scene/CMakeLists.txt");
+    return *found;
 }
 
 std::string_view word_of(BoundaryKind kind) {
-    return words_of<BoundaryKind>[static_cast<std::size_t>(kind)].name;
+    return boundary_words[static_cast<std::size_t>(kind)];
 }
 
 /// Keys hold views of their texts.
@@ -48,15 +46,6 @@ Need reflecting(std::size_t side) {
 }
 
 } // namespace
-
-const std::vector<BoundaryDeclaration>& all_boundaries() {
-    static const std::vector<BoundaryDeclaration> all = {
-#define CARROM_LIST(kind) boundaries::kind(),
-        CARROM_FOR_EACH_BOUNDARY(CARROM_LIST)
-#undef CARROM_LIST
-    };
-    return all;
-}
 
 std::vector<Key> keys_of_boundaries() {
     std::vector<Key> all;

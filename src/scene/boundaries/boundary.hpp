@@ -6,8 +6,8 @@
 // over `all_boundaries`, and name no kind. How discs meet a side is physics, and stands in
 // dynamics/boundaries.hpp for both methods.
 //
-// To add a kind: a word in CARROM_FOR_EACH_BOUNDARY (dynamics/effects.hpp), a file in this folder,
-// and what `Boundaries::rebound` does there.
+// To add a kind: a file in this folder, its name in the list of src/scene/CMakeLists.txt, a value
+// and a word beside it in dynamics/effects.hpp, and what `Boundaries::rebound` does.
 #pragma once
 
 #include <string>
@@ -38,7 +38,7 @@ struct BoundaryDeclaration {
     CheckAllowance (*allowance)(const Boundary&) = nullptr;
 };
 
-/// In the order of BoundaryKind.
+/// In the order of the list, which is that of the reference.
 const std::vector<BoundaryDeclaration>& all_boundaries();
 
 /// The keys of all four sides, side by side.
