@@ -4,7 +4,7 @@
 // Engines migrate, sort, exchange, speculate on and roll back whatever is present, and need not
 // know its meaning. Scenes, checkpoints, restarts and recordings have what is in the table below.
 // A new column takes a name and a line there. One that collisions change takes a line in
-// `side_columns_of`, too, and one in the function of that name that looks at a scene's effects. A
+// `side_columns_of`, too, and one in the function of that name that inspects a scene's effects. A
 // run without a column has no memory and no work for it.
 #pragma once
 

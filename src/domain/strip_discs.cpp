@@ -156,8 +156,8 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     if (periods_.are_any())
         return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest,
                                        periods_);
-    const std::vector<PlaceRange> looked_at = places_outside(inner_part(strips_, rank, farthest));
-    return plan_migration(redistributed_strips_, strips_, rank, own(), looked_at, time, farthest);
+    const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, farthest));
+    return plan_migration(redistributed_strips_, strips_, rank, own(), searched, time, farthest);
 }
 
 /// Ascending ranges that hold all own discs outside of `inner` at the time of sorting.
@@ -249,16 +249,16 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         for (const LocalIndex index : shown) is_shown_[index] = 0;
     }
     if (periods_.are_any()) {
-        const std::vector<PlaceRange> looked_at = places_outside(
+        const std::vector<PlaceRange> searched = places_outside(
             interior(strips_, communicator_.rank(), reach, periods_));
-        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), looked_at, time,
-                                        reach, periods_);
+        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), searched, time, reach,
+                                        periods_);
         other_partners_ = halo_plan_.partners;
         std::erase(other_partners_, communicator_.rank());
     } else {
         const int rank = communicator_.rank();
-        const std::vector<PlaceRange> looked_at = places_outside(inner_part(strips_, rank, reach));
-        halo_plan_ = plan_halo(strips_, rank, own(), looked_at, time, reach);
+        const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, reach));
+        halo_plan_ = plan_halo(strips_, rank, own(), searched, time, reach);
     }
     Received<Disc> halo;
     halo.offsets = {0};

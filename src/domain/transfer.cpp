@@ -34,7 +34,7 @@ private:
 } // namespace
 
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
-                            std::span<const Disc> own, std::span<const PlaceRange> looked_at,
+                            std::span<const Disc> own, std::span<const PlaceRange> searched,
                             double time, double farthest) {
     TransferPlan plan;
     plan.partners = movers_between(old_strips, strips, rank, farthest);
@@ -42,7 +42,7 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
     if (strips.size() == 1) return plan;
     const PartnerPlaces places(plan.partners);
     const double low = strips.low(rank), high = strips.high(rank);
-    for (const PlaceRange range : looked_at) {
+    for (const PlaceRange range : searched) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
             const double x = strips.place_of(own[i], time);
             if (x >= low && x < high) continue;
@@ -54,13 +54,13 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
 }
 
 TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own,
-                       std::span<const PlaceRange> looked_at, double time, double reach) {
+                       std::span<const PlaceRange> searched, double time, double reach) {
     TransferPlan plan;
     plan.partners = strips.neighbours_within(rank, reach);
     plan.leaving.resize(plan.partners.size());
     for (std::size_t k = 0; k < plan.partners.size(); ++k) {
         const Strip theirs = strips.of(plan.partners[k]);
-        for (const PlaceRange range : looked_at) {
+        for (const PlaceRange range : searched) {
             for (std::size_t i = range.begin; i < range.end; ++i) {
                 const double x = strips.place_of(own[i], time);
                 if (theirs.meets(x - reach, x + reach))

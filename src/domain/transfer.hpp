@@ -32,17 +32,17 @@ struct TransferPlan {
 };
 
 /// The discs whose place at `time` lies in another rank's strip. They were in this
-/// rank's strip of `old_strips`, or at most `farthest` away. `looked_at` are ascending
+/// rank's strip of `old_strips`, or at most `farthest` away. `searched` are ascending
 /// ranges of own discs that hold all discs outside of the strip.
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
-                            std::span<const Disc> own, std::span<const PlaceRange> looked_at,
+                            std::span<const Disc> own, std::span<const PlaceRange> searched,
                             double time, double farthest);
 
 /// The discs within `reach` of another rank's strip at `time`. Empty strips get none.
-/// `looked_at` are ascending ranges of own discs that hold all discs not further than
+/// `searched` are ascending ranges of own discs that hold all discs not further than
 /// `reach` inside the strip.
 TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own,
-                       std::span<const PlaceRange> looked_at, double time, double reach);
+                       std::span<const PlaceRange> searched, double time, double reach);
 
 /// Plans by the places of the discs' images in a box with periodic sides. After a
 /// migration these are the images in the box. In a halo a disc also goes to its own
@@ -50,9 +50,9 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
                                      std::span<const Disc> own, double time, double farthest,
                                      const Periods& periods);
-/// `looked_at` are ascending ranges of own discs that hold all discs outside of `interior`.
+/// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
-                                std::span<const PlaceRange> looked_at, double time, double reach,
+                                std::span<const PlaceRange> searched, double time, double reach,
                                 const Periods& periods);
 
 /// The places in the rank's strip that are further than `reach` from its ends, and

@@ -53,12 +53,13 @@ Extent Boundaries::walls_between(double begin, double end) const {
     // A chord is at most an eighth of (end - begin)^2 times the largest acceleration,
     // that at the end, away from its curve.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
-    // A small disc departs before a large one does. A disc that an oscillating wall
-    // hits is at most as fast as the wall, and gets no further than this takes it from
-    // the wall's highest place.
+    // A disc departs where its centre is a radius beyond an open side. So bounds for discs of every
+    // radius begin at the side itself, two of the largest radii inside that disc's line. A disc
+    // that an oscillating wall hits is at most as fast as the wall, and gets no further than this
+    // takes it from the wall's highest place.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
-        return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0) +
+        return std::fabs(pull_at(side)) * eighth + (is_open(side) ? 2 * radius_ : 0) +
                (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
     // A wall that moves in, and from which all discs fall away, may have hit discs

@@ -7,7 +7,7 @@
 // doubles of the same value, so the rest of the program need not know. The formula is
 // chosen when the program runs.
 //
-// Such a dynamics finds contacts where discs do not touch, and misses some. The search looks only
+// Such a dynamics finds contacts where discs do not touch, and misses some. The search goes only
 // where discs touch, within a margin, and how far depends on ranks and threads. So a contact counts
 // only within a fixed margin, `slack`: then all distributions find the same.
 #pragma once

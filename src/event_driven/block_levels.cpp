@@ -128,8 +128,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels
                 const double reach = block_reach(window, sigma, dynamics.box()) * cells_per_length,
                              width = std::max(other.cells.width, other.cells.height) *
                                      cells_per_length,
-                             looked_at = 3 * reach + 3 * width;
-                return 0x1p-20 * looked_at * looked_at / (sigma * cells_per_length);
+                             farthest_tried = 3 * reach + 3 * width;
+                return 0x1p-20 * farthest_tried * farthest_tried / (sigma * cells_per_length);
             };
             margins.push_back(static_cast<float>(
                 0x1p-20 * extent + std::max(rounding(own.smallest_radius + other.smallest_radius),
@@ -141,12 +141,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels
         level.farthest = static_cast<float>((level.largest_radius * (1 + 1e-6) + flown) *
                                                 cells_per_length +
                                             0x1p-18 * extent + 1e-6);
-    // Bounds of open sides are those of the largest disc, less its radius. Smaller discs depart
-    // earlier, so the bounds begin where a disc of no radius would.
-    const double earlier = dynamics.has_open_sides()
-                               ? dynamics.radius() * dynamics.growth_at(window.end)
-                               : 0;
-    const double inner = earlier + 1e-3 * cell_width + 0x1p-18 * extent * cell_width;
+    const double inner = 1e-3 * cell_width + 0x1p-18 * extent * cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
     y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
@@ -203,8 +198,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_levels() {
 /// Fills `runs` with the slots of the level's cells that the flight box covers, and makes room for
 /// all of them in the lists of partners.
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::look_into(const LevelCells& level, const FlightBox& box,
-                                            bool with_ghosts) {
+void BlockRun<Dynamics>::Scratch::find_runs_of(const LevelCells& level, const FlightBox& box,
+                                               bool with_ghosts) {
     const auto cell = [](float place, int first, int end) {
         const float above = place > static_cast<float>(first) ? place : static_cast<float>(first);
         const auto last = static_cast<float>(end - 1);
@@ -217,21 +212,8 @@ void BlockRun<Dynamics>::Scratch::look_into(const LevelCells& level, const Fligh
               right = cell((box.right - level.left) * level.columns_per_unit, column, end_column),
               bottom = cell((box.bottom - level.bottom) * level.rows_per_unit, row, end_row),
               top = cell((box.top - level.bottom) * level.rows_per_unit, row, end_row);
-    const auto column_length = static_cast<std::size_t>(level.n_rows()) + 1;
-    SlotRange* run = runs.data();
-    std::uint32_t n_slots = 0;
-    const std::uint32_t* starts = cell_starts.data() + level.first_start +
-                                  static_cast<std::size_t>(left) * column_length;
-    for (int k = left; k <= right; ++k, starts += column_length) {
-        *run = {starts[bottom], starts[top + 1]};
-        n_slots += run->end - run->begin;
-        run += run->begin < run->end;
-    }
-    n_runs = static_cast<std::size_t>(run - runs.data());
-    if (partners.size() < n_slots + filter_padding) {
-        partners.resize(2 * n_slots + filter_padding);
-        others_partners.resize(partners.size());
-    }
+    list_runs(cell_starts.data() + level.first_start, static_cast<std::size_t>(level.n_rows()) + 1,
+              {left, right, bottom, top});
 }
 
 /// Predicts contacts with the discs in `runs`, displaced by `image` if there is one.
@@ -256,7 +238,7 @@ void BlockRun<Dynamics>::Scratch::predict_in_level(const Flight& flight, std::si
     const FlightBox box = box_of(flight, radii[flight.slot] + level.farthest);
     const bool is_round = is_whole && Dynamics::is_periodic && other < own;
     if (!is_round) {
-        look_into(level, box, true);
+        find_runs_of(level, box, true);
         return predict_seen(flight, radius, nullptr);
     }
     const BoxCells& c = level.cells;
@@ -277,7 +259,7 @@ void BlockRun<Dynamics>::Scratch::predict_in_level(const Flight& flight, std::si
             Flight seen = flight;
             seen.x -= x_shift;
             seen.y -= y_shift;
-            look_into(
+            find_runs_of(
                 level,
                 {box.left - x_shift, box.right - x_shift, box.bottom - y_shift, box.top - y_shift},
                 false);
@@ -313,10 +295,10 @@ void BlockRun<Dynamics>::Scratch::predict_two_sized(std::uint32_t p, std::uint32
         const LevelCells& level = levels[other];
         const FlightBox a = box_of(p_flight, radii[p] + level.farthest),
                         b = box_of(q_flight, radii[q] + level.farthest);
-        look_into(level,
-                  {std::min(a.left, b.left), std::max(a.right, b.right),
-                   std::min(a.bottom, b.bottom), std::max(a.top, b.top)},
-                  true);
+        find_runs_of(level,
+                     {std::min(a.left, b.left), std::max(a.right, b.right),
+                      std::min(a.bottom, b.bottom), std::max(a.top, b.top)},
+                     true);
         const float margin = margin_of(own, other);
         const PartnerCounts n = filter_two_sized(
             sized_lanes(), std::span(runs).first(n_runs), p_flight, q_flight, radii[p] + margin,

@@ -75,9 +75,7 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     s.report(histories);
 }
 
-/// Fills `runs` with the slots of the cells that the flight box covers, and makes room for all of
-/// them in the lists of partners.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const FlightBox& box) {
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::find_runs(const FlightBox& box) {
     const auto cell = [](float place, float last) {
         const float above = place > 0 ? place : 0;
         return static_cast<int>(above < last ? above : last);
@@ -85,19 +83,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const Fl
     const int left = cell(box.left, column_limit), right = cell(box.right, column_limit);
     const int bottom = cell(box.bottom * rows_per_cell, row_limit),
               top = cell(box.top * rows_per_cell, row_limit);
-    SlotRange* run = runs.data();
-    std::uint32_t n_slots = 0;
-    const std::uint32_t* starts = cell_starts.data() + static_cast<std::size_t>(left) * cell_rows;
-    for (int column = left; column <= right; ++column, starts += cell_rows) {
-        *run = {starts[bottom], starts[top + 1]};
-        n_slots += run->end - run->begin;
-        run += run->begin < run->end;
-    }
-    n_runs = static_cast<std::size_t>(run - runs.data());
-    if (partners.size() < n_slots + filter_padding) {
-        partners.resize(2 * n_slots + filter_padding);
-        others_partners.resize(partners.size());
-    }
+    list_runs(cell_starts.data(), cell_rows, {left, right, bottom, top});
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
@@ -128,7 +114,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const Flight& flight) {
     const std::uint32_t slot = flight.slot;
-    look_around(box_of(flight, farthest));
+    find_runs(box_of(flight, farthest));
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
                                                   touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
@@ -145,8 +131,8 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     const FlightBox a = box_of(p_flight, farthest), b = box_of(q_flight, farthest);
     const auto least = [](float u, float v) { return u < v ? u : v; };
     const auto most = [](float u, float v) { return u > v ? u : v; };
-    look_around({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom),
-                 most(a.top, b.top)});
+    find_runs({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom),
+               most(a.top, b.top)});
     const PartnerCounts n = filter_two_flights(lanes, std::span(runs).first(n_runs), p_flight,
                                                q_flight, touching_squared, partners.data(),
                                                others_partners.data());

@@ -46,6 +46,11 @@ struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
 
+/// The cells that a flight box covers, the last ones included.
+struct CellsOfBox {
+    int left = 0, right = 0, bottom = 0, top = 0;
+};
+
 /// The cells of a level of sizes.
 struct LevelCells {
     BoxCells cells;
@@ -125,7 +130,26 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         const float wide = std::abs(dx) + half_side, high = std::abs(dy) + half_side;
         return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
     }
-    void look_around(const FlightBox& box);
+    /// Lists the runs of slots in the cells that the flight box covers.
+    void find_runs(const FlightBox& box);
+    /// Fills `runs` with the slots of these cells, and makes room for all of them in the lists of
+    /// partners. The starts of a column's cells follow those of the column before.
+    [[gnu::always_inline]] void list_runs(const std::uint32_t* starts, std::size_t column_length,
+                                          const CellsOfBox& covered) {
+        starts += static_cast<std::size_t>(covered.left) * column_length;
+        SlotRange* run = runs.data();
+        std::uint32_t n_slots = 0;
+        for (int k = covered.left; k <= covered.right; ++k, starts += column_length) {
+            *run = {starts[covered.bottom], starts[covered.top + 1]};
+            n_slots += run->end - run->begin;
+            run += run->begin < run->end;
+        }
+        n_runs = static_cast<std::size_t>(run - runs.data());
+        if (partners.size() < n_slots + filter_padding) {
+            partners.resize(2 * n_slots + filter_padding);
+            others_partners.resize(partners.size());
+        }
+    }
     void predict_pairs(std::uint32_t slot) {
         if (!dynamics.has_pairs()) return;
         if constexpr (has_sizes)
@@ -135,7 +159,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
     void predict_pairs(const Flight& flight);
     /// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the
-    /// seam neither disc may come first. So all partners of each disc are looked for, and a pair
+    /// seam neither disc may come first. So all partners of each disc are searched for, and a pair
     /// may be found twice.
     void predict_pairs_of_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
@@ -159,7 +183,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void set_scales_of_levels();
     void measure_radii();
     void predict_levels();
-    void look_into(const LevelCells& level, const FlightBox& box, bool with_ghosts);
+    void find_runs_of(const LevelCells& level, const FlightBox& box, bool with_ghosts);
     void predict_in_level(const Flight& flight, std::size_t own, std::size_t other);
     void predict_seen(const Flight& flight, float radius, const Image* image);
     void predict_sized(std::uint32_t slot);

@@ -142,9 +142,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     // Separations carry an error of 2^-21 of the block's size. The rounding of the filter's other
     // terms acts like a diameter that is longer by 2^-20 d^2 / diameter, where d is the largest
     // distance of a disc that is tried.
-    const double looked_at = 3 * reach + 3;
+    const double farthest_tried = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
-                            0x1p-20 * looked_at * looked_at / sigma;
+                            0x1p-20 * farthest_tried * farthest_tried / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
     const double inner = dynamics.radius() * growth + dynamics.slack() + 1e-3 * cell_width +

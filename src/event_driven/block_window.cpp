@@ -71,7 +71,7 @@ double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double share = needs.is_one_block ? 1
                                             : share_along(needs.box.x, needs.goes_round_x) *
                                                   share_along(needs.box.y, needs.goes_round_y);
-    const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.radius_to_look_for));
+    const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.equivalent_radius));
     const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);
     const double events = needs.collision_rate * choice.duration;
@@ -117,11 +117,11 @@ void Caution::learn(double repeated, double hits) {
 double guessed_collision_rate(const BlockNeeds& needs, double mean_speed) {
     const double number_density = needs.n_discs / needs.box.area();
     const double packing = std::min(densest_gas, number_density * std::numbers::pi *
-                                                     needs.radius_to_look_for *
-                                                     needs.radius_to_look_for);
+                                                     needs.equivalent_radius *
+                                                     needs.equivalent_radius);
     const double contact_value = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
     const double relative_speed = std::numbers::sqrt2 * mean_speed;
-    return number_density * 2 * needs.radius_to_look_for * relative_speed * contact_value;
+    return number_density * 2 * needs.equivalent_radius * relative_speed * contact_value;
 }
 
 } // namespace carrom

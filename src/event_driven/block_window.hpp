@@ -27,7 +27,7 @@ struct BlockNeeds {
     int more_halo = 0;         ///< reaches that Caution adds to the halo
     bool goes_round_x = false, goes_round_y = false; ///< the halo does not end with the box, but
                                                      ///< goes on with images of the discs
-    double radius_to_look_for = 0; ///< radius of equal discs that have as many others near them
+    double equivalent_radius = 0; ///< radius of equal discs that have as many others near them
 };
 
 struct BlockChoice {

@@ -154,8 +154,8 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
-    needs.radius_to_look_for = radius_to_look_for(levels_) * dynamics_.growth_at(time_) +
-                               dynamics_.slack();
+    needs.equivalent_radius = equivalent_radius(levels_) * dynamics_.growth_at(time_) +
+                              dynamics_.slack();
     needs.n_discs = n;
     needs.speed_bound = speed_bound;
     needs.time = time_;

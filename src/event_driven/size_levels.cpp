@@ -76,7 +76,7 @@ std::vector<SizeLevel> choose_size_levels(std::span<const Species> species, doub
     return levels;
 }
 
-double radius_to_look_for(std::span<const SizeLevel> levels) {
+double equivalent_radius(std::span<const SizeLevel> levels) {
     if (levels.size() == 1 && levels[0].smallest_radius == levels[0].largest_radius)
         return levels[0].largest_radius;
     double sum = 0, n = 0;

@@ -28,7 +28,7 @@ std::vector<SizeLevel> choose_size_levels(std::span<const Species> species, doub
 
 /// The radius of equal discs that would try as many partners as these discs try in the mean. The
 /// length of windows is chosen for it.
-double radius_to_look_for(std::span<const SizeLevel> levels);
+double equivalent_radius(std::span<const SizeLevel> levels);
 
 /// The level of a disc of this radius.
 inline std::size_t level_of(double radius, std::span<const SizeLevel> levels) {

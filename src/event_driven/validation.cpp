@@ -145,17 +145,17 @@ int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
     const bool goes_round = discs_.periods().along(axis) != 0,
                goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
     int depth = 0;
-    const auto look = [&](bool is_open, int n_cells_inside) {
+    const auto reach_over = [&](bool is_open, int n_cells_inside) {
         if (is_open)
             depth = std::max(depth,
                              (block.halo * n_reach - n_cells_inside + n_reach - 1) / n_reach);
     };
-    look(goes_round || communicator_.rank() > 0,
-         block.cells.first_column - own_cells_.first_column);
-    look(goes_round || communicator_.rank() + 1 < communicator_.size(),
-         own_cells_.end_column - block.cells.end_column);
-    look(goes_round_across, block.cells.first_row - own_cells_.first_row);
-    look(goes_round_across, own_cells_.end_row - block.cells.end_row);
+    reach_over(goes_round || communicator_.rank() > 0,
+               block.cells.first_column - own_cells_.first_column);
+    reach_over(goes_round || communicator_.rank() + 1 < communicator_.size(),
+               own_cells_.end_column - block.cells.end_column);
+    reach_over(goes_round_across, block.cells.first_row - own_cells_.first_row);
+    reach_over(goes_round_across, own_cells_.end_row - block.cells.end_row);
     return depth;
 }
 

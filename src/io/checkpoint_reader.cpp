@@ -131,7 +131,7 @@ Contents contents_of(const std::string& path) {
 }
 
 /// Checks and reads the contents; adds a word about what HDF5 finds wrong to its errors.
-Contents looked_through(const std::string& path) {
+Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
     } catch (const FileError& error) {
@@ -173,7 +173,7 @@ public:
         : path_(path), communicator_(communicator) {
         on_root(communicator_, path_, ExitCode::bad_input, [&] {
             refuse_old_format(path_);
-            inspect_in_child_first([&] { contents = looked_through(path_); });
+            inspect_in_child_first([&] { contents = inspected_contents(path_); });
         });
         broadcast(contents, communicator_);
         on_all(communicator_, path_, ExitCode::bad_input,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "measure/kept_blocks.hpp"
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
 
@@ -75,6 +76,13 @@ DensityModes WaveBins::modes(const MeasuredRun& run, std::span<const Disc> discs
     run.ranks.sum(std::span(modes.real));
     run.ranks.sum(std::span(modes.imaginary));
     return modes;
+}
+
+void WaveMeasurement::keep(KeptNumbers& kept) {
+    kept.same(waves_.largest());
+    kept.same(sums_.size());
+    kept(sums_);
+    keep_blocks(kept, blocks_);
 }
 
 } // namespace carrom

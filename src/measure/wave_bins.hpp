@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "measure/measurement.hpp"
+#include "statistics/blocking.hpp"
 #include "statistics/structure_factor.hpp"
 
 namespace carrom {
@@ -59,6 +60,19 @@ private:
     double largest_;
     std::size_t n_bins_;
     std::vector<WaveVector> vectors_;
+};
+
+/// A measurement of waves: sums over all samples, and blocks of samples for errors.
+class WaveMeasurement : public Measurement {
+public:
+    void keep(KeptNumbers& kept) override;
+
+protected:
+    explicit WaveMeasurement(MeasuredRun& run) : Measurement(run), waves_(run) {}
+
+    WaveBins waves_;
+    std::vector<double> sums_;
+    VectorBlocks blocks_;
 };
 
 } // namespace carrom

@@ -123,12 +123,12 @@ void Recordings::add_rows() { growing_.add_rows_of(run_.sampler()); }
 
 void Recordings::commit_now_and_then() {
     if (!trajectory_ && !log_ && !scene_.measurements) return;
-    seconds_uncommitted_ += since_look_.lap();
+    seconds_uncommitted_ += since_asked_.lap();
     const double wait = std::max(seconds_between_commits, commit_seconds_ / largest_share);
     if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > wait)) return;
     seconds_uncommitted_ = 0;
     commit();
-    commit_seconds_ = since_look_.lap();
+    commit_seconds_ = since_asked_.lap();
 }
 
 void Recordings::record_collisions(std::int64_t step) {

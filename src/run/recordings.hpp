@@ -58,7 +58,7 @@ private:
     std::optional<Trajectory> trajectory_;
     std::optional<CollisionLog> log_;
     GrowingFiles growing_;
-    Stopwatch since_look_;
+    Stopwatch since_asked_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
     std::vector<Collision> collisions_; ///< this rank's, since it last recorded some
 };

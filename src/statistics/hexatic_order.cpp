@@ -45,7 +45,7 @@ public:
         const double x = x_in_box(disc), y = y_in_box(disc);
         order = {};
         if (!is_in_box(disc)) return true;
-        look_around(index);
+        find_neighbours(index);
         cell_.begin(std::max(-reach_, box_.x_low - x), std::min(reach_, box_.x_high - x),
                     std::max(-reach_, box_.y_low - y), std::min(reach_, box_.y_high - y));
         const double smaller = sizes_.largest_squared_radius() - sizes_.squared_radius_of(disc.id);
@@ -76,7 +76,7 @@ private:
         return reach * reach;
     }
 
-    void look_around(LocalIndex index) {
+    void find_neighbours(LocalIndex index) {
         const CellGrid& grid = *view_.grid;
         const GridGeometry& geometry = grid.geometry();
         const Disc& disc = view_.population.discs[index];

@@ -20,8 +20,8 @@ constexpr std::size_t around_ahead = 4;
 constexpr std::size_t hits_per_batch = 128;
 /// States of pairs are prefetched so many pairs ahead, because they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
-/// A request to stop is checked for after so many pairs.
-constexpr std::size_t pairs_per_look = 65536;
+/// After this many pairs comes a check whether the run is asked to stop.
+constexpr std::size_t pairs_between_checks = 65536;
 
 /// Adds what was predicted for the micro-steps from `from` on.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
@@ -38,7 +38,7 @@ void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask
                     const Judge& judge) {
     for (std::size_t k = 0; k < std::min(pairs_ahead, n); ++k) ask(pairs[k]);
     for (std::size_t k = 0; k < n && !is_stop_overdue();) {
-        for (const std::size_t end = std::min(k + pairs_per_look, n); k < end; ++k) {
+        for (const std::size_t end = std::min(k + pairs_between_checks, n); k < end; ++k) {
             if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
             judge(pairs[k]);
         }
@@ -254,7 +254,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
             const std::span<const LocalIndex> batch = hit.subspan(
                 first, std::min(hits_per_batch, hit.size() - first));
-            look_around(population, grid, bounds, begin, reach, batch, lists);
+            find_pairs_around(population, grid, bounds, begin, reach, batch, lists);
             for_each_ahead(
                 lists.pairs, lists.n_pairs,
                 [&](const DiscPair& pair) { prefetch(population.discs, pair.second); },
@@ -275,9 +275,10 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
 
 /// Fills `lists.pairs` with the pairs of each disc of `hit` and the discs that it might touch.
 template <class Dynamics>
-void Search<Dynamics>::look_around(const Population& population, const CellGrid& grid,
-                                   const Bounds& bounds, float from, double reach,
-                                   std::span<const LocalIndex> hit, SearchLists& lists) const {
+void Search<Dynamics>::find_pairs_around(const Population& population, const CellGrid& grid,
+                                         const Bounds& bounds, float from, double reach,
+                                         std::span<const LocalIndex> hit,
+                                         SearchLists& lists) const {
     lists.n_pairs = 0;
     const float half = half_reach(grid, reach, usual_radius_);
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
@@ -287,7 +288,7 @@ void Search<Dynamics>::look_around(const Population& population, const CellGrid&
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
         if (hit[k] == wall_index) continue;
         if (Dynamics::has_species && large_.size() > 0)
-            look_among_large(population, grid, bounds, from, reach, hit[k], lists);
+            find_pairs_with_large(population, grid, bounds, from, reach, hit[k], lists);
         else
             lists.n_pairs = filter_around(grid, hit[k], from, half, bounds.touching_squared,
                                           lists.pairs, lists.n_pairs);
@@ -297,9 +298,9 @@ void Search<Dynamics>::look_around(const Population& population, const CellGrid&
 /// Appends the pairs of a disc that was hit, if there are large discs. They are searched in their
 /// list, and all others in cells.
 template <class Dynamics>
-void Search<Dynamics>::look_among_large(const Population& population, const CellGrid& grid,
-                                        const Bounds& bounds, float from, double reach,
-                                        LocalIndex index, SearchLists& lists) const {
+void Search<Dynamics>::find_pairs_with_large(const Population& population, const CellGrid& grid,
+                                             const Bounds& bounds, float from, double reach,
+                                             LocalIndex index, SearchLists& lists) const {
     const bool its_large = is_large(population.discs[index]), is_own = index < grid.n_own();
     const FlightLanes lanes = is_own ? grid.lanes() : grid.halo_lanes();
     const std::uint32_t slot = is_own ? index : grid.halo_slot(index);

@@ -92,10 +92,10 @@ private:
                        double reach, std::uint32_t k, SearchLists&) const;
     void predict_large(const Population&, const CellGrid&, const Window&, const Bounds&,
                        double reach, std::uint32_t k, SearchLists&) const;
-    void look_around(const Population&, const CellGrid&, const Bounds&, float from, double reach,
-                     std::span<const LocalIndex> hit, SearchLists&) const;
-    void look_among_large(const Population&, const CellGrid&, const Bounds&, float from,
-                          double reach, LocalIndex index, SearchLists&) const;
+    void find_pairs_around(const Population&, const CellGrid&, const Bounds&, float from,
+                           double reach, std::span<const LocalIndex> hit, SearchLists&) const;
+    void find_pairs_with_large(const Population&, const CellGrid&, const Bounds&, float from,
+                               double reach, LocalIndex index, SearchLists&) const;
     float half_reach(const CellGrid&, double reach, double radius) const;
     bool is_large(const Disc& disc) const {
         if constexpr (Dynamics::has_species)

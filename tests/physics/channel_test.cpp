@@ -34,21 +34,21 @@ TestScene channel(double u, double pull) {
 /// In the middle seven tenths of the channel, with places from its middle: means of powers of y and
 /// of vx.
 struct Middle {
-    double n = 0, y2 = 0, y4 = 0, v = 0, vy = 0, vy2 = 0, squares = 0, looks = 0;
+    double n = 0, y2 = 0, y4 = 0, v = 0, vy = 0, vy2 = 0, squares = 0, samples = 0;
 
-    double density() const { return n / looks / (0.7 * height * height); }
+    double density() const { return n / samples / (0.7 * height * height); }
     /// Of vx = a + b y, and of vx = a + b y^2.
     double slope() const { return vy / y2; }
     double curvature() const { return (vy2 / n - v / n * (y2 / n)) / (y4 / n - y2 / n * (y2 / n)); }
     double viscosity_unit() const { return std::sqrt(squares / n) / 2; } ///< sqrt(kT) / diameter
 };
 
-Middle look_at(Simulation& simulation, std::int64_t early, std::int64_t last, std::int64_t apart,
-               std::span<StepAction* const> actions = {}) {
+Middle sample(Simulation& simulation, std::int64_t early, std::int64_t last, std::int64_t apart,
+              std::span<StepAction* const> actions = {}) {
     Middle all;
     for (std::int64_t step = early; step <= last; step += apart) {
         advance_to(simulation, step, actions);
-        all.looks += 1;
+        all.samples += 1;
         for (const Disc& disc : simulation.shown()) {
             const double y = disc.y - height / 2;
             if (std::fabs(y) > 0.35 * height) continue;
@@ -80,7 +80,7 @@ TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille"
     const Communicator world = Communicator::world();
     const double pull = 3e-5;
     Simulation simulation = event_driven_simulation(channel(0, pull), world);
-    const Middle middle = look_at(simulation, 10000, 110000, 200);
+    const Middle middle = sample(simulation, 10000, 110000, 200);
     const double viscosity = -middle.density() * pull / (2 * middle.curvature()) /
                              middle.viscosity_unit();
     fmt::print("Poiseuille: {:.4f}, Enskog {:.4f}\n", viscosity,
@@ -95,7 +95,7 @@ TEST_CASE("physics: between walls that slide the flow of Couette has Enskog's vi
     const TestScene scene = channel(0.07, 0);
     Simulation simulation = event_driven_simulation(scene, world);
     Averaging averaging(scene, simulation, world);
-    const Middle middle = look_at(simulation, 10000, 110000, 200, averaging.actions());
+    const Middle middle = sample(simulation, 10000, 110000, 200, averaging.actions());
     const double stress = -averaging.averages().pressure_tensor.xy.value * height / (height - 2);
     const double viscosity = stress / middle.slope() / middle.viscosity_unit();
     fmt::print("Couette: {:.4f}, Enskog {:.4f}, slope {:.3g}\n", viscosity,

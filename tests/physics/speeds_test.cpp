@@ -39,8 +39,8 @@ double kolmogorov_distance(std::vector<double> values, double n) {
     return largest;
 }
 
-/// One disc of each of `n_looks` states, five collisions a disc apart: v^2 over the sum of all.
-void check_distribution(std::size_t n, double n_looks) {
+/// One disc of each of `n_samples` states, five collisions a disc apart: v^2 over the sum of all.
+void check_distribution(std::size_t n, double n_samples) {
     const Communicator world = Communicator::world();
     Simulation simulation = event_driven_simulation(crystal(n, 0.3, 11), world);
     const double apart = 5 * static_cast<double>(n);
@@ -48,7 +48,7 @@ void check_distribution(std::size_t n, double n_looks) {
     run_until(simulation, n_collisions);
     const double energy = simulation.totals().kinetic_energy;
     std::vector<double> shares;
-    for (double k = 0; k < n_looks; ++k) {
+    for (double k = 0; k < n_samples; ++k) {
         n_collisions += apart;
         run_until(simulation, n_collisions);
         for (const Disc& disc : simulation.discs()) {
@@ -59,9 +59,9 @@ void check_distribution(std::size_t n, double n_looks) {
         }
     }
     const double distance = kolmogorov_distance(shares, static_cast<double>(n)) *
-                            std::sqrt(n_looks);
-    fmt::print("| {} | {} | {:.3f} |\n", n, n_looks, distance);
-    CHECK(shares.size() == static_cast<std::size_t>(n_looks));
+                            std::sqrt(n_samples);
+    fmt::print("| {} | {} | {:.3f} |\n", n, n_samples, distance);
+    CHECK(shares.size() == static_cast<std::size_t>(n_samples));
     CHECK(distance < 1.95); // passed by one sample in a thousand (Kolmogorov)
 }
 

@@ -21,19 +21,19 @@ TestScene periodic_gas(std::size_t n, double packing, std::uint64_t seed) {
     return scene;
 }
 
-/// Means over `n_looks` states, `apart` steps from each other: kT and <v^4> / (2 <v^2>^2) - 1,
+/// Means over `n_samples` states, `apart` steps from each other: kT and <v^4> / (2 <v^2>^2) - 1,
 /// which is 0 for Maxwell's distribution.
 struct Speeds {
     double temperature = 0, a2 = 0;
 };
 Speeds measured_speeds(Simulation& simulation, std::int64_t early, std::int64_t apart,
-                       int n_looks) {
+                       int n_samples) {
     const auto to = [&](std::int64_t step) {
         while (simulation.step() < step) simulation.advance_towards(step);
     };
     to(early);
     double square = 0, fourth = 0, n = 0;
-    for (int look = 0; look < n_looks; ++look) {
+    for (int sample = 0; sample < n_samples; ++sample) {
         to(simulation.step() + apart);
         for (const Disc& disc : simulation.discs()) {
             const double v2 = squared_speed_of(disc);

@@ -214,7 +214,7 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.discs_meet() || has_left(discs_[p]) || has_left(discs_[q])) return;
     if (p > q) std::swap(p, q);
     const Tiles tiles = setting_.tiles(last_sync());
-    const auto look = [&](Copy copy) {
+    const auto inspect = [&](Copy copy) {
         const Contact found = discs_grow()
                                   ? growing_contact(discs_[p], discs_[q], copy)
                                   : contact(discs_[p], discs_[q],
@@ -227,11 +227,11 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
             return;
         push({time, 0, p, true, q, 0, false, copy});
     };
-    if (!setting_.effects.are_periodic()) return look({});
+    if (!setting_.effects.are_periodic()) return inspect({});
     const double begin = std::max(discs_[p].tau, discs_[q].tau),
                  end = static_cast<double>(setting_.sync_every);
     for (const Copy copy : copies_near(setting_, discs_[p], discs_[q], begin, end, tiles))
-        look(copy);
+        inspect(copy);
 }
 
 /// Later events than the next sync are dropped: the sync rewrites the states that they follow from.

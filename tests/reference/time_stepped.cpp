@@ -187,7 +187,7 @@ void TimeSteppedReference::find_candidates(double m) {
         if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
         for (DiscId id = p.id + 1; id < discs_.size() && setting_.discs_meet(); ++id) {
             if (has_left(discs_[id])) continue;
-            const auto look = [&](Copy copy) {
+            const auto inspect = [&](Copy copy) {
                 const Contact found = contact(p, discs_[id],
                                               setting_.radius_of(p.id) + setting_.radius_of(id),
                                               tolerance_, copy, tiles);
@@ -197,10 +197,10 @@ void TimeSteppedReference::find_candidates(double m) {
                     candidates_.push_back({micro_step_, in_step, p.id, id, copy});
             };
             if (!setting_.effects.are_periodic())
-                look({});
+                inspect({});
             else
                 for (const Copy copy : copies_near(setting_, p, discs_[id], m, m + 1, tiles))
-                    look(copy);
+                    inspect(copy);
         }
     }
 }

@@ -6,7 +6,7 @@
 // by its last digits, and an overlap once made is fed back ten thousand times. Sources:
 // Lubachevsky, Stillinger, J. Stat. Phys. 60, 561 (1990); Donev, Torquato, Stillinger, J. Comput.
 // Phys. 202, 737 (2005); Bannerman et al. 2014. Bounds: no overlap deeper than 64 ulp(L) at any
-// look, energy to 1e-12, no disc outside by more than 4 ulp(L), and an end.
+// inspection, energy to 1e-12, no disc outside by more than 4 ulp(L), and an end.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -62,7 +62,8 @@ TestScene open_cluster(std::size_t k, double gap) {
     return scene;
 }
 
-/// Runs until every disc has had `collisions` on average and holds what must hold at every look.
+/// Runs until every disc has had `collisions` on average and holds what must hold at every
+/// inspection.
 void cascade(TestScene scene, const std::string& what, double gap, double collisions) {
     Random random(701);
     set_speeds(scene, 32 * gap, random);
@@ -72,8 +73,8 @@ void cascade(TestScene scene, const std::string& what, double gap, double collis
     const double n = static_cast<double>(scene.discs.size()),
                  ulp = ulp_of(scene.setting.box_size / 2);
     double overlap = 0, outside = 0, energy = 0, done = 0;
-    for (int look = 0; look < 2000 && done < collisions; ++look) {
-        run_to(simulation, simulation.step() + (look < 8 ? 1 : 64));
+    for (int sample = 0; sample < 2000 && done < collisions; ++sample) {
+        run_to(simulation, simulation.step() + (sample < 8 ? 1 : 64));
         const Outcome now = outcome_of(simulation);
         overlap = std::max(overlap, deepest_overlap(now, 1) / ulp);
         outside = std::max(outside, farthest_outside(now, scene.setting) / ulp);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <random>
 #include <tuple>
 
 #include <omp.h>
@@ -38,18 +37,11 @@ std::string name_of(Method method) {
 
 Simulation start(const TestScene& scene, Method method, Tuning tuning, unsigned seed) {
     const Communicator world = Communicator::world();
-    std::mt19937 random(seed);
-    std::vector<InputDisc> mine;
-    for (const InputDisc& disc : scene.discs) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
-            mine.push_back(disc);
-    }
-    std::shuffle(mine.begin(), mine.end(), random);
     Scene checked = scene_of(scene);
     checked.method = method;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
-    return {checked, std::move(mine), world, tuning};
+    return {checked, share_of(scene, world.rank(), world.size(), seed), world, tuning};
 }
 
 void run_to(Simulation& simulation, std::int64_t step) {

@@ -146,6 +146,37 @@ void add_gas(TestScene& scene, std::size_t n, Random& random) {
     }
 }
 
+void add_species(TestScene& scene, bool round_x, bool round_y, Random& random) {
+    const Box box = scene.setting.box();
+    const auto nearest = [](double distance, double length, bool is_round) {
+        return is_round ? distance - length * std::round(distance / length) : distance;
+    };
+    for (const Species& one : scene.setting.effects.species) {
+        const double x_low = round_x ? 0 : one.radius, y_low = round_y ? 0 : one.radius;
+        const std::size_t end = scene.discs.size() + one.count;
+        while (scene.discs.size() < end) {
+            const double x = random.uniform(x_low, box.x - x_low),
+                         y = random.uniform(y_low, box.y - y_low);
+            const bool is_clear = std::ranges::all_of(scene.discs, [&](const InputDisc& disc) {
+                return std::hypot(nearest(disc.x - x, box.x, round_x),
+                                  nearest(disc.y - y, box.y, round_y)) >
+                       1.0001 * (one.radius + scene.setting.radius_of(disc.id));
+            });
+            if (is_clear) add_disc(scene, x, y);
+        }
+    }
+}
+
+std::vector<InputDisc> share_of(const TestScene& scene, int rank, int n_ranks, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<InputDisc> mine;
+    for (const InputDisc& disc : scene.discs)
+        if (static_cast<int>(random() % static_cast<unsigned>(n_ranks)) == rank)
+            mine.push_back(disc);
+    std::shuffle(mine.begin(), mine.end(), random);
+    return mine;
+}
+
 void set_speeds(TestScene& scene, double speed, Random& random) {
     const double largest = speed * std::sqrt(1.5);
     for (InputDisc& disc : scene.discs) {

@@ -54,6 +54,13 @@ void add_disc(TestScene& scene, double x, double y, double vx = 0, double vy = 0
 /// a square number).
 void add_gas(TestScene& scene, std::size_t n, Random& random);
 
+/// Appends still discs of `scene.setting.effects.species`, in its order, at random where there is
+/// room, which takes long in a dense box. Images count along axes that go round.
+void add_species(TestScene& scene, bool round_x, bool round_y, Random& random);
+
+/// The discs that a rank starts with: an arbitrary share, in an arbitrary order.
+std::vector<InputDisc> share_of(const TestScene& scene, int rank, int n_ranks, unsigned seed);
+
 /// Each component uniform, root mean square speed as given.
 void set_speeds(TestScene& scene, double speed, Random& random);
 

@@ -301,7 +301,8 @@ std::string Grader::reason(const Aim& aim, DiscId id, std::int64_t step) const {
     if (step == 0) return "rule: lines\n  step 0 is the input as it is\n";
     const std::int64_t micro_steps = (step - written_before_) * setting_.micro_steps;
     if (!can_explain(scene_.n_discs, micro_steps))
-        return "rule: not looked for, it would take too long; write every step (`print`), or fewer "
+        return "rule: not searched for, which would take too long; write every step (`print`), or "
+               "fewer "
                "discs\n";
     if (!has_left_runs_)
         ensure(follows_rule(*before_, micro_steps, aim.discs, aim.clock),

@@ -99,11 +99,11 @@ void PlainRule::find_candidates(double m) {
     for (auto a = paths.begin(); a != paths.end(); ++a)
         for (auto b = a + 1; b != paths.end() && b->x_low <= a->x_high; ++b)
             if (b->y_low <= a->y_high && a->y_low <= b->y_high)
-                a->disc->id < b->disc->id ? look_at(*a->disc, *b->disc, m)
-                                          : look_at(*b->disc, *a->disc, m);
+                a->disc->id < b->disc->id ? inspect(*a->disc, *b->disc, m)
+                                          : inspect(*b->disc, *a->disc, m);
 }
 
-void PlainRule::look_at(const Disc& p, const Disc& q, double m) {
+void PlainRule::inspect(const Disc& p, const Disc& q, double m) {
     const double t = contact_time(p, q, m);
     if (t >= 0 && t <= 1) candidates_.push_back({t, p.id, q.id});
 }
@@ -185,7 +185,7 @@ void PlainRule::keep_all_collisions(double m) {
             if (t != never) candidates_.push_back({t, id});
             for (const Disc& other : discs_)
                 if (other.id != id)
-                    other.id < id ? look_at(other, disc, m) : look_at(disc, other, m);
+                    other.id < id ? inspect(other, disc, m) : inspect(disc, other, m);
         }
         due.insert(candidates_.begin(), candidates_.end());
     }

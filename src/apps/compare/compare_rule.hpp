@@ -73,7 +73,7 @@ private:
     struct Path;
 
     void find_candidates(double m);
-    void look_at(const Disc& p, const Disc& q, double m);
+    void inspect(const Disc& p, const Disc& q, double m);
     double contact_time(const Disc& p, const Disc& q, double m) const;
     double overlap_time(const Disc& p, const Disc& q, double m) const;
     double wall_time(const Disc& disc, double m) const;

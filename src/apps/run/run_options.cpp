@@ -60,10 +60,11 @@ std::vector<Option> run_options(RunOptions& run) {
          false, costs},
         {"--cell-width", "C", "Width of a cell, in reaches of the window",
          number(run.tuning.cell_width, least_above_0, largest_double), false, costs},
-        {"--rebalance-every", "K", "Syncs between looks at the load; 0 keeps the first strips",
+        {"--rebalance-every", "K",
+         "Syncs between inspections of the load; 0 keeps the first strips",
          number(run.tuning.rebalance_every, std::int64_t{0}, unbounded), false, costs},
         {"--rebalance-above", "X",
-         "Largest over mean load that is tolerated; 0 moves the cuts at every look",
+         "Largest over mean load that is tolerated; 0 moves the cuts at every inspection",
          number(run.tuning.rebalance_above, 0.0, largest_double), false, costs},
     };
 }

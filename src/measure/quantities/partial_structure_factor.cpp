@@ -19,12 +19,14 @@ namespace {
 
 constexpr std::size_t most_species = 8;
 
-class PartialStructureFactor : public Measurement {
+/// Sums and blocks are by kind of pair (pair_distances.hpp) and bin.
+class PartialStructureFactor : public WaveMeasurement {
 public:
     explicit PartialStructureFactor(MeasuredRun& run)
-        : Measurement(run), waves_(run), largest_(waves_.largest()),
-          n_species_(run.scene.effects.species.size()),
-          sums_(n_pair_kinds(n_species_) * waves_.size(), 0), blocks_(sums_.size()) {}
+        : WaveMeasurement(run), n_species_(run.scene.effects.species.size()) {
+        sums_.resize(n_pair_kinds(n_species_) * waves_.size());
+        blocks_ = VectorBlocks(sums_.size());
+    }
 
     void sample(const SampledState& state) override {
         std::vector<DensityModes> modes;
@@ -43,13 +45,6 @@ public:
         }
         for (std::size_t k = 0; k < now.size(); ++k) sums_[k] += now[k];
         blocks_.add(now);
-    }
-
-    void keep(KeptNumbers& kept) override {
-        kept.same(largest_);
-        kept.same(sums_.size());
-        kept(sums_);
-        keep_blocks(kept, blocks_);
     }
 
     std::vector<MeasuredTable> tables() const override {
@@ -92,11 +87,7 @@ private:
         return run_.scene.effects.species[species].count;
     }
 
-    WaveBins waves_;
-    double largest_; ///< the wavenumber up to which sums are stored
     std::size_t n_species_;
-    std::vector<double> sums_; ///< by kind of pair (pair_distances.hpp) and bin, over all samples
-    VectorBlocks blocks_;      ///< the same of each sample
 };
 
 bool is_partial_structure_factor_measured(const Scene& scene) {

@@ -11,11 +11,13 @@ namespace carrom {
 
 namespace {
 
-class StructureFactor : public Measurement {
+/// Sums are those of each wave vector, blocks those of each bin.
+class StructureFactor : public WaveMeasurement {
 public:
-    explicit StructureFactor(MeasuredRun& run)
-        : Measurement(run), waves_(run), largest_(waves_.largest()),
-          sums_(waves_.vectors().size(), 0), blocks_(waves_.size()) {}
+    explicit StructureFactor(MeasuredRun& run) : WaveMeasurement(run) {
+        sums_.resize(waves_.vectors().size());
+        blocks_ = VectorBlocks(waves_.size());
+    }
 
     void sample(const SampledState& state) override {
         const DensityModes modes = waves_.modes(run_, state.shown);
@@ -25,13 +27,6 @@ public:
             sums_[k] += now[k];
         }
         blocks_.add(waves_.means(now));
-    }
-
-    void keep(KeptNumbers& kept) override {
-        kept.same(largest_);
-        kept.same(sums_.size());
-        kept(sums_);
-        keep_blocks(kept, blocks_);
     }
 
     std::vector<MeasuredTable> tables() const override {
@@ -62,12 +57,6 @@ public:
                             waves_.length_of(peak), sums_[highest] / n_samples}}});
         return tables;
     }
-
-private:
-    WaveBins waves_;
-    double largest_;           ///< the wavenumber up to which sums are stored
-    std::vector<double> sums_; ///< by wave vector, over all samples
-    VectorBlocks blocks_;      ///< S in each bin
 };
 
 bool is_structure_factor_measured(const Scene& scene) {

@@ -39,7 +39,7 @@ std::string folder_to_search(const RunOptions& options, const Scene& scene,
         if (!options.folder.empty()) return checkpoints_of_run(options.folder);
         refuse(options, options.input.empty()
                             ? "name the folder of the run with -o, or the scene"
-                            : "the run has no folder to look in: name output.folder or -o");
+                            : "the run has no folder to search: name output.folder or -o");
     }
     std::string folder;
     std::error_code ignored;

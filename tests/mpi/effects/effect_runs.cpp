@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effect_runs.hpp"
 
-#include <algorithm>
-#include <random>
 #include <utility>
 
 #include "catch.hpp"
@@ -17,14 +15,7 @@ namespace carrom::test {
 namespace {
 
 std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& world) {
-    std::mt19937 random(5);
-    std::vector<InputDisc> mine;
-    for (const InputDisc& disc : scene.discs) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
-            mine.push_back(disc);
-    }
-    std::shuffle(mine.begin(), mine.end(), random);
-    return mine;
+    return share_of(scene, world.rank(), world.size(), 5);
 }
 
 } // namespace
@@ -37,6 +28,20 @@ Simulation simulation_of(const TestScene& scene, Method method, const Communicat
     threaded.threads = omp_get_max_threads();
     threaded.discs_per_thread = 1;
     return {all, share_of(scene, world), world, threaded};
+}
+
+Totals run_with_restart(const TestScene& scene, Method method, const Communicator& world) {
+    Simulation first = simulation_of(scene, method, world);
+    advance_to(first, scene.steps / 2);
+    Scene again = scene_of(scene);
+    again.method = method;
+    Simulation second(again,
+                      {{first.discs().begin(), first.discs().end()},
+                       first.micro_steps_done(),
+                       SideColumns(first.side_columns())},
+                      world, {});
+    advance_to(second, scene.steps);
+    return second.totals();
 }
 
 void check_shared_run(const TestScene& scene, Method method, const Communicator& world) {

@@ -16,6 +16,9 @@ Simulation simulation_of(const TestScene& scene, Method method, const Communicat
 Totals run(const TestScene& scene, Method method, const Communicator& world,
            const Tuning& tuning = {});
 
+/// As `run`, but half way another simulation goes on from the state. **Collective.**
+Totals run_with_restart(const TestScene& scene, Method method, const Communicator& world);
+
 /// Checks that a run of the scene on all ranks keeps the invariants of each step, and ends with the
 /// state of a run on one rank.
 void check_shared_run(const TestScene& scene, Method method, const Communicator& world);

@@ -26,20 +26,7 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     scene.setting.sync_every = 5;
     scene.setting.micro_steps = 2;
     Random random(seed);
-    for (const Species& one : species) {
-        for (std::uint64_t k = 0; k < one.count; ++k) {
-            for (bool is_free = false; !is_free;) {
-                const double x = random.uniform(one.radius, box_size - one.radius),
-                             y = random.uniform(one.radius, box_size - one.radius);
-                is_free = true;
-                for (const InputDisc& disc : scene.discs)
-                    is_free = is_free &&
-                              std::hypot(disc.x - x, disc.y - y) >
-                                  1.0001 * (one.radius + scene.setting.radius_of(disc.id));
-                if (is_free) add_disc(scene, x, y);
-            }
-        }
-    }
+    add_species(scene, false, false, random);
     set_speeds(scene, 2 * largest * speed, random);
     return scene;
 }
@@ -187,7 +174,7 @@ TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching 
 }
 
 // Each class has kT = <m v^2> / 2 per disc. Looks are several collisions apart; N discs' energy
-// over one look scatters by 1 / sqrt(N).
+// over one sample scatters by 1 / sqrt(N).
 TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energies") {
     const Communicator world = Communicator::world();
     TestScene scene = mixture({{100, 1.5, 8}, {200, 1, 2}, {300, 0.5, 0.5}}, 80, 0.2, 704);
@@ -197,8 +184,8 @@ TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energ
     const Totals start = simulation.totals();
     advance_to(simulation, 1000);
     std::vector<double> sums(3, 0);
-    constexpr int n_looks = 40;
-    for (int look = 0; look < n_looks; ++look) {
+    constexpr int n_samples = 40;
+    for (int sample = 0; sample < n_samples; ++sample) {
         advance_to(simulation, simulation.step() + 50);
         std::vector<double> energies(3, 0);
         for (const Disc& disc : simulation.discs())
@@ -207,13 +194,13 @@ TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energ
                                      : 2] += 0.5 * mass_of(scene, disc.id) *
                                              (disc.vx * disc.vx + disc.vy * disc.vy);
         for (const auto& part : world.all_gather(std::array{energies[0], energies[1], energies[2]}))
-            for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k] / n_looks;
+            for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k] / n_samples;
     }
     const Totals end = simulation.totals();
     const double mean = end.kinetic_energy / 600;
-    CHECK(sums[0] / 100 == Approx(mean).epsilon(4 / std::sqrt(100.0 * n_looks)));
-    CHECK(sums[1] / 200 == Approx(mean).epsilon(4 / std::sqrt(200.0 * n_looks)));
-    CHECK(sums[2] / 300 == Approx(mean).epsilon(4 / std::sqrt(300.0 * n_looks)));
+    CHECK(sums[0] / 100 == Approx(mean).epsilon(4 / std::sqrt(100.0 * n_samples)));
+    CHECK(sums[1] / 200 == Approx(mean).epsilon(4 / std::sqrt(200.0 * n_samples)));
+    CHECK(sums[2] / 300 == Approx(mean).epsilon(4 / std::sqrt(300.0 * n_samples)));
     CHECK(end.kinetic_energy == Approx(start.kinetic_energy).epsilon(1e-12));
     CHECK(end.overlapping_pairs == 0);
     CHECK(end.pair_collisions > 600 * 20);

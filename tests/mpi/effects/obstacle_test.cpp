@@ -155,7 +155,7 @@ TEST_CASE("effects: where the seams are in a periodic box is of no account, unde
 TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from trap to trap") {
     const Communicator world = Communicator::world();
     constexpr double w = 0.1, spacing = 2 + w, size = 26 * spacing, point = 0.001;
-    constexpr std::int64_t n_discs = 1000, lag = 100, look = 20, n_lags = 8;
+    constexpr std::int64_t n_discs = 1000, lag = 100, first_lag = 20, n_lags = 8;
     TestScene scene = empty_scene("triangular Lorentz gas", size, point, n_lags * lag);
     scene.setting.effects.boundaries.fill(periodic);
     scene.setting.effects.contact.kind = ContactKind::none;
@@ -175,8 +175,8 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
     std::vector<Disc> before = all_discs(simulation, world);
     std::vector<double> x(before.size(), 0), y(before.size(), 0); // since the lag began
-    double squares_at_look = 0, squares_at_lag = 0;
-    for (std::int64_t step = look; step <= scene.steps; step += look) {
+    double squares_at_first_lag = 0, squares_at_lag = 0;
+    for (std::int64_t step = first_lag; step <= scene.steps; step += first_lag) {
         advance_to(simulation, step);
         const std::vector<Disc> now = all_discs(simulation, world);
         double squares = 0;
@@ -186,15 +186,15 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
             squares += x[i] * x[i] + y[i] * y[i];
         }
         before = now;
-        if (step % lag == look) squares_at_look += squares;
+        if (step % lag == first_lag) squares_at_first_lag += squares;
         if (step % lag != 0) continue;
         squares_at_lag += squares;
         std::fill(x.begin(), x.end(), 0);
         std::fill(y.begin(), y.end(), 0);
     }
     const auto n = static_cast<double>(before.size()) * n_lags;
-    const double measured = (squares_at_lag - squares_at_look) / n /
-                            (4 * static_cast<double>(lag - look));
+    const double measured = (squares_at_lag - squares_at_first_lag) / n /
+                            (4 * static_cast<double>(lag - first_lag));
     const double area = std::sqrt(3.0) / 4 * spacing * spacing - std::numbers::pi / 2;
     const double hop = spacing / std::sqrt(3.0), residence = std::numbers::pi * area / (3 * w);
     CHECK(measured ==

@@ -216,16 +216,16 @@ TEST_CASE(
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const double start = simulation.totals().kinetic_energy;
     advance_to(simulation, 600);
-    constexpr int n_looks = 30;
+    constexpr int n_samples = 30;
     double share = 0;
-    for (int look = 0; look < n_looks; ++look) {
+    for (int sample = 0; sample < n_samples; ++sample) {
         advance_to(simulation, simulation.step() + 30);
         const Totals now = simulation.totals();
         CHECK(now.kinetic_energy + now.rotational_energy == Approx(start).epsilon(1e-12));
-        share += now.rotational_energy / start / n_looks;
+        share += now.rotational_energy / start / n_samples;
     }
-    // Of 3 N halves of kT, N are spins': the share scatters by 2/3 sqrt(1 / (3 N)) or so in a look;
-    // looks are some ten collisions apart.
-    CHECK(share == Approx(1.0 / 3).margin(4 * 2.0 / 3 / std::sqrt(3 * 400.0 * n_looks)));
+    // Of 3 N halves of kT, N are spins': the share scatters by 2/3 sqrt(1 / (3 N)) or so in a
+    // sample; samples are some ten collisions apart.
+    CHECK(share == Approx(1.0 / 3).margin(4 * 2.0 / 3 / std::sqrt(3 * 400.0 * n_samples)));
     CHECK(simulation.totals().overlapping_pairs == 0);
 }

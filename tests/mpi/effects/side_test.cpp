@@ -14,15 +14,15 @@ using namespace carrom::test;
 
 namespace {
 
-/// Kinetic energy per disc, averaged over `n_looks` looks, `apart` steps from each other.
-double mean_energy(Simulation& simulation, int n_looks, std::int64_t apart) {
+/// Kinetic energy per disc, averaged over `n_samples` states, `apart` steps from each other.
+double mean_energy(Simulation& simulation, int n_samples, std::int64_t apart) {
     double sum = 0;
-    for (int k = 0; k < n_looks; ++k) {
+    for (int k = 0; k < n_samples; ++k) {
         advance_to(simulation, simulation.step() + apart);
         const Totals totals = simulation.totals();
         sum += totals.kinetic_energy / static_cast<double>(totals.n_discs);
     }
-    return sum / n_looks;
+    return sum / n_samples;
 }
 
 } // namespace
@@ -36,7 +36,7 @@ TEST_CASE("effects: walls of one temperature give it to a gas, under both method
             side = {BoundaryKind::thermal, 1, 0.5, 0};
         Simulation simulation = simulation_of(scene, method, world);
         advance_to(simulation, 1500);
-        // E / N is T with the variance T^2 / N: 30 looks that are hardly correlated leave 1 % or
+        // E / N is T with the variance T^2 / N: 30 samples that are hardly correlated leave 1 % or
         // so.
         CHECK(mean_energy(simulation, 30, 150) == Approx(0.5).epsilon(0.04));
     }
@@ -53,7 +53,7 @@ TEST_CASE("effects: an ideal gas between walls of two temperatures has their geo
     effects.boundaries[1] = {BoundaryKind::thermal, 1, 9, 0};
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, 4000);
-    // Slow discs stay long, so looks hang together; single energies scatter by a few times 3.
+    // Slow discs stay long, so samples are correlated; single energies scatter by a few times 3.
     CHECK(mean_energy(simulation, 20, 400) == Approx(3).epsilon(0.06));
 }
 

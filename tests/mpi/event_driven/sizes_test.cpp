@@ -32,25 +32,7 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     if (round_y)
         scene.setting.effects.boundaries[2] = scene.setting.effects.boundaries[3] = periodic;
     Random random(seed);
-    const auto nearest = [box_size](double distance, bool is_round) {
-        return is_round ? distance - box_size * std::round(distance / box_size) : distance;
-    };
-    for (const Species& one : species) {
-        for (std::uint64_t k = 0; k < one.count; ++k) {
-            for (bool is_free = false; !is_free;) {
-                const double x_low = round_x ? 0 : one.radius, y_low = round_y ? 0 : one.radius,
-                             x = random.uniform(x_low, box_size - x_low),
-                             y = random.uniform(y_low, box_size - y_low);
-                is_free = true;
-                for (const InputDisc& disc : scene.discs)
-                    is_free = is_free &&
-                              std::hypot(nearest(disc.x - x, round_x),
-                                         nearest(disc.y - y, round_y)) >
-                                  1.0001 * (one.radius + scene.setting.radius_of(disc.id));
-                if (is_free) add_disc(scene, x, y);
-            }
-        }
-    }
+    add_species(scene, round_x, round_y, random);
     set_speeds(scene, speed, random);
     return scene;
 }

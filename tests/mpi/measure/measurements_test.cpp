@@ -48,8 +48,8 @@ struct ByHand {
         }
     }
 
-    void look(const std::vector<Seen>& discs, const Extent& box, double largest_distance,
-              double largest_velocity) {
+    void add(const std::vector<Seen>& discs, const Extent& box, double largest_distance,
+             double largest_velocity) {
         if (first.empty()) first = discs;
         double sum = 0;
         for (std::size_t i = 0; i < discs.size(); ++i) {
@@ -110,9 +110,9 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
         ByHand expected;
         for (std::int64_t step = 5; step <= 60; step += 9) {
             advance_to(simulation, sampler, step);
-            expected.look(all_of(simulation, world),
-                          extent_at(scene.effects, scene.box, static_cast<double>(step)),
-                          scene.measurements->settings.at("largest_distance").value, 1);
+            expected.add(all_of(simulation, world),
+                         extent_at(scene.effects, scene.box, static_cast<double>(step)),
+                         scene.measurements->settings.at("largest_distance").value, 1);
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "radial_distribution", "pairs") == expected.pairs);
@@ -148,7 +148,7 @@ TEST_CASE("measurements: with open sides, velocities and places of discs that ar
             std::vector<Seen> discs = all_of(simulation, world);
             std::erase_if(discs, [size](const Seen& disc) { return disc.x < 0 || disc.y > size; });
             expected.first.clear();
-            expected.look(discs, {0, size, 0, size}, 1, 1);
+            expected.add(discs, {0, size, 0, size}, 1, 1);
             n_seen += discs.size();
         }
         CHECK((simulation.totals().departed[0] > 10 && simulation.totals().departed[3] > 10));

@@ -166,7 +166,7 @@ struct ByHand {
     std::vector<double> psi6, neighbours = std::vector<double>(13, 0),
                               moduli = std::vector<double>(20, 0), pairs = moduli, g6 = moduli;
 
-    void look(const std::vector<Point>& points, const Extent& box, const Scene& scene) {
+    void add(const std::vector<Point>& points, const Extent& box, const Scene& scene) {
         const bool x = scene.effects.is_periodic_x(), y = scene.effects.is_periodic_y();
         const auto orders = Bisectors(points, box, x, y).psi6(neighbours);
         std::complex<double> all = 0;
@@ -205,8 +205,8 @@ TEST_CASE("measurements: psi6 and neighbours are those of bisectors of all pairs
             advance_to(simulation, sampler, step);
             std::vector<Point> points = all_points(simulation, world);
             set_radii(points, scene.effects, static_cast<double>(step));
-            expected.look(points, extent_at(scene.effects, scene.box, static_cast<double>(step)),
-                          scene);
+            expected.add(points, extent_at(scene.effects, scene.box, static_cast<double>(step)),
+                         scene);
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "neighbours", "count") == expected.neighbours);

@@ -42,7 +42,7 @@ struct ByHand {
         9, std::vector<double>(n_bins, 0));
     std::vector<double> counts = std::vector<double>(n_bins, 0);
 
-    void look(const std::vector<SeenDisc>& discs, const Box& box, double largest) {
+    void add(const std::vector<SeenDisc>& discs, const Box& box, double largest) {
         const double kx = 2 * std::numbers::pi / box.x, ky = 2 * std::numbers::pi / box.y;
         const int n_most = static_cast<int>(largest / kx) + 1;
         for (int n = -n_most; n <= n_most; ++n) {
@@ -75,7 +75,7 @@ TEST_CASE("measurements: partial structure factors are those of sums over all di
     ByHand expected;
     for (std::int64_t step = 5; step <= 20; step += 5) {
         advance_to(simulation, sampler, step);
-        expected.look(seen_discs(simulation, world), scene.box, largest);
+        expected.add(seen_discs(simulation, world), scene.box, largest);
     }
     const std::vector<MeasuredTable> tables = sampler.tables();
     const std::vector<double> all = column_of(tables, "structure_factor", "S");
@@ -103,25 +103,5 @@ TEST_CASE("measurements: partial structure factors are those of sums over all di
 TEST_CASE("measurements: partial structure factors go on from what was stored") {
     const Communicator world = Communicator::world();
     const TestScene test = mixed_gas();
-    const Scene scene = with_waves(test, 2);
-    Simulation whole = simulation_of(scene, test, world);
-    Sampler whole_sampler(scene, whole, world);
-    advance_to(whole, whole_sampler, 20);
-    Simulation first = simulation_of(scene, test, world);
-    Sampler first_sampler(scene, first, world);
-    advance_to(first, first_sampler, 12);
-    StoredState state = {{first.discs().begin(), first.discs().end()},
-                         first.micro_steps_done(),
-                         SideColumns(first.side_columns())};
-    Simulation second(scene, std::move(state), world, {});
-    Sampler sampler(scene, second, world);
-    sampler.go_on(first_sampler.stored());
-    advance_to(second, sampler, 20);
-    const std::string name = "partial_structure_factor";
-    const MeasuredTable again = table_of(sampler.tables(), name),
-                        once = table_of(whole_sampler.tables(), name);
-    for (std::size_t row = 0; row < n_bins; ++row)
-        for (std::size_t column = 0; column < once.columns.size(); ++column)
-            CHECK((again.rows[row][column] == once.rows[row][column] ||
-                   std::isnan(once.rows[row][column])));
+    check_going_on(with_waves(test, 2), test, 12, 20, world);
 }

@@ -112,7 +112,7 @@ struct ByHand {
 
     static int species_of(DiscId id) { return id < 40 ? 1 : id < 100 ? 2 : 3; }
 
-    void look(const std::vector<Seen>& now, bool is_sample) {
+    void add(const std::vector<Seen>& now, bool is_sample) {
         flown.resize(now.size());
         for (std::size_t i = 0; i < now.size(); ++i) {
             if (!before.empty()) {
@@ -178,7 +178,7 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         Sampler sampler(scene, simulation, world);
         for (std::int64_t step = 5; step <= 64; ++step) {
             advance_to(simulation, sampler, step);
-            by_hand.look(all_of(simulation, world), (step - 5) % 9 == 0);
+            by_hand.add(all_of(simulation, world), (step - 5) % 9 == 0);
         }
         const std::vector<double>& squares = by_hand.squares;
         CHECK(by_hand.farthest > scene.box.x);

@@ -60,17 +60,7 @@ void check_bits(const TestScene& scene, Method method) {
         CHECK(to_string(totals.hash) == to_string(expected.hash));
         CHECK(totals.rejected_candidates == expected.rejected);
     }
-    Simulation first = simulation_of(scene, method, world);
-    advance_to(first, scene.steps / 2);
-    Scene again = scene_of(scene);
-    again.method = method;
-    Simulation second(again,
-                      {{first.discs().begin(), first.discs().end()},
-                       first.micro_steps_done(),
-                       SideColumns(first.side_columns())},
-                      world, {});
-    advance_to(second, scene.steps);
-    CHECK(to_string(second.totals().hash) == to_string(expected.hash));
+    CHECK(to_string(run_with_restart(scene, method, world).hash) == to_string(expected.hash));
 }
 
 } // namespace carrom::test

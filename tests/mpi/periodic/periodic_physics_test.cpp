@@ -96,14 +96,14 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
     advance_to(simulation, 120);
-    constexpr int n_looks = 20;
+    constexpr int n_samples = 20;
     std::array<double, 3> energies{}; // of the species' flight, of spins
-    for (int look = 0; look < n_looks; ++look) {
+    for (int sample = 0; sample < n_samples; ++sample) {
         advance_to(simulation, simulation.step() + 20);
         for (const Disc& disc : simulation.discs())
             energies[disc.id < 60 ? 0 : 1] += 0.5 * scene.setting.mass_of(disc.id) *
-                                              (disc.vx * disc.vx + disc.vy * disc.vy) / n_looks;
-        energies[2] += simulation.totals().rotational_energy / world.size() / n_looks;
+                                              (disc.vx * disc.vx + disc.vy * disc.vy) / n_samples;
+        energies[2] += simulation.totals().rotational_energy / world.size() / n_samples;
     }
     std::array<double, 3> sums{};
     for (const auto& part : world.all_gather(energies))
@@ -120,9 +120,9 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     for (const std::size_t k : {0u, 1u}) {
         const double ways = 2 * counts[k] * (1 - masses[k] / mass);
         CHECK(sums[k] ==
-              Approx(ways * half_temperature).epsilon(4 * std::sqrt(2 / (ways * n_looks))));
+              Approx(ways * half_temperature).epsilon(4 * std::sqrt(2 / (ways * n_samples))));
     }
-    CHECK(sums[2] == Approx(n * half_temperature).epsilon(4 * std::sqrt(2 / (n * n_looks))));
+    CHECK(sums[2] == Approx(n * half_temperature).epsilon(4 * std::sqrt(2 / (n * n_samples))));
 }
 
 TEST_CASE("periodic: a disc alone flies on, and comes in where it has left") {

@@ -169,22 +169,7 @@ inline TestScene mixture(const std::vector<Species>& species, double box_size, d
     scene.setting.sync_every = 5;
     scene.setting.micro_steps = 2;
     Random random(seed);
-    const auto nearest = [box_size](double distance) {
-        return distance - box_size * std::round(distance / box_size);
-    };
-    for (const Species& one : species) {
-        for (std::uint64_t k = 0; k < one.count; ++k) {
-            for (bool is_free = false; !is_free;) {
-                const double x = random.uniform(0, box_size), y = random.uniform(0, box_size);
-                is_free = true;
-                for (const InputDisc& disc : scene.discs)
-                    is_free = is_free &&
-                              std::hypot(nearest(disc.x - x), nearest(disc.y - y)) >
-                                  1.0001 * (one.radius + scene.setting.radius_of(disc.id));
-                if (is_free) add_disc(scene, x, y);
-            }
-        }
-    }
+    add_species(scene, true, true, random);
     set_speeds(scene, 2 * species.front().radius * speed, random);
     scene.setting.effects.boundaries = both;
     return scene;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discs whose radii differ by up to a factor of 30 have the bits of the plain statements of both
 // methods, which look at all pairs: between walls, periodic and sheared sides.
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -24,26 +23,7 @@ TestScene unequal(double ratio, std::uint64_t n_large, std::uint64_t n_small, do
     scene.setting.sync_every = 5;
     scene.setting.micro_steps = 2;
     Random random(seed);
-    const auto nearest = [&](double distance, bool is_round) {
-        return is_round ? distance - box_size * std::round(distance / box_size) : distance;
-    };
-    const bool round_x = boundaries[0] == periodic, round_y = boundaries[2] == periodic;
-    for (const Species& one : scene.setting.effects.species) {
-        for (std::uint64_t k = 0; k < one.count; ++k) {
-            for (bool is_free = false; !is_free;) {
-                const double x_low = round_x ? 0 : one.radius, y_low = round_y ? 0 : one.radius,
-                             x = random.uniform(x_low, box_size - x_low),
-                             y = random.uniform(y_low, box_size - y_low);
-                is_free = true;
-                for (const InputDisc& disc : scene.discs)
-                    is_free = is_free &&
-                              std::hypot(nearest(disc.x - x, round_x),
-                                         nearest(disc.y - y, round_y)) >
-                                  1.0001 * (one.radius + scene.setting.radius_of(disc.id));
-                if (is_free) add_disc(scene, x, y);
-            }
-        }
-    }
+    add_species(scene, boundaries[0] == periodic, boundaries[2] == periodic, random);
     set_speeds(scene, speed, random);
     return scene;
 }

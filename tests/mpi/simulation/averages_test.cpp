@@ -86,9 +86,9 @@ void check_pressures(const Averages& averages, const test::TestScene& test, cons
 
 /// The integral of stress so far; tests/physics/virial_test.cpp has it from logged collisions.
 Tensor stress_of(const Simulation& simulation) {
-    MotionSample look = simulation.motion_sample();
-    simulation.integrate(simulation.stress_sums(), look);
-    return look.stress;
+    MotionSample sample = simulation.motion_sample();
+    simulation.integrate(simulation.stress_sums(), sample);
+    return sample.stress;
 }
 
 /// The 41 steps of 100 discs below. Integrals are per micro-step, of which a step has 4.
@@ -138,9 +138,9 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         averaging.begin_anew();
         const PlainSums first = sums_of(gathered(simulation, world), 4);
         const Tensor first_stress = stress_of(simulation);
-        // Looks are 10 steps apart, a quarter of the run: it is short, and keeps its energy.
-        PlainSums at_block = first, at_look = first, now;
-        std::int64_t block_begin = 7, look_step = 7;
+        // Samples are 10 steps apart, a quarter of the run: it is short, and keeps its energy.
+        PlainSums at_block = first, at_sample = first, now;
+        std::int64_t block_begin = 7, sample_step = 7;
         std::vector<double> frequencies, speeds;
         double all_speeds = 0, all_kurtoses = 0;
         for (std::int64_t step = 8; step <= 48; ++step) {
@@ -148,12 +148,12 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
             const bool is_end = step % 10 == 7;
             if (!is_end && step < 48) continue;
             now = sums_of(gathered(simulation, world), 4);
-            const double half = static_cast<double>(step - look_step) / 2;
-            const double speed = half * (at_look.speed + now.speed) / 100;
+            const double half = static_cast<double>(step - sample_step) / 2;
+            const double speed = half * (at_sample.speed + now.speed) / 100;
             all_speeds += speed;
-            all_kurtoses += half * (at_look.kurtosis() + now.kurtosis());
-            at_look = now;
-            look_step = step;
+            all_kurtoses += half * (at_sample.kurtosis() + now.kurtosis());
+            at_sample = now;
+            sample_step = step;
             if (!is_end) continue;
             const auto steps = static_cast<double>(step - block_begin);
             frequencies.push_back(2 * (now.pairs - at_block.pairs) / (100.0 * steps));

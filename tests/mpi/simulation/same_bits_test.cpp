@@ -5,9 +5,7 @@
 #include "core/state_hash.hpp"
 #include "simulation/simulation.hpp"
 
-#include <algorithm>
 #include <cstdlib>
-#include <random>
 
 #include <omp.h>
 
@@ -38,17 +36,9 @@ Expected expected_of(const test::TestScene& scene, const Communicator& world) {
     return expected;
 }
 
-/// Every rank starts with an arbitrary share of the discs, in an arbitrary order.
 std::vector<InputDisc> share_of(const test::TestScene& scene, const Communicator& world,
                                 unsigned seed) {
-    std::mt19937 random(seed);
-    std::vector<InputDisc> mine;
-    for (const InputDisc& disc : scene.discs) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
-            mine.push_back(disc);
-    }
-    std::shuffle(mine.begin(), mine.end(), random);
-    return mine;
+    return test::share_of(scene, world.rank(), world.size(), seed);
 }
 
 Totals run(const test::TestScene& scene, const Tuning& tuning, const Communicator& world,

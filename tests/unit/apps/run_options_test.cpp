@@ -98,7 +98,7 @@ TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter"
     }
 }
 
-TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at every look") {
+TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at every inspection") {
     const auto [options, problems] = checked(
         {{"--steps", "0"}, {"--rebalance-every", "0"}, {"--rebalance-above", "0"}});
     CHECK(problems.empty());

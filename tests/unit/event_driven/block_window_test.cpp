@@ -34,7 +34,7 @@ TEST_CASE("exact window: the first window takes Enskog's collision rate") {
     BlockNeeds needs;
     needs.box = 10;
     needs.n_discs = 0.5 * 100 / (std::acos(-1) / 4);
-    needs.radius = needs.radius_to_look_for = 0.5;
+    needs.radius = needs.equivalent_radius = 0.5;
     CHECK(std::abs(guessed_collision_rate(needs, std::sqrt(std::acos(-1) / 2)) - 7.052 / 2) <
           0.001);
 }

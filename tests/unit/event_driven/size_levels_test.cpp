@@ -39,7 +39,7 @@ TEST_CASE("size levels: equal discs have one, and so have discs that differ litt
     REQUIRE(equal.size() == 1);
     CHECK(equal[0].largest_radius == 0.7);
     CHECK(equal[0].smallest_radius == 0.7);
-    CHECK(radius_to_look_for(equal) == 0.7);
+    CHECK(equivalent_radius(equal) == 0.7);
     std::vector<Species> narrow;
     for (int k = 0; k < 100; ++k) narrow.push_back({100, 0.75 + 0.005 * k, 1});
     CHECK(levels_of(narrow).size() == 1);
@@ -53,7 +53,7 @@ TEST_CASE("size levels: large discs among small ones have their own, and each ra
         CHECK(levels[1].smallest_radius == ratio);
         CHECK(level_of(1, levels) == 0);
         CHECK(level_of(ratio, levels) == 1);
-        CHECK(radius_to_look_for(levels) < 2);
+        CHECK(equivalent_radius(levels) < 2);
     }
     std::vector<Species> wide; // seven octaves
     for (int k = 0; k < 128; ++k) wide.push_back({std::uint64_t{1} << (14 - k / 9), 1.0 + k, 1});

@@ -12,26 +12,15 @@
 #include "scene/read_scene.hpp"
 
 using namespace carrom;
+using test::has;
 using test::problems_of;
+using test::problems_with;
 
 namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::string good = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n";
-
-/// The texts of all problems, one a line.
-std::string problems_with(const Texts& overrides) {
-    std::string text;
-    for (const Problem& problem : problems_of([&] { read_scene(good, "s.toml", overrides); }))
-        text += problem.text + '\n';
-    return text;
-}
-
-bool has(const std::string& text, const char* part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
-}
+const std::string& good = test::good_scene;
 
 } // namespace
 

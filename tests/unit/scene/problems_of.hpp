@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
+
 #include "core/errors.hpp"
+#include "scene/read_scene.hpp"
 
 namespace carrom::test {
 
@@ -32,6 +35,23 @@ inline bool mentions(const std::vector<Problem>& problems, const std::string& te
     for (const Problem& problem : problems)
         if (problem.text.find(text) != std::string::npos) return true;
     return false;
+}
+
+/// A scene to which tests add what they are about.
+inline const std::string good_scene =
+    "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n";
+
+/// The texts of all problems of that scene with overrides, one a line.
+inline std::string problems_with(const std::vector<std::string>& overrides) {
+    std::string text;
+    for (const Problem& problem : problems_of([&] { read_scene(good_scene, "s.toml", overrides); }))
+        text += problem.text + '\n';
+    return text;
+}
+
+inline bool has(const std::string& text, const char* part) {
+    UNSCOPED_INFO(text);
+    return text.find(part) != std::string::npos;
 }
 
 } // namespace carrom::test
