@@ -55,9 +55,8 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {
-    may_lose_energy_ = may_lose_in_contacts();
     const CheckAllowance allowance = allowance_of(scene.effects);
-    may_lose_energy_ = may_lose_energy_ || allowance.collisions_take_energy;
+    may_lose_energy_ = allowance.collisions_take_energy;
     walls_give_energy_ = allowance.walls_give_energy;
     acts_at_syncs_ = allowance.acts_at_syncs;
     energy_given_ = energy_given;
@@ -139,7 +138,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
              discs_around(first, discs_before(), slab_of_disc(first.disc), log,
                           scene_.effects.periods(scene_.box), communicator_)) {
             discs.push_back(each.disc);
-            if (effects_.contact.kind == ContactKind::rough) spins.push_back(each.spin);
+            if (effects_.have_spins()) spins.push_back(each.spin);
         }
     }
     throw CheckFailure(text_of(first, scene_, obstacles_ ? &*obstacles_ : nullptr, step),
@@ -203,7 +202,7 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
         if (!spins.empty()) spins_out[keeper].push_back(spins[i]);
     }
     const Received<Disc> in = send_to_owners(communicator_, out);
-    if (effects_.contact.kind == ContactKind::rough) {
+    if (effects_.have_spins()) {
         const Received<double> spins_in = send_to_owners(communicator_, spins_out);
         for (std::size_t i = 0; i < spins_in.items.size(); ++i)
             known_[in.items[i].id - first_id_].spin = spins_in.items[i];

@@ -94,7 +94,6 @@ private:
     SharedEnergy shared_energy_of(std::size_t i) const;
     double energy_of(std::span<const Disc> own) const;
     double twice_energy(const Known& known) const;
-    bool may_lose_in_contacts() const;
     double mass_of(DiscId id) const { return species_.of(id).mass; }
     double diameter_of(const Disc& p, const Disc& q) const {
         return growth_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);

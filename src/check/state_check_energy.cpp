@@ -24,16 +24,6 @@ constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 } // namespace
 
-/// Whether collisions of discs take energy, spins included. Surfaces that stick and
-/// neither lose nor forget anything, or do not rub at all, take nothing.
-bool StateCheck::may_lose_in_contacts() const {
-    const ContactEffect& contact = effects_.contact;
-    if (contact.kind == ContactKind::restitution) return true;
-    const bool keeps_slip = contact.tangential_restitution == -1 ||
-                            (contact.tangential_restitution == 1 && std::isinf(contact.friction));
-    return contact.kind == ContactKind::rough && !(contact.restitution == 1 && keeps_slip);
-}
-
 Finding StateCheck::first_other_motion() const {
     if (were_rewritten()) return {};
     const bool is_free = !effects_.gravity.is_any() &&
@@ -284,7 +274,7 @@ double StateCheck::energy_of(std::span<const Disc> own) const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;
     const auto unit = static_cast<double>(scene_.micro_steps);
     measure_motion(own, species_table, unit, communicator_, totals);
-    if (effects_.contact.kind == ContactKind::rough)
+    if (effects_.have_spins())
         measure_rotation(seen, spins, species_, effects_.contact.inertia, unit, communicator_,
                          totals);
     if (effects_.gravity.is_any())

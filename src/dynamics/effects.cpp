@@ -11,44 +11,6 @@
 
 namespace carrom {
 
-namespace {
-
-std::string description(const ContactEffect& contact) {
-    switch (contact.kind) {
-    case ContactKind::elastic: return {};
-    case ContactKind::none: return "discs pass through each other";
-    case ContactKind::restitution:
-        return fmt::format("restitution {:g} of pairs", contact.restitution);
-    case ContactKind::rough:
-        return fmt::format("rough discs of restitution {:g}, tangential {:g}{}",
-                           contact.restitution, contact.tangential_restitution,
-                           std::isfinite(contact.friction)
-                               ? fmt::format(", friction {:g}", contact.friction)
-                               : "");
-    }
-    return {};
-}
-
-std::string description(const std::vector<Species>& species) {
-    constexpr std::size_t most_named = 4;
-    if (species.size() > most_named) {
-        Species least = species.front(), most = least;
-        for (const Species& one : species) {
-            least = {0, std::min(least.radius, one.radius), std::min(least.mass, one.mass)};
-            most = {0, std::max(most.radius, one.radius), std::max(most.mass, one.mass)};
-        }
-        return fmt::format("discs of {} species, radii {:g} to {:g}, masses {:g} to {:g}",
-                           species.size(), least.radius, most.radius, least.mass, most.mass);
-    }
-    std::string text;
-    for (const Species& one : species)
-        text += fmt::format("{}{} disc{} of radius {:g} and mass {:g}", text.empty() ? "" : ", ",
-                            one.count, one.count == 1 ? "" : "s", one.radius, one.mass);
-    return text;
-}
-
-} // namespace
-
 bool Effects::have_plain_boundaries() const {
     return std::all_of(boundaries.begin(), boundaries.end(),
                        [](const Boundary& side) { return side.is_plain(); });
@@ -79,13 +41,25 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
 
 SideColumnSet side_columns_of(const Effects& effects) {
     SideColumnSet columns;
-    if (effects.contact.kind == ContactKind::rough) columns.add(SideColumn::spin);
+    if (effects.have_spins()) columns.add(SideColumn::spin);
     return columns;
 }
 
-std::string description(const Effects& effects) {
-    std::string text = description(effects.contact);
-    if (!effects.species.empty()) text += (text.empty() ? "" : "; ") + description(effects.species);
+std::string description(const std::vector<Species>& species) {
+    constexpr std::size_t most_named = 4;
+    if (species.size() > most_named) {
+        Species least = species.front(), most = least;
+        for (const Species& one : species) {
+            least = {0, std::min(least.radius, one.radius), std::min(least.mass, one.mass)};
+            most = {0, std::max(most.radius, one.radius), std::max(most.mass, one.mass)};
+        }
+        return fmt::format("discs of {} species, radii {:g} to {:g}, masses {:g} to {:g}",
+                           species.size(), least.radius, most.radius, least.mass, most.mass);
+    }
+    std::string text;
+    for (const Species& one : species)
+        text += fmt::format("{}{} disc{} of radius {:g} and mass {:g}", text.empty() ? "" : ", ",
+                            one.count, one.count == 1 ? "" : "s", one.radius, one.mass);
     return text;
 }
 

@@ -142,6 +142,7 @@ struct Effects {
     double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
     Thermostat thermostat{};
 
+    bool have_spins() const { return contact.kind == ContactKind::rough; }
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
     /// The reader of scenes makes opposite sides periodic together.
@@ -174,9 +175,9 @@ Effects per_micro_step(const Effects& effects, double micro_steps);
 /// The numbers that discs have beside their states under these effects.
 SideColumnSet side_columns_of(const Effects& effects);
 
-/// The part about pairs and species of a line for a summary, such as "restitution 0.9 of pairs";
-/// `summary_of` (scene/effects/effect.hpp) writes the whole line.
-std::string description(const Effects& effects);
+/// The part about species of a line for a summary; empty without species. `summary_of`
+/// (scene/effects/effect.hpp) writes the whole line.
+std::string description(const std::vector<Species>& species);
 
 /// Where the walls are at `time` since the scene's start, in a box that was `box` then.
 Extent extent_at(const Effects& effects, const Box& box, double time);

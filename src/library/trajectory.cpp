@@ -20,7 +20,7 @@ namespace {
 TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& scene,
                            const std::string& path) {
     std::vector<Problem> problems;
-    if (fields.spins && scene.effects.contact.kind != ContactKind::rough)
+    if (fields.spins && !scene.effects.have_spins())
         problems.push_back({path, 0, "only rough discs have spins (effects.contact.kind)"});
     if (!problems.empty()) throw InputError(std::move(problems));
     TrajectoryOutput wanted;

@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include "scene/check.hpp"
 #include "scene/limits.hpp"
 #include "scene/quantity.hpp"
+#include "scene/check.hpp"
 
 namespace carrom {
 
@@ -14,13 +14,6 @@ namespace {
 
 /// Limited because tables that grow with time are kept in memory and in checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
-
-/// A sync resets contact times, so a contact time as long as the time between syncs would make all
-/// collisions elastic.
-void check_contact_time(const Check& check) {
-    limit_contact_time(check, steps_between_syncs(check.scene) / 4,
-                       "a quarter of the time between syncs ('time.sync_every')");
-}
 
 /// A last step of 0 only shows the start, and measures nothing.
 void check_first_sample(const Check& check, std::string_view key, std::int64_t from) {
@@ -78,7 +71,6 @@ void check_times(const Check& check) {
                      fmt::format("precision = \"single\" counts micro-steps up to {} between "
                                  "syncs; 'time.sync_every' is {}",
                                  longest_single_sync, scene.sync_every));
-    check_contact_time(check);
     check_samples(check);
     check_times_of_quantities(check);
 }

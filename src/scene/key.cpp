@@ -46,7 +46,6 @@ const std::vector<Table>& tables() {
             {.name = "box.bottom", .is_like_another = true},
             {.name = "box.top", .is_like_another = true},
             {"effects", ""},
-            {"effects.contact", "What happens when two discs touch."},
             {"output", "What a run writes; no key of output changes a bit of the result."},
             {"output.checkpoint", "When and where the state is stored.",
              [](const Scene& s) { return s.checkpoint.has_value(); },

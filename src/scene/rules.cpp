@@ -27,16 +27,6 @@ std::vector<Rule> rules_of_methods() {
     };
 }
 
-std::vector<Rule> rules_of_contacts() {
-    return {
-        rule("several species", "effects.contact.kind = \"none\"",
-             "this version does not have both", {"effects.contact.kind"},
-             [](const Scene& s) {
-                 return has_species(s) && s.effects.contact.kind == ContactKind::none;
-             }),
-    };
-}
-
 std::vector<Rule> rules_of_starts() {
     return {
         rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
@@ -71,11 +61,6 @@ std::vector<Rule> rules_of_outputs() {
              [](const Scene& s) {
                  return s.trajectory && s.trajectory->has_image && !s.effects.are_periodic();
              }),
-        rule("spins in discs.columns", "discs that are not rough",
-             "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
-             [](const Scene& s) {
-                 return has_column(s, disc_column_of(SideColumn::spin)) && !is_rough(s);
-             }),
         rule("masses in discs.columns", "columns without radii", "a species has both",
              {"discs.columns"},
              [](const Scene& s) {
@@ -89,9 +74,8 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part :
-             {rules_of_contacts(), rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
-              rules_of_columns(std::make_index_sequence<n_side_columns>())})
+        for (const auto& part : {rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
+                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         for (const BoundaryDeclaration& kind : all_boundaries())
             list.insert(list.end(), kind.rules.begin(), kind.rules.end());

@@ -333,7 +333,7 @@ Totals Simulation::energies() const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();
     measure_motion(in_motion(), species_table, velocity_unit_, communicator_, totals);
-    if (effects_.contact.kind == ContactKind::rough)
+    if (effects_.have_spins())
         measure_rotation(discs(), spins(), *engine_->species_table(), effects_.contact.inertia,
                          velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any())

@@ -153,8 +153,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         report["lost_collisions"] = {{"share", lost.share},
                                      {"pressure_error", lost.pressure_error}};
     }
-    if (scene.effects.contact.kind == ContactKind::rough)
-        report["rotational_energy"] = result.end.rotational_energy;
+    if (scene.effects.have_spins()) report["rotational_energy"] = result.end.rotational_energy;
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
     if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
     if (scene.measurements) report["measurements"] = tables_json(result.tables);

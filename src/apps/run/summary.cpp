@@ -219,7 +219,7 @@ std::string collision_lines(const Scene& scene, const RunResult& result) {
 
 std::string energy_text(const Scene& scene, const RunResult& result) {
     std::string others;
-    if (scene.effects.contact.kind == ContactKind::rough)
+    if (scene.effects.have_spins())
         others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
     if (scene.effects.gravity.is_any())
         others += fmt::format(", {:.17g} of height", result.end.potential_energy);

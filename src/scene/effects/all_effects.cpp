@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "scene/boundaries/boundary.hpp"
@@ -7,13 +8,19 @@
 namespace carrom {
 
 std::string summary_of(const Effects& effects) {
-    std::string text = description(effects);
+    std::string text;
     const auto add = [&text](const std::string& more) {
         if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
     };
-    add(summary_of_boundaries(effects));
-    for (const EffectDeclaration& effect : all_effects())
+    const auto add_if = [&](const EffectDeclaration& effect) {
         if (effect.summary) add(effect.summary(effects));
+    };
+    // What discs do to each other, what they are, what is around them, and what else acts on them.
+    const std::span all(all_effects());
+    add_if(all.front());
+    add(description(effects.species));
+    add(summary_of_boundaries(effects));
+    std::ranges::for_each(all.subspan(1), add_if);
     return text;
 }
 
