@@ -46,12 +46,13 @@ double beyond(double low, double place, double high) { return std::max(low - pla
 
 } // namespace
 
-StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
-                       const Communicator& communicator, const Frame& frame, double time,
-                       std::span<const double> spins, double energy_given)
+StateCheck::StateCheck(const Scene& scene, const SpeciesTable& species, std::span<const Disc> own,
+                       std::int64_t micro_steps_done, const Communicator& communicator,
+                       const Frame& frame, double time, std::span<const double> spins,
+                       double energy_given)
     : scene_(scene),
       effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))),
-      species_(scene.effects.species, scene.radius), communicator_(communicator),
+      species_(species), communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {

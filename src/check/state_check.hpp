@@ -42,9 +42,10 @@ class StateCheck {
 public:
     /// Takes the present state as right. `scene` must outlive this and have the default
     /// arithmetic. `spins` of rough discs run along the discs, per micro-step. **Collective.**
-    StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
-               const Communicator& communicator, const Frame& frame = {}, double time = 0,
-               std::span<const double> spins = {}, double energy_given = 0);
+    StateCheck(const Scene& scene, const SpeciesTable& species, std::span<const Disc> own,
+               std::int64_t micro_steps_done, const Communicator& communicator,
+               const Frame& frame = {}, double time = 0, std::span<const double> spins = {},
+               double energy_given = 0);
 
     /// Inspects the end of a step. `log` has this rank's share of the collisions since the last
     /// inspection. If an invariant is broken every rank throws the same CheckFailure.

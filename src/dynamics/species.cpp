@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/species.hpp"
 
-#include <algorithm>
-#include <mutex>
-
 namespace carrom {
 
 namespace {
@@ -16,7 +13,7 @@ constexpr std::size_t most_numbers = std::numeric_limits<std::uint16_t>::max() +
 
 } // namespace
 
-void SpeciesTable::Table::spread(std::span<const Species> species) {
+void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_discs) {
     const bool has_numbers = species.size() <= most_numbers;
     // A list that grows takes up to twice what it needs.
     sizes.reserve(has_numbers ? species.size() : n_discs);
@@ -40,26 +37,8 @@ SpeciesTable::SpeciesTable(std::span<const Species> species, double radius) {
         {std::numeric_limits<DiscId>::max(),
          species.empty() ? SizeAndMass{radius, 1} : table->ranges.back().values});
     if (!species.empty()) table->ranges.erase(table->ranges.end() - 2); // the last one has no end
-    table->n_discs = end;
+    if (species.size() > few_species) table->spread(species, end);
     table_ = table;
-    if (species.size() > few_species) {
-        // A run has several tables of the same discs. They share their memory.
-        static std::mutex one_at_a_time;
-        static std::weak_ptr<const Table> last;
-        const auto is_same = [](const Range& a, const Range& b) {
-            return a.end == b.end && a.values.radius == b.values.radius &&
-                   a.values.mass == b.values.mass;
-        };
-        const std::scoped_lock lock(one_at_a_time);
-        const std::shared_ptr<const Table> known = last.lock();
-        if (known && known->n_discs == end &&
-            std::ranges::equal(known->ranges, table->ranges, is_same)) {
-            table_ = known;
-        } else {
-            table->spread(species);
-            last = table_;
-        }
-    }
     ranges_ = table_->ranges.data();
     sizes_ = table_->sizes.empty() ? nullptr : table_->sizes.data();
     species_of_id_ = table_->species_of_id.empty() ? nullptr : table_->species_of_id.data();

@@ -31,7 +31,8 @@ struct SizeAndMass {
     double mass = 1;
 };
 
-/// Copies share their tables.
+/// Copies share their memory. A run makes one table: its dynamics has it, and all others get a copy
+/// (Engine::species_table).
 class SpeciesTable {
 public:
     /// Without species all discs have this radius and mass 1.
@@ -51,11 +52,10 @@ private:
     };
     struct Table {
         std::vector<Range> ranges;
-        DiscId n_discs = 0;
         std::vector<SizeAndMass> sizes;           ///< of each species, or of each disc; or empty
         std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
 
-        void spread(std::span<const Species> species);
+        void spread(std::span<const Species> species, DiscId n_discs);
     };
 
     std::shared_ptr<const Table> table_;

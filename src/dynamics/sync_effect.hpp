@@ -28,17 +28,18 @@ namespace carrom {
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
 /// they are taken about the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
-    std::span<Disc> discs;   ///< some may have departed: effects leave those alone
-    std::span<double> spins; ///< along the discs; empty unless discs are rough
-    std::int64_t n_syncs;    ///< since the scene's start, this one included
+    const SpeciesTable& species;  ///< the radius and the mass of each disc
+    std::span<Disc> discs = {};   ///< some may have departed: effects leave those alone
+    std::span<double> spins = {}; ///< along the discs; empty unless discs are rough
+    std::int64_t n_syncs = 0;     ///< since the scene's start, this one included
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.
-    std::function<void(const Part& part)> in_parts;
+    std::function<void(const Part& part)> in_parts = {};
     /// Adds up in place over all ranks. **Collective.**
-    std::function<void(std::span<ExactSum>)> add_over_ranks;
+    std::function<void(std::span<ExactSum>)> add_over_ranks = {};
     /// **Collective.**
-    std::function<double(double)> largest_over_ranks;
+    std::function<double(double)> largest_over_ranks = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
     /// a copy of `sums`. **Collective.**

@@ -61,9 +61,7 @@ public:
         const = 0; ///< the discs of this rank that have left the box, which own() does not have
     virtual SideSpans side_columns() const { return {}; }     ///< along `own()`
     virtual SideSpans departed_columns() const { return {}; } ///< along `departed()`
-    virtual const SpeciesTable* species_table() const {
-        return nullptr;
-    } ///< null unless the dynamics has several species
+    virtual const SpeciesTable& species_table() const = 0;
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< the frame of the own discs at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too

@@ -35,6 +35,14 @@ template <class Dynamics> SideColumns stored_columns(const Scene& scene, StoredS
     return columns;
 }
 
+/// The dynamics' own table, or one of equal discs.
+template <class Dynamics> SpeciesTable species_of(const Dynamics& dynamics) {
+    if constexpr (Dynamics::has_species)
+        return dynamics.species_table();
+    else
+        return SpeciesTable({}, dynamics.radius());
+}
+
 } // namespace
 
 template <class Dynamics>
@@ -44,7 +52,8 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
              stored_columns<Dynamics>(scene, state)),
-      n_micro_done_(state.micro_steps_done), sync_action_(scene, communicator, tuning.threads),
+      n_micro_done_(state.micro_steps_done), species_(species_of(dynamics_)),
+      sync_action_(scene, species_, communicator, tuning.threads),
       flight_length_(flight_length(scene.effects)),
       last_micro_step_(scene.steps * scene.micro_steps) {
     flown_before_ = static_cast<double>(last_sync() % flight_length_);

@@ -31,10 +31,7 @@ public:
     std::span<const Disc> departed() const final { return discs_.departed(); }
     SideSpans side_columns() const final { return discs_.own_columns(); }
     SideSpans departed_columns() const final { return discs_.departed_columns().spans(); }
-    const SpeciesTable* species_table() const final {
-        if constexpr (Dynamics::has_species) return &dynamics_.species_table();
-        return nullptr;
-    }
+    const SpeciesTable& species_table() const final { return species_; }
     double clock() const final { return time_; }
     Frame frame() const final;
     FlightIntegral flight_integral() const final {
@@ -100,6 +97,7 @@ private:
     double energy_of_own() const;
     std::int64_t flight_length(const Effects& effects) const;
 
+    SpeciesTable species_;
     SyncAction sync_action_;
     std::int64_t flight_length_; ///< micro-steps from one addition of whole flights to the next
     std::int64_t last_micro_step_, n_syncs_ = 0;

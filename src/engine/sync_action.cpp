@@ -7,16 +7,16 @@
 
 namespace carrom {
 
-SyncAction::SyncAction(const Scene& scene, const Communicator& communicator, int n_threads)
-    : effects_(sync_effects_of(scene)), species_(scene.effects.species, scene.radius),
-      inertia_(scene.effects.contact.inertia), box_(scene.box),
-      shear_(scene.effects.are_sheared()
-                 ? scene.effects.shear / static_cast<double>(scene.micro_steps)
-                 : 0),
+SyncAction::SyncAction(const Scene& scene, const SpeciesTable& species,
+                       const Communicator& communicator, int n_threads)
+    : effects_(sync_effects_of(scene)), species_(species), inertia_(scene.effects.contact.inertia),
+      box_(scene.box), shear_(scene.effects.are_sheared()
+                                  ? scene.effects.shear / static_cast<double>(scene.micro_steps)
+                                  : 0),
       communicator_(communicator), n_threads_(n_threads) {}
 
 void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
-    SyncDiscs at;
+    SyncDiscs at{species_};
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
     at.n_syncs = n_syncs;

@@ -11,7 +11,8 @@ namespace carrom {
 
 class SyncAction {
 public:
-    SyncAction(const Scene& scene, const Communicator& communicator, int n_threads);
+    SyncAction(const Scene& scene, const SpeciesTable& species, const Communicator& communicator,
+               int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.

@@ -119,15 +119,16 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
             return vector_of(shown.vx * k, shown.vy * k);
         });
     if (!header.shown.species.empty()) {
+        // A search in a list of species, because a table of all discs takes memory.
+        const auto number_of = [ends = ends_of(header.shown.species)](const Disc& disc) {
+            return std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin();
+        };
         add(radius_path, H5T_NATIVE_DOUBLE, h5md::unit_of(header.shown, 1, 0),
-            [table = SpeciesTable(header.shown.species, header.radius)](const Disc& disc) {
-                return table.of(disc.id).radius;
+            [=, species = header.shown.species](const Disc& disc) {
+                return species[static_cast<std::size_t>(number_of(disc))].radius;
             });
         add(species_number_path, H5T_NATIVE_INT32, "",
-            [ends = ends_of(header.shown.species)](const Disc& disc) {
-                const auto end = std::upper_bound(ends.begin(), ends.end(), disc.id);
-                return static_cast<std::int32_t>(end - ends.begin());
-            });
+            [=](const Disc& disc) { return static_cast<std::int32_t>(number_of(disc)); });
     }
     for (const StateColumn& column : disc_columns)
         targets.push_back({path_of(column), type_of(column), 8, "", column.put});

@@ -52,7 +52,7 @@ std::array<double, 3> Flights::means(std::span<const Disc> discs, std::uint64_t 
                                                         : std::span<const DiscImage>{};
     const FlightBounds bounds{(follows_lengths() ? 0x1p22 : 4) * run_.scene.box.longest(),
                               have_velocities_ ? fastest_of(discs) : 0};
-    const SpeciesTable species(run_.scene.effects.species, run_.scene.radius);
+    const SpeciesTable& species = run_.simulation.species_table();
     std::vector<Flight> flights;
     PieceStream stream(run_.ranks, discs, n_discs, [](const Disc& disc) { return disc.id; });
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {

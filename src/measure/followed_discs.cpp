@@ -11,7 +11,7 @@
 namespace carrom {
 
 FollowedDiscs::FollowedDiscs(MeasuredRun& run)
-    : run_(run), species_(run.scene.effects.species, run.scene.radius) {}
+    : run_(run), species_(run.simulation.species_table()) {}
 
 void FollowedDiscs::begin() {
     n_discs_ = run_.ranks.sum(std::uint64_t{run_.simulation.discs().size()});

@@ -154,9 +154,7 @@ void Simulation::begin_stress_sums(double bound) {
 const StressSums& Simulation::stress_sums() const { return *stress_; }
 
 MotionSample Simulation::motion_sample() const {
-    const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
-                                                                       : engine_->species_table();
-    MotionSample sample = sample_motion(in_flow(), species_table, heaviest_, engine_->n_discs(),
+    MotionSample sample = sample_motion(in_flow(), table_if_mixed(), heaviest_, engine_->n_discs(),
                                         n_threads_, communicator_);
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     sample.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
@@ -173,8 +171,9 @@ void Simulation::integrate_flights(MotionSample& sample) const {
 }
 
 void Simulation::check_every_step(const Scene& scene) {
-    check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_,
-                                          frame(), clock(), spins(), engine_->energy_given());
+    check_ = std::make_unique<StateCheck>(scene, species_table(), discs(), micro_steps_done(),
+                                          communicator_, frame(), clock(), spins(),
+                                          engine_->energy_given());
 }
 
 void Simulation::advance_checked() {
@@ -283,7 +282,7 @@ LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& o
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
     CellSizes sizes;
-    if (!effects_.species.empty()) sizes.species = engine_->species_table();
+    sizes.species = table_if_mixed();
     for (const Species& one : effects_.species)
         sizes.largest_radius = std::max(sizes.largest_radius, one.radius);
     sizes.growth = effects_.growth_at(static_cast<double>(step()));
@@ -327,17 +326,21 @@ Totals Simulation::totals() const {
     return totals;
 }
 
+const SpeciesTable& Simulation::species_table() const { return engine_->species_table(); }
+
+const SpeciesTable* Simulation::table_if_mixed() const {
+    return effects_.species.empty() ? nullptr : &species_table();
+}
+
 Totals Simulation::energies() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
-                                                                       : engine_->species_table();
-    measure_motion(in_motion(), species_table, velocity_unit_, communicator_, totals);
+    measure_motion(in_motion(), table_if_mixed(), velocity_unit_, communicator_, totals);
     if (effects_.have_spins())
-        measure_rotation(discs(), spins(), *engine_->species_table(), effects_.contact.inertia,
+        measure_rotation(discs(), spins(), species_table(), effects_.contact.inertia,
                          velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any())
-        measure_height(shown(), species_table, effects_.gravity, box_, communicator_, totals);
+        measure_height(shown(), table_if_mixed(), effects_.gravity, box_, communicator_, totals);
     return totals;
 }
 

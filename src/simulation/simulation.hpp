@@ -61,6 +61,8 @@ public:
     SideSpans side_columns() const;
     /// The spins, in angles per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
+    /// The radius and the mass of each disc. A copy shares the memory.
+    const SpeciesTable& species_table() const;
     /// The present time in micro-steps since the last sync, for Disc::x_at.
     double clock() const;
     /// The frame of the coordinates of `discs()` at `clock()`. It is the box's own
@@ -134,6 +136,7 @@ public:
 private:
     void advance_checked();
     void hand_over_pairs();
+    const SpeciesTable* table_if_mixed() const; ///< null if all discs are equal
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
     /// Like `shown()`, but only the velocities are right.
     std::span<const Disc> in_motion() const;

@@ -79,7 +79,7 @@ public:
           n_kinds_(profile_species.of(run.output) != 0
                        ? std::max<std::size_t>(run.scene.effects.species.size(), 1)
                        : 1),
-          species_(run.scene.effects.species, run.scene.radius), sums_(0, 1, 1) {
+          species_(run.simulation.species_table()), sums_(0, 1, 1) {
         const auto& sides = run.scene.effects.boundaries;
         are_sides_moving_ = std::any_of(sides.begin(), sides.end(), [](const Boundary& side) {
             return side.speed != 0 || side.amplitude != 0;

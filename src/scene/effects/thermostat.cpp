@@ -39,8 +39,8 @@ namespace {
 class ThermostatEffect : public SyncEffect {
 public:
     explicit ThermostatEffect(const Scene& scene)
-        : setting_(scene.effects.thermostat), species_(scene.effects.species, scene.radius),
-          inertia_(scene.effects.contact.inertia), interval_(static_cast<double>(scene.sync_every)),
+        : setting_(scene.effects.thermostat), inertia_(scene.effects.contact.inertia),
+          interval_(static_cast<double>(scene.sync_every)),
           n_discs_(static_cast<double>(scene.n_discs)) {
         const auto k = static_cast<double>(scene.micro_steps);
         setting_.strength /= k * k * k;
@@ -55,11 +55,11 @@ protected:
         return {setting_.seed, Purpose::sync, id, static_cast<std::uint64_t>(at.n_syncs)};
     }
     /// The root mean square of a velocity's component in equilibrium, and that of a spin.
-    double thermal_speed(DiscId id) const {
-        return std::sqrt(setting_.temperature / species_.of(id).mass);
+    double thermal_speed(const SizeAndMass& body) const {
+        return std::sqrt(setting_.temperature / body.mass);
     }
-    double thermal_spin(DiscId id) const {
-        return thermal_speed(id) / (species_.of(id).radius * std::sqrt(inertia_));
+    double thermal_spin(const SizeAndMass& body) const {
+        return thermal_speed(body) / (body.radius * std::sqrt(inertia_));
     }
     /// Calls what(disc i, random numbers of it) for each disc in the box.
     template <class What> void for_each(const SyncDiscs& at, const What& what) const {
@@ -70,7 +70,6 @@ protected:
     }
 
     Thermostat setting_;
-    SpeciesTable species_;
     double inertia_, interval_, n_discs_, heaviest_ = 1;
 };
 
@@ -92,7 +91,7 @@ public:
         at.add_up(sums, [&](std::size_t i, std::vector<ExactSum>& parts) {
             const DiscId id = at.discs[i].id;
             const NormalPair kick = kick_of(id);
-            const double mass = species_.of(id).mass;
+            const double mass = at.species.of(id).mass;
             parts[0].add(mass * kick.x);
             parts[1].add(mass * kick.y);
             parts[2].add(mass);
@@ -121,11 +120,12 @@ public:
         for_each(at, [&](std::size_t i, DiscRandom random) {
             if (random.uniform() < kept) return;
             Disc& disc = at.discs[i];
-            const double speed = thermal_speed(disc.id);
+            const SizeAndMass& body = at.species.of(disc.id);
+            const double speed = thermal_speed(body);
             const NormalPair n = random_normals(random);
             disc.vx = speed * n.x;
             disc.vy = speed * n.y;
-            if (!at.spins.empty()) at.spins[i] = thermal_spin(disc.id) * random_normals(random).x;
+            if (!at.spins.empty()) at.spins[i] = thermal_spin(body) * random_normals(random).x;
         });
     }
 };
@@ -139,13 +139,14 @@ public:
         const double noise = std::sqrt((1 - kept) * (1 + kept));
         for_each(at, [&](std::size_t i, DiscRandom random) {
             Disc& disc = at.discs[i];
-            const double speed = noise * thermal_speed(disc.id);
+            const SizeAndMass& body = at.species.of(disc.id);
+            const double speed = noise * thermal_speed(body);
             const NormalPair n = random_normals(random);
             disc.vx = kept * disc.vx + speed * n.x;
             disc.vy = kept * disc.vy + speed * n.y;
             if (at.spins.empty()) return;
             at.spins[i] = kept * at.spins[i] +
-                          noise * thermal_spin(disc.id) * random_normals(random).x;
+                          noise * thermal_spin(body) * random_normals(random).x;
         });
     }
 };
@@ -160,7 +161,7 @@ public:
             const Disc& disc = at.discs[i];
             largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
             if (!at.spins.empty())
-                largest = std::max(largest, species_.of(disc.id).radius * std::fabs(at.spins[i]));
+                largest = std::max(largest, at.species.of(disc.id).radius * std::fabs(at.spins[i]));
         }
         largest = at.largest_over_ranks(largest);
         if (!(largest > 0)) return; // all are at rest
@@ -169,7 +170,7 @@ public:
         sums.emplace_back(mass_bound);
         sums.emplace_back(2 * n_discs_);
         at.add_up(sums, [&](std::size_t i, std::vector<ExactSum>& parts) {
-            const double mass = species_.of(at.discs[i].id).mass;
+            const double mass = at.species.of(at.discs[i].id).mass;
             parts[0].add(mass * at.discs[i].vx);
             parts[1].add(mass * at.discs[i].vy);
             parts[2].add(mass);
@@ -181,7 +182,7 @@ public:
         std::vector<ExactSum> energy(1, ExactSum(16 * mass_bound * largest * largest));
         at.add_up(energy, [&](std::size_t i, std::vector<ExactSum>& parts) {
             const Disc& disc = at.discs[i];
-            const SizeAndMass& body = species_.of(disc.id);
+            const SizeAndMass& body = at.species.of(disc.id);
             const double wx = disc.vx - mean_x, wy = disc.vy - mean_y;
             const double turning = at.spins.empty() ? 0 : body.radius * at.spins[i];
             parts[0].add(0.5 * body.mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));

@@ -140,7 +140,7 @@ public:
         : world_(Communicator::world()), test_scene_(gas_of(effects)),
           scene_(checked_scene(test_scene_, method)),
           engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)),
-          check_(scene_, engine_->own(), 0, world_, {}, 0,
+          check_(scene_, engine_->species_table(), engine_->own(), 0, world_, {}, 0,
                  engine_->side_columns()[SideColumn::spin]) {
         engine_->log_to(&log);
         engine_->advance_towards(1);

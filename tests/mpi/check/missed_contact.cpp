@@ -64,7 +64,8 @@ int main(int argc, char** argv) {
                 spins.push_back(0.125 * static_cast<double>(local_view.discs[i].id));
             return spins;
         };
-        StateCheck check(scene, std::span(start.discs).first(start.n_own), 0, world, {}, 0,
+        StateCheck check(scene, SpeciesTable(scene.effects.species, scene.radius),
+                         std::span(start.discs).first(start.n_own), 0, world, {}, 0,
                          spins_of(start));
         try {
             for (const std::int64_t step : {1, 2}) {

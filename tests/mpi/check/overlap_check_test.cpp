@@ -39,8 +39,9 @@ struct Passing {
         discs[1].id = 1;
         discs[0].y = discs[1].y = 10;
         const LocalDiscs local_view = at(0);
-        check = std::make_unique<StateCheck>(
-            scene, std::span(local_view.discs).first(local_view.n_own), 0, world);
+        check = std::make_unique<StateCheck>(scene, SpeciesTable({}, scene.radius),
+                                             std::span(local_view.discs).first(local_view.n_own), 0,
+                                             world);
     }
     LocalDiscs at(double time) const {
         return view_by_hand(discs, time, 20, 1, world.rank(), world.size());

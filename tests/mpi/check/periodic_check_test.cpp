@@ -62,8 +62,8 @@ std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Commu
         now.back().x += disc.vx;
         now.back().tau = 1;
     }
-    StateCheck check(scene, before, 0, world);
     const std::unique_ptr<Engine> engine = make_time_stepped_engine(scene, {now, 1}, world, {});
+    StateCheck check(scene, engine->species_table(), before, 0, world);
     try {
         check.inspect(engine->local_view(), 1, {});
     } catch (const CheckFailure& found) {

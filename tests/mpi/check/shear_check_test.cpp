@@ -37,7 +37,8 @@ std::string failure_with(const TestScene& test, Method method, double factor,
     StressSums stress(0x1p60); // the time-stepped engine finds the work where it finds the stress
     engine->add_stress_to(&stress);
     const auto spins = [&] { return engine->side_columns()[SideColumn::spin]; };
-    StateCheck check(scene, engine->own(), 0, world, engine->frame(), engine->clock(), spins());
+    StateCheck check(scene, engine->species_table(), engine->own(), 0, world, engine->frame(),
+                     engine->clock(), spins());
     for (std::int64_t step = 1; step <= 30; ++step) {
         std::vector<Collision> log;
         double work = 0;
