@@ -14,20 +14,20 @@ Key correlation_points_key() {
         .within({4, 64});
 }
 
-void check_correlation_points(const Check& check) {
+void check_correlation_points(const SceneDraft& draft) {
     const auto points = static_cast<std::uint64_t>(
-        correlation_points.of(*check.scene.measurements));
+        correlation_points.of(*draft.scene.measurements));
     if (!std::has_single_bit(points))
-        check.refuse({correlation_points.key_name(), quantities_key},
+        draft.refuse({correlation_points.key_name(), quantities_key},
                      fmt::format("'{}' must be 4, 8, 16, 32 or 64, not {}",
                                  correlation_points.key_name(), points));
 }
 
-void warn_without_lags(const Check& check) {
-    const MeasurementOutput& output = *check.scene.measurements;
-    const std::int64_t steps = check.scene.steps - output.from_step;
-    if (check.scene.steps == 0 || steps < 0 || steps >= output.every_steps) return;
-    check.scene.warnings.push_back(fmt::format(
+void warn_without_lags(const SceneDraft& draft) {
+    const MeasurementOutput& output = *draft.scene.measurements;
+    const std::int64_t steps = draft.scene.steps - output.from_step;
+    if (draft.scene.steps == 0 || steps < 0 || steps >= output.every_steps) return;
+    draft.scene.warnings.push_back(fmt::format(
         "no lags of \"correlations\" and \"transport\": the shortest one takes {} steps, "
         "and from step {} to the last one are {}; try: output.measurements.every_steps "
         "= {} or less",

@@ -21,9 +21,9 @@ namespace carrom {
 /// A setting that quantities with such correlations share.
 inline constexpr QuantitySetting correlation_points{"correlation_points", 8};
 Key correlation_points_key();
-void check_correlation_points(const Check& check);
+void check_correlation_points(const SceneDraft& draft);
 /// Warns of a run that has no lag at all. A restart may go on to one, so this is no error.
-void warn_without_lags(const Check& check);
+void warn_without_lags(const SceneDraft& draft);
 
 class MultipleTau {
 public:

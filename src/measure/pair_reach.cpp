@@ -19,8 +19,8 @@ Key largest_distance_key() {
         .within({.low = 0, .excludes_low = true});
 }
 
-void check_largest_distance(const Check& check) {
-    Scene& scene = check.scene;
+void check_largest_distance(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps),
                                        1);
     const double wide = std::min(scene.box.x, end.x_high - end.x_low);
@@ -34,7 +34,7 @@ void check_largest_distance(const Check& check) {
         scene.measurements->derive(name, std::min(10 * scene.radius, largest));
     const double distance = largest_distance_setting.of(*scene.measurements);
     if (distance <= largest && distance > 0) return;
-    check.refuse({largest_distance_setting.key_name(), quantities_key},
+    draft.refuse({largest_distance_setting.key_name(), quantities_key},
                  fmt::format("distances of pairs cannot reach {:g}: half the width of the box "
                              "that centres of discs have is {:g}",
                              distance, largest));

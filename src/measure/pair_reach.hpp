@@ -18,7 +18,7 @@ inline std::size_t n_bins_of(const MeasuredRun& run) {
 Key largest_distance_key();
 /// Sets the distance if the scene does not: at most half the room of centres, in the
 /// smallest box of the run.
-void check_largest_distance(const Check& check);
+void check_largest_distance(const SceneDraft& draft);
 /// After a restart walls may move in less or further than before. A stored distance that was
 /// not set by the scene holds if there is room for it; otherwise this throws InputError.
 void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& distance);

@@ -20,9 +20,9 @@ Key largest_wavenumber_key() {
         .within({.low = 0, .excludes_low = true});
 }
 
-void check_wavenumber(const Check& check) {
+void check_wavenumber(const SceneDraft& draft) {
     constexpr double most_vectors = 1e6, most_by_default = 1e5;
-    Scene& scene = check.scene;
+    Scene& scene = draft.scene;
     const double lx = scene.box.x, ly = scene.box.y;
     const auto reach = [=](double n_vectors) {
         return std::sqrt(8 * std::numbers::pi * n_vectors / (lx * ly));
@@ -34,7 +34,7 @@ void check_wavenumber(const Check& check) {
     const double largest = largest_wavenumber.of(*scene.measurements);
     const double least = 2 * std::numbers::pi / std::max(lx, ly);
     if (largest >= least && largest <= reach(most_vectors)) return;
-    check.refuse({largest_wavenumber.key_name(), quantities_key},
+    draft.refuse({largest_wavenumber.key_name(), quantities_key},
                  fmt::format("'output.measurements.largest_wavenumber' must be from {:.6g}, the "
                              "box's first, to {:.6g}, where a million are, not {:g}",
                              least, reach(most_vectors), largest));

@@ -16,7 +16,7 @@ inline constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
 
 Key largest_wavenumber_key();
 /// At least one wave vector, and at most a million, because each is evaluated for each disc.
-void check_wavenumber(const Check& check);
+void check_wavenumber(const SceneDraft& draft);
 /// Wave vectors are those of a box that is periodic all round and whose images are at rest.
 template <bool (*is_measured)(const Scene&)>
 std::vector<Rule> rules_of_waves(std::string_view quantity) {

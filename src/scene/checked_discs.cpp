@@ -8,8 +8,8 @@
 #include "core/box_text.hpp"
 #include "lattices/lattice.hpp"
 #include "lattices/triangular.hpp"
-#include "scene/check.hpp"
 #include "scene/limits.hpp"
+#include "scene/scene_draft.hpp"
 
 namespace carrom {
 
@@ -33,40 +33,40 @@ std::string number_problem(const Scene& scene, SideColumn column, double number)
     return "a spin has no meaning without effects.contact.kind = \"rough\"";
 }
 
-void check_species(const Check& check) {
-    check.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
+void check_species(const SceneDraft& draft) {
+    draft.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
         if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count)) || n[0] != std::floor(n[0]))
             return fmt::format("its count must be a whole number from 1 to {}, not {}",
                                largest_count, n[0]);
         return body_problem(n[1], n[2]);
     });
     bool lists_bodies = false;
-    check.for_each_row("discs.list", [&](const Numbers& n, std::size_t, const Place&) {
+    draft.for_each_row("discs.list", [&](const Numbers& n, std::size_t, const Place&) {
         lists_bodies = lists_bodies || n.size() >= 6;
     });
-    check.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
+    draft.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
         if (!lists_bodies) return {};
         if (n.size() < 6) return "other rows have six numbers, [x, y, vx, vy, radius, mass]";
         return body_problem(n[4], n[5]);
     });
-    const bool has_column_of_radii = has_column(check.scene, DiscColumn::radius);
-    if (check.settings.has("discs.species") && (lists_bodies || has_column_of_radii))
-        check.refuse({"discs.species"}, fmt::format("'discs.species' has no meaning where '{}' "
+    const bool has_column_of_radii = has_column(draft.scene, DiscColumn::radius);
+    if (draft.settings.has("discs.species") && (lists_bodies || has_column_of_radii))
+        draft.refuse({"discs.species"}, fmt::format("'discs.species' has no meaning where '{}' "
                                                     "name radii",
                                                     lists_bodies ? "discs.list" : "discs.columns"));
 }
 
 /// Checks numbers of columns beside the states.
-void check_numbers(const Check& check) {
+void check_numbers(const SceneDraft& draft) {
     BySideColumn<bool> are_given;
     for (const SideColumn column : all_side_columns)
-        are_given[column] = has_column(check.scene, disc_column_of(column));
-    check.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
+        are_given[column] = has_column(draft.scene, disc_column_of(column));
+    draft.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
         if (n.size() % 2 == 0) return {};
         are_given[SideColumn::spin] = true;
-        return number_problem(check.scene, SideColumn::spin, n.back());
+        return number_problem(draft.scene, SideColumn::spin, n.back());
     });
-    check.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) {
+    draft.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) {
         std::string text;
         for (const SideColumn column : all_side_columns) {
             const double number = n[3 + static_cast<std::size_t>(column)];
@@ -74,39 +74,39 @@ void check_numbers(const Check& check) {
             text = are_given[column]
                        ? fmt::format("its {} is given by 'discs.list' or 'discs.columns' already",
                                      info_of(column).name)
-                       : number_problem(check.scene, column, number);
+                       : number_problem(draft.scene, column, number);
         }
         return text;
     });
 }
 
 /// The count may be given, or follow from a list or from species. All that are given must agree.
-void fill_count(const Check& check) {
-    Scene& scene = check.scene;
+void fill_count(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     std::uint64_t n_in_species = 0;
     for (const Species& one : scene.effects.species) n_in_species += one.count;
     const std::pair<std::string_view, std::uint64_t> sources[] = {
         {"discs.list", scene.listed_discs.size()}, {"discs.species", n_in_species}};
     std::string known_from = "discs.count";
     for (const auto& [key, n] : sources) {
-        if (!check.settings.has(key)) continue;
-        if (n == 0 && check.settings.is_right(key))
-            check.refuse({key}, fmt::format("'{}' is empty", key));
+        if (!draft.settings.has(key)) continue;
+        if (n == 0 && draft.settings.is_right(key))
+            draft.refuse({key}, fmt::format("'{}' is empty", key));
         else if (n > largest_count)
-            check.refuse({key}, fmt::format("'{}' has {} discs; at most {} are possible", key, n,
+            draft.refuse({key}, fmt::format("'{}' has {} discs; at most {} are possible", key, n,
                                             largest_count));
         else if (n > 0 && scene.n_discs > 0 && n != scene.n_discs)
-            check.refuse({key}, fmt::format("'{}' has {} discs, but '{}' has {}", key, n,
+            draft.refuse({key}, fmt::format("'{}' has {} discs, but '{}' has {}", key, n,
                                             known_from, scene.n_discs));
-        if (check.settings.has("discs.count") || scene.n_discs > 0) continue;
+        if (draft.settings.has("discs.count") || scene.n_discs > 0) continue;
         scene.n_discs = n;
         known_from = key;
     }
 }
 
 /// The widths that positions and numbers of a precision allow.
-void check_width(const Check& check, double smallest_radius) {
-    Scene& scene = check.scene;
+void check_width(const SceneDraft& draft, double smallest_radius) {
+    Scene& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
     if (l / r > largest_box_in_radii) {
         const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} "
@@ -116,63 +116,63 @@ void check_width(const Check& check, double smallest_radius) {
         if (scene.method == Method::event_driven && !scene.accuracy)
             scene.warnings.push_back(text);
         else
-            check.refuse_first(size_keys, text + "; take larger discs or a smaller box (method = "
+            draft.refuse_first(size_keys, text + "; take larger discs or a smaller box (method = "
                                                  "\"event-driven\" only warns)");
     }
     if (scene.precision == Precision::single &&
         (r < smallest_single_size || l > largest_single_size))
-        check.refuse_first(size_keys,
+        draft.refuse_first(size_keys,
                            "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
 }
 
 /// Whether the discs can fit at all.
-void check_sizes(const Check& check) {
-    Scene& scene = check.scene;
+void check_sizes(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     const auto& species = scene.effects.species;
     double smallest = scene.radius;
     for (const Species& one : species) smallest = std::min(smallest, one.radius);
     const double r = scene.radius;
     const double densest = species.empty() ? largest_packing : 1;
     if (scene.box.shortest() < 2 * r)
-        check.refuse_first(size_keys,
+        draft.refuse_first(size_keys,
                            fmt::format("a disc of radius {} does not fit into a box of {}: "
                                        "{} < 2 r",
                                        r, sides_text(scene.box),
                                        scene.box.is_square() ? "L" : "the shorter one"));
     else if (scene.packing() > densest)
-        check.refuse_first(size_keys,
+        draft.refuse_first(size_keys,
                            fmt::format("{} discs of radius {} cannot fit into a box of {}: "
                                        "they would cover {:.4g} of it, and no packing "
                                        "covers more than {}",
                                        scene.n_discs, r, sides_text(scene.box), scene.packing(),
                                        densest));
-    check_width(check, smallest);
+    check_width(draft, smallest);
 }
 
 /// Whether radii can follow the distribution: its limits are in order and not too small.
-bool check_distribution(const Check& check) {
-    const SizeDistribution& sizes = *check.scene.sizes;
+bool check_distribution(const SceneDraft& draft) {
+    const SizeDistribution& sizes = *draft.scene.sizes;
     for (const std::string_view part :
          {"distribution", "polydispersity", "mean", "smallest", "largest", "mass"})
-        if (const Setting* one = check.settings.find(fmt::format("discs.radius.{}", part));
+        if (const Setting* one = draft.settings.find(fmt::format("discs.radius.{}", part));
             one && one->is_wrong)
             return false;
     bool is_alone = true;
     for (const std::string_view other : {"discs.radius", "discs.species", "discs.list",
                                          "discs.columns", "discs.file", "discs.from"}) {
-        if (!check.settings.has(other)) continue;
+        if (!draft.settings.has(other)) continue;
         is_alone = false;
-        check.refuse({other},
+        draft.refuse({other},
                      fmt::format("'{}' has no meaning where radii follow a distribution", other));
     }
-    const bool has_mean = check.settings.has("discs.radius.mean"),
-               has_packing = check.settings.has("discs.packing");
+    const bool has_mean = draft.settings.has("discs.radius.mean"),
+               has_packing = draft.settings.has("discs.packing");
     if (!has_mean && !has_packing)
-        check.refuse({}, "'discs.radius.mean' is missing, or 'discs.packing', which gives it");
+        draft.refuse({}, "'discs.radius.mean' is missing, or 'discs.packing', which gives it");
     if (!is_alone || has_mean == has_packing) return false;
     const auto [smallest, largest] = size_limits(sizes);
     if (smallest > 0 && smallest <= largest) return true;
-    check.refuse({"discs.radius.smallest", "discs.radius.largest", "discs.radius.polydispersity"},
+    draft.refuse({"discs.radius.smallest", "discs.radius.largest", "discs.radius.polydispersity"},
                  fmt::format("radii from {:.4g} to {:.4g} times the mean: the smallest must be "
                              "positive and not above the largest; set discs.radius.smallest, "
                              "or a smaller polydispersity",
@@ -181,10 +181,10 @@ bool check_distribution(const Check& check) {
 }
 
 /// Fills in box and radius. Returns true if they are known and the discs may fit.
-bool fill_sizes(const Check& check) {
-    Scene& scene = check.scene;
-    const Settings& settings = check.settings;
-    const std::size_t n_problems = check.problems.size();
+bool fill_sizes(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
+    const Settings& settings = draft.settings;
+    const std::size_t n_problems = draft.problems.size();
     const bool has_radius = settings.has("discs.radius");
     if (scene.box == Box() || scene.n_discs == 0) return false;
     for (const std::string_view key : size_keys) {
@@ -197,7 +197,7 @@ bool fill_sizes(const Check& check) {
                                ? std::get<double>(settings.find("discs.packing")->value.data)
                                : 0;
     if (scene.sizes) {
-        if (!check_distribution(check)) return false;
+        if (!check_distribution(draft)) return false;
         scene.effects.species = species_of_sizes(*scene.sizes, scene.n_discs,
                                                  packing * scene.box.area());
     } else if (has_packing) {
@@ -207,17 +207,17 @@ bool fill_sizes(const Check& check) {
     for (const Species& one : scene.effects.species)
         scene.radius = std::max(scene.radius, one.radius);
     if (scene.radius == 0) return false;
-    check_sizes(check);
-    return check.problems.size() == n_problems;
+    check_sizes(draft);
+    return draft.problems.size() == n_problems;
 }
 
 /// The lattice of a periodic box must fit it, and have room for the discs.
-void check_triangular(const Check& check) {
-    const Scene& scene = check.scene;
+void check_triangular(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return; // rules.cpp
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     if (!lattice)
-        return check.refuse(
+        return draft.refuse(
             {"discs.generator"},
             fmt::format("no triangular lattice of {} discs fits a box of {}: columns times an even "
                         "number of rows, with edges in the ratio of columns to rows sqrt(3) / 2; "
@@ -226,7 +226,7 @@ void check_triangular(const Check& check) {
                         nearest_triangular(scene.n_discs, scene.box)));
     const double nearest = lattice->nearest();
     if (2 * scene.radius <= nearest * (1 + 0x1p-40)) return;
-    check.refuse_first(
+    draft.refuse_first(
         size_keys, fmt::format("discs of radius {} overlap on the triangular lattice of {} x {} "
                                "sites in a box of {}: r is at most {:.10g} there",
                                scene.radius, lattice->columns, lattice->rows, sides_text(scene.box),
@@ -234,8 +234,8 @@ void check_triangular(const Check& check) {
 }
 
 /// Random insertion stalls at a packing fraction of about 0.54: denser gases start from a lattice.
-void check_generator(const Check& check) {
-    Scene& scene = check.scene;
+void check_generator(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     if (scene.generator == Generator::random &&
         scene.packing() > largest_random_packing * (1 + 1e-12)) {
         scene.generator = Generator::lattice;
@@ -245,10 +245,10 @@ void check_generator(const Check& check) {
                         "\"compressed\" makes a random start",
                         largest_random_packing, scene.n_discs, scene.packing()));
     }
-    if (scene.generator == Generator::triangular) check_triangular(check);
+    if (scene.generator == Generator::triangular) check_triangular(draft);
     if (scene.generator == Generator::lattice &&
         !widest_lattice(scene.n_discs, scene.box, scene.radius))
-        check.refuse_first(
+        draft.refuse_first(
             size_keys,
             fmt::format("no lattice of {} discs of radius {} fits into a box of {}{}",
                         scene.n_discs, scene.radius, sides_text(scene.box),
@@ -259,8 +259,8 @@ void check_generator(const Check& check) {
 }
 
 /// The lightest discs are the fastest ones.
-void check_temperature(const Check& check) {
-    const Scene& scene = check.scene;
+void check_temperature(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;
     double lightest = scene.effects.species.empty() ? 1 : INFINITY;
     for (const Species& one : scene.effects.species) lightest = std::min(lightest, one.mass);
@@ -269,20 +269,20 @@ void check_temperature(const Check& check) {
     if (!(speed >= smallest_size && speed <= 0x1p-8 * largest_size))
         text = fmt::format("discs of mass {} would have a speed of {:.4g}, outside 2^-250 to 2^242",
                            lightest, speed);
-    if (!text.empty()) check.refuse({"discs.temperature"}, "'discs.temperature': " + text);
+    if (!text.empty()) draft.refuse({"discs.temperature"}, "'discs.temperature': " + text);
 }
 
-void check_velocities(const Check& check) {
-    const Scene& scene = check.scene;
+void check_velocities(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     if (scene.generator == Generator::legacy && scene.seed > 0xFFFFFFFFu)
-        check.refuse({"discs.seed"}, fmt::format("'discs.seed' must be from 0 to 4294967295 with "
+        draft.refuse({"discs.seed"}, fmt::format("'discs.seed' must be from 0 to 4294967295 with "
                                                  "discs.generator = \"legacy\", not {}",
                                                  scene.seed));
     if (const std::string text = speed_problem(scene.speed, scene);
         !text.empty() && scene.generator != Generator::file)
-        check.refuse({"discs.speed"}, "'discs.speed': " + text);
-    check_temperature(check);
-    check.refuse_rows("discs.streams", [&scene](const Numbers& n, std::size_t) {
+        draft.refuse({"discs.speed"}, "'discs.speed': " + text);
+    check_temperature(draft);
+    draft.refuse_rows("discs.streams", [&scene](const Numbers& n, std::size_t) {
         std::string text;
         const bool is_finite = std::all_of(n.begin(), n.begin() + 4,
                                            [](double x) { return std::isfinite(x); });
@@ -296,38 +296,38 @@ void check_velocities(const Check& check) {
 }
 
 /// Whether radii are in a file that has not been read, or has wrong lines.
-bool are_radii_unknown(const Check& check) {
-    return has_column(check.scene, DiscColumn::radius) &&
-           (!check.columns || !check.columns->is_whole);
+bool are_radii_unknown(const SceneDraft& draft) {
+    return has_column(draft.scene, DiscColumn::radius) &&
+           (!draft.columns || !draft.columns->is_whole);
 }
 
 } // namespace
 
-bool check_discs(const Check& check) {
-    Scene& scene = check.scene;
+bool check_discs(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     const bool is_legacy_text = scene.lines_before_discs > 0;
     if (scene.generator == Generator::file && !is_legacy_text &&
-        !check.settings.has("discs.file") && !check.settings.has("discs.list") &&
-        !check.settings.has("discs.from"))
-        check.refuse({"discs.generator"}, "discs.generator is \"file\", but there is no "
+        !draft.settings.has("discs.file") && !draft.settings.has("discs.list") &&
+        !draft.settings.has("discs.from"))
+        draft.refuse({"discs.generator"}, "discs.generator is \"file\", but there is no "
                                           "'discs.file', 'discs.list' or 'discs.from'");
-    const std::size_t n_problems = check.problems.size();
-    check_species(check);
-    const bool are_species_right = check.problems.size() == n_problems;
-    fill_count(check);
-    const bool is_right = fill_sizes(check) && are_species_right;
-    check_numbers(check);
-    check_velocities(check);
+    const std::size_t n_problems = draft.problems.size();
+    check_species(draft);
+    const bool are_species_right = draft.problems.size() == n_problems;
+    fill_count(draft);
+    const bool is_right = fill_sizes(draft) && are_species_right;
+    check_numbers(draft);
+    check_velocities(draft);
     if (!is_right) {
         scene.radius = 0;
-        if (!are_radii_unknown(check)) scene.box = {};
+        if (!are_radii_unknown(draft)) scene.box = {};
         return false;
     }
     const SpeciesTable species(scene.effects.species, scene.radius);
-    check.refuse_rows("discs.list", [&](const Numbers&, std::size_t id) {
+    draft.refuse_rows("discs.list", [&](const Numbers&, std::size_t id) {
         return disc_problem(scene.listed_discs[id], scene, species.of(id).radius);
     });
-    check_generator(check);
+    check_generator(draft);
     return true;
 }
 

@@ -6,7 +6,7 @@
 
 #include "scene/limits.hpp"
 #include "scene/quantity.hpp"
-#include "scene/check.hpp"
+#include "scene/scene_draft.hpp"
 
 namespace carrom {
 
@@ -16,26 +16,26 @@ namespace {
 constexpr std::int64_t most_samples_of_histories = 100000;
 
 /// A last step of 0 only shows the start, and measures nothing.
-void check_first_sample(const Check& check, std::string_view key, std::int64_t from) {
-    const std::int64_t last = check.scene.steps;
+void check_first_sample(const SceneDraft& draft, std::string_view key, std::int64_t from) {
+    const std::int64_t last = draft.scene.steps;
     if (from > last && last > 0)
-        check.refuse({key},
+        draft.refuse({key},
                      fmt::format("'{}' = {} lies beyond the last step, {}", key, from, last));
 }
 
-void check_samples(const Check& check) {
-    check_first_sample(check, "output.averages_from_step", check.scene.averages_from);
-    if (!check.scene.measurements) return;
-    const MeasurementOutput& output = *check.scene.measurements;
-    check_first_sample(check, "output.measurements.from_step", output.from_step);
-    const std::int64_t steps = check.scene.steps - output.from_step;
+void check_samples(const SceneDraft& draft) {
+    check_first_sample(draft, "output.averages_from_step", draft.scene.averages_from);
+    if (!draft.scene.measurements) return;
+    const MeasurementOutput& output = *draft.scene.measurements;
+    check_first_sample(draft, "output.measurements.from_step", output.from_step);
+    const std::int64_t steps = draft.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
     const std::vector<Quantity>& all = declared_quantities();
     const bool has_history = std::any_of(all.begin(), all.end(), [&output](const Quantity& one) {
         return one.has_history && output.measures(one.name);
     });
     if (!has_history || n_samples <= most_samples_of_histories) return;
-    check.refuse({"output.measurements.every_steps", quantities_key},
+    draft.refuse({"output.measurements.every_steps", quantities_key},
                  fmt::format("{} samples of quantities that have a history are more than {}; take "
                              "output.measurements.every_steps = {}",
                              n_samples, most_samples_of_histories,
@@ -44,21 +44,21 @@ void check_samples(const Check& check) {
 
 } // namespace
 
-void limit_contact_time(const Check& check, double longest, std::string_view why) {
+void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why) {
     constexpr std::string_view key = "effects.contact.contact_time";
-    Scene& scene = check.scene;
+    Scene& scene = draft.scene;
     double& time = scene.effects.contact.contact_time;
     if (!lose_energy_or_fall(scene.effects)) return;
-    if (!check.settings.has(key)) time = std::min(time, longest);
+    if (!draft.settings.has(key)) time = std::min(time, longest);
     if (time > longest)
-        check.refuse({key}, fmt::format("'{}' must be at most {} steps, {}, not {}", key, longest,
+        draft.refuse({key}, fmt::format("'{}' must be at most {} steps, {}, not {}", key, longest,
                                         why, time));
 }
 
-void check_times(const Check& check) {
-    Scene& scene = check.scene;
+void check_times(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     if (scene.steps > largest_steps / scene.micro_steps)
-        check.refuse({"time.steps"}, fmt::format("{} steps of {} micro-steps are more than 2^53 "
+        draft.refuse({"time.steps"}, fmt::format("{} steps of {} micro-steps are more than 2^53 "
                                                  "micro-steps",
                                                  scene.steps, scene.micro_steps));
     if (!std::has_single_bit(static_cast<std::uint64_t>(scene.micro_steps)))
@@ -67,12 +67,12 @@ void check_times(const Check& check) {
             "divided by it",
             scene.micro_steps));
     if (scene.precision == Precision::single && scene.sync_every > longest_single_sync)
-        check.refuse({"time.precision"},
+        draft.refuse({"time.precision"},
                      fmt::format("precision = \"single\" counts micro-steps up to {} between "
                                  "syncs; 'time.sync_every' is {}",
                                  longest_single_sync, scene.sync_every));
-    check_samples(check);
-    check_times_of_quantities(check);
+    check_samples(draft);
+    check_times_of_quantities(draft);
 }
 
 } // namespace carrom

@@ -53,13 +53,13 @@ Key setting_key(const QuantitySetting& setting, Kind kind, std::string_view unit
     return key;
 }
 
-void run_once(const Check& check, void (*Quantity::*of)(const Check&)) {
-    std::vector<void (*)(const Check&)> done;
+void run_once(const SceneDraft& draft, void (*Quantity::*of)(const SceneDraft&)) {
+    std::vector<void (*)(const SceneDraft&)> done;
     for (const Quantity& quantity : list()) {
         const auto run = quantity.*of;
-        if (!run || !measures(check.scene, quantity.name)) continue;
+        if (!run || !measures(draft.scene, quantity.name)) continue;
         if (std::find(done.begin(), done.end(), run) != done.end()) continue;
-        run(check);
+        run(draft);
         done.push_back(run);
     }
 }
@@ -106,8 +106,8 @@ std::vector<Rule> rules_of_quantities() {
     return rules;
 }
 
-void check_quantities(const Check& check) { run_once(check, &Quantity::check); }
+void check_quantities(const SceneDraft& draft) { run_once(draft, &Quantity::check); }
 
-void check_times_of_quantities(const Check& check) { run_once(check, &Quantity::check_times); }
+void check_times_of_quantities(const SceneDraft& draft) { run_once(draft, &Quantity::check_times); }
 
 } // namespace carrom

@@ -9,19 +9,20 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/check.hpp"
 #include "scene/key.hpp"
+#include "scene/scene_draft.hpp"
 
 namespace carrom {
 
 struct Quantity {
     std::string_view name;
-    std::string_view help;            ///< for the page of keys
-    std::vector<Key> keys = {};       ///< its settings; quantities can share one
-    bool has_history = false;         ///< its tables grow with each sample
-    std::vector<Rule> rules = {};     ///< features that it does not go with
-    void (*check)(const Check&) = {}; ///< for a valid box and valid discs; shared ones run once
-    void (*check_times)(const Check&) = {}; ///< after the times of the scene are known
+    std::string_view help;        ///< for the page of keys
+    std::vector<Key> keys = {};   ///< its settings; quantities can share one
+    bool has_history = false;     ///< its tables grow with each sample
+    std::vector<Rule> rules = {}; ///< features that it does not go with
+    void (*check)(
+        const SceneDraft&) = {}; ///< for a valid box and valid discs; shared ones run once
+    void (*check_times)(const SceneDraft&) = {}; ///< after the times of the scene are known
 };
 
 /// To be called once, before any scene is read.
@@ -59,7 +60,7 @@ std::vector<Key> keys_of_quantities();
 std::vector<Rule> rules_of_quantities();
 
 /// Runs the checks of the quantities that the scene measures.
-void check_quantities(const Check& check);
-void check_times_of_quantities(const Check& check);
+void check_quantities(const SceneDraft& draft);
+void check_times_of_quantities(const SceneDraft& draft);
 
 } // namespace carrom

@@ -2,9 +2,9 @@
 // Questions that rules ask of a scene, and functions that make rules.
 #pragma once
 
-#include "scene/check.hpp"
 #include "scene/key.hpp"
 #include "scene/limits.hpp"
+#include "scene/scene_draft.hpp"
 
 namespace carrom {
 

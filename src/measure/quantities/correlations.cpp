@@ -30,26 +30,26 @@ constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< a rank has whole r
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
 
-void check_correlations(const Check& check) {
-    Scene& scene = check.scene;
+void check_correlations(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     const std::string wave = correlation_wavenumber.key_name(),
                       overlap = overlap_distance.key_name();
-    if (!check.settings.has(wave))
+    if (!draft.settings.has(wave))
         scene.measurements->derive(std::string(correlation_wavenumber.name),
                                    std::numbers::pi / scene.radius);
-    if (!check.settings.has(overlap))
+    if (!draft.settings.has(overlap))
         scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
     const double k = correlation_wavenumber.of(*scene.measurements),
                  least = 2 * std::numbers::pi / scene.box.longest();
     if (k < least)
-        check.refuse({wave, quantities_key},
+        draft.refuse({wave, quantities_key},
                      fmt::format("'{}' = {:g} is a wave that is longer than the box; take {:g} or "
                                  "more",
                                  wave, k, least));
     if (!scene.measurements->measures("transport")) // which checks them itself
-        check_correlation_points(check);
+        check_correlation_points(draft);
     if (scene.effects.species.size() > most_species)
-        check.refuse({quantities_key},
+        draft.refuse({quantities_key},
                      fmt::format("\"correlations\" of {} species; at most {} have tables of their "
                                  "own",
                                  scene.effects.species.size(), most_species));
@@ -288,8 +288,8 @@ MeasuredQuantity correlations_quantity() {
                         .is_broken = needs_another_box}},
              .check = check_correlations,
              .check_times =
-                 [](const Check& check) {
-                     if (!measures(check.scene, "transport")) warn_without_lags(check);
+                 [](const SceneDraft& draft) {
+                     if (!measures(draft.scene, "transport")) warn_without_lags(draft);
                  }},
             make_measurement<Correlations>};
 }

@@ -38,17 +38,17 @@ void warn_of_short_run(Scene& scene) {
                     window, output.from_step, steps, remedy));
 }
 
-void check_window(const Check& check) {
-    Scene& scene = check.scene;
+void check_window(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     const std::string key = correlation_steps.key_name();
     const std::int64_t every = scene.measurements->every_steps;
-    if (!check.settings.has(key))
+    if (!draft.settings.has(key))
         scene.measurements->derive(std::string(correlation_steps.name),
                                    64 * static_cast<double>(every));
-    if (check.settings.has(key) && !check.settings.is_right(key)) return;
+    if (draft.settings.has(key) && !draft.settings.is_right(key)) return;
     const std::int64_t window = window_of(*scene.measurements);
     if (window >= 2 * every && window % every == 0) return warn_of_short_run(scene);
-    check.refuse({key, quantities_key},
+    draft.refuse({key, quantities_key},
                  fmt::format("'{}' must be a multiple of 'output.measurements.every_steps' = {}, "
                              "from {} on, not {}",
                              key, every, 2 * every, window));

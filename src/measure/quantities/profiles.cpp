@@ -32,12 +32,12 @@ std::size_t n_cells_of(const MeasurementOutput& output) {
     return static_cast<std::size_t>(profile_columns.of(output) * profile_rows.of(output));
 }
 
-void check_grid(const Check& check) {
-    const Scene& scene = check.scene;
+void check_grid(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     const MeasurementOutput& output = *scene.measurements;
     const std::size_t n_cells = n_cells_of(output);
     if (n_cells > scene.n_discs)
-        check.refuse({profile_columns.key_name(), profile_rows.key_name(), quantities_key},
+        draft.refuse({profile_columns.key_name(), profile_rows.key_name(), quantities_key},
                      fmt::format("a grid of {} cells for \"profiles\" is more than the {} discs; "
                                  "try: smaller '{}' or '{}'",
                                  n_cells, scene.n_discs, profile_columns.key_name(),
@@ -45,20 +45,20 @@ void check_grid(const Check& check) {
     const double n_blocks = static_cast<double>(scene.steps - output.from_step) /
                             static_cast<double>(output.every_steps) / profile_samples.of(output);
     if (n_blocks * static_cast<double>(n_cells) > most_rows)
-        check.refuse({profile_samples.key_name(), quantities_key},
+        draft.refuse({profile_samples.key_name(), quantities_key},
                      fmt::format("{:.0f} blocks of {} cells are more than a million rows; try: a "
                                  "larger '{}'",
                                  n_blocks, n_cells, profile_samples.key_name()));
 }
 
 /// A restart may complete a block, so this is no error.
-void warn_without_blocks(const Check& check) {
-    const MeasurementOutput& output = *check.scene.measurements;
-    const std::int64_t steps = check.scene.steps - output.from_step;
+void warn_without_blocks(const SceneDraft& draft) {
+    const MeasurementOutput& output = *draft.scene.measurements;
+    const std::int64_t steps = draft.scene.steps - output.from_step;
     const double needed = (profile_samples.of(output) - 1) *
                           static_cast<double>(output.every_steps);
-    if (check.scene.steps == 0 || steps < 0 || needed <= static_cast<double>(steps)) return;
-    check.scene.warnings.push_back(fmt::format(
+    if (draft.scene.steps == 0 || steps < 0 || needed <= static_cast<double>(steps)) return;
+    draft.scene.warnings.push_back(fmt::format(
         "no table of profiles: its first block takes {:.0f} steps, and from step {} to the "
         "last one are {}; try: {} = {} or less",
         needed, output.from_step, steps, profile_samples.key_name(),

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/check.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/key.hpp"
+#include "scene/scene_draft.hpp"
 
 namespace carrom {
 
@@ -31,8 +31,8 @@ struct BoundaryDeclaration {
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
     /// Checks of more than one number: of times, and of what depends on a right box and discs.
-    void (*check_times)(const Check&) = nullptr;
-    void (*check_room)(const Check&) = nullptr;
+    void (*check_times)(const SceneDraft&) = nullptr;
+    void (*check_room)(const SceneDraft&) = nullptr;
     /// Its part of the line about effects, for the side of that name.
     std::string (*summary)(const Boundary&, std::string_view name) = nullptr;
     CheckAllowance (*allowance)(const Boundary&) = nullptr;

@@ -35,8 +35,8 @@ std::vector<Rule> rules_of_moving_sides() {
 }
 
 /// Walls that move must leave room for the discs until the last step.
-void check_moving_walls(const Check& check) {
-    const Scene& scene = check.scene;
+void check_moving_walls(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     const auto& sides = scene.effects.boundaries;
     const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
@@ -44,12 +44,12 @@ void check_moving_walls(const Check& check) {
     for (std::size_t side = 0; side < sides.size(); ++side) {
         if (sides[side].speed == 0) continue;
         if (!has_room(scene, width, height))
-            check.refuse({side_key(side, "speed")},
+            draft.refuse({side_key(side, "speed")},
                          fmt::format("after {} steps the box would be {} by {}: too small for its "
                                      "discs",
                                      scene.steps, width, height));
         else if (is_long)
-            check.refuse({side_key(side, "speed")},
+            draft.refuse({side_key(side, "speed")},
                          fmt::format("after {} steps the box would be more than twice as long as "
                                      "at the start",
                                      scene.steps));

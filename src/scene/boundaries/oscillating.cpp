@@ -52,10 +52,10 @@ std::vector<Rule> rules_of_oscillating_sides() {
 }
 
 /// The pull at the wall changes little in a contact time.
-void check_contact_at_oscillating_walls(const Check& check) {
-    for (const Boundary& side : check.scene.effects.boundaries)
+void check_contact_at_oscillating_walls(const SceneDraft& draft) {
+    for (const Boundary& side : draft.scene.effects.boundaries)
         if (side.kind == BoundaryKind::oscillating)
-            limit_contact_time(check, side.period / 8, "an eighth of a wall's period");
+            limit_contact_time(draft, side.period / 8, "an eighth of a wall's period");
 }
 
 /// Discs that are generated lie between the lines of the walls.
@@ -65,13 +65,13 @@ bool begins_before_its_line(const Scene& scene, std::size_t side) {
     return (side % 2 == 0 ? place : -place) > 0x1p-52 * scene.box.longest();
 }
 
-void check_oscillating_wall(const Check& check, std::size_t side) {
-    const Scene& scene = check.scene;
+void check_oscillating_wall(const SceneDraft& draft, std::size_t side) {
+    const Scene& scene = draft.scene;
     const Boundary& wall = scene.effects.boundaries[side];
     const double least = smallest_period * steps_between_syncs(scene);
     const std::string amplitude = side_key(side, "amplitude"), phase = side_key(side, "phase");
     if (wall.period < least)
-        check.refuse({side_key(side, "period")},
+        draft.refuse({side_key(side, "period")},
                      fmt::format("'{}' must be at least {:g} steps, a millionth of the time "
                                  "between syncs ('time.sync_every'), not {}",
                                  side_key(side, "period"), least, wall.period));
@@ -79,25 +79,25 @@ void check_oscillating_wall(const Check& check, std::size_t side) {
         const Extent room = extent_of_lines(scene.effects, scene.box, time, 1);
         const double width = room.x_high - room.x_low, height = room.y_high - room.y_low;
         if (has_room(scene, width, height)) continue;
-        check.refuse({amplitude}, fmt::format("'{}' = {} leaves a box of {} by {}: too small for "
+        draft.refuse({amplitude}, fmt::format("'{}' = {} leaves a box of {} by {}: too small for "
                                               "its discs",
                                               amplitude, wall.amplitude, width, height));
         break;
     }
     if (const std::string text = speed_problem(largest_wall_speed(scene.effects), scene);
         !text.empty())
-        check.refuse({amplitude}, fmt::format("'{}': {}", amplitude, text));
+        draft.refuse({amplitude}, fmt::format("'{}': {}", amplitude, text));
     if (begins_before_its_line(scene, side))
-        check.refuse({phase, amplitude},
+        draft.refuse({phase, amplitude},
                      fmt::format("the {} wall begins inside the box, where generated discs may be; "
                                  "take another '{}', or list the discs",
                                  boundary_names[side], phase));
 }
 
-void check_oscillating_walls(const Check& check) {
+void check_oscillating_walls(const SceneDraft& draft) {
     for (std::size_t side = 0; side < boundary_names.size(); ++side)
-        if (check.scene.effects.boundaries[side].kind == BoundaryKind::oscillating)
-            check_oscillating_wall(check, side);
+        if (draft.scene.effects.boundaries[side].kind == BoundaryKind::oscillating)
+            check_oscillating_wall(draft, side);
 }
 
 } // namespace

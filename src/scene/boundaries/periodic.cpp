@@ -31,12 +31,12 @@ std::vector<Rule> rules_of_periodic_sides() {
 }
 
 /// Holds for sheared sides, too.
-void check_periodic_box(const Check& check) {
-    const Scene& scene = check.scene;
+void check_periodic_box(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);
     const double period = periods.shortest();
     if (!periods.are_any() || period >= 4 * scene.radius * (1 + 1e-6)) return;
-    check.refuse({side_key(periods.x == period ? 0 : 2, "kind")},
+    draft.refuse({side_key(periods.x == period ? 0 : 2, "kind")},
                  fmt::format("a box of side {} is too small to be periodic: up to two diameters "
                              "({}) a disc could touch another one on both sides at once",
                              period, 4 * scene.radius));

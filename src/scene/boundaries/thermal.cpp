@@ -23,12 +23,12 @@ std::vector<Key> keys_of_thermal_side(std::size_t side) {
                 .required()};
 }
 
-void check_thermal_walls(const Check& check) {
+void check_thermal_walls(const SceneDraft& draft) {
     for (std::size_t side = 0; side < boundary_names.size(); ++side) {
         const std::string key = side_key(side, "temperature");
-        const double speed = std::sqrt(check.scene.effects.boundaries[side].temperature);
-        if (const std::string text = speed_problem(speed, check.scene); !text.empty())
-            check.refuse({key}, fmt::format("'{}': {}", key, text));
+        const double speed = std::sqrt(draft.scene.effects.boundaries[side].temperature);
+        if (const std::string text = speed_problem(speed, draft.scene); !text.empty())
+            draft.refuse({key}, fmt::format("'{}': {}", key, text));
     }
 }
 

@@ -84,8 +84,8 @@ std::vector<Rule> rules_of_contacts() {
 
 /// A sync resets contact times, so a contact time as long as the time between syncs would make all
 /// collisions elastic.
-void check_contact_time(const Check& check) {
-    limit_contact_time(check, steps_between_syncs(check.scene) / 4,
+void check_contact_time(const SceneDraft& draft) {
+    limit_contact_time(draft, steps_between_syncs(draft.scene) / 4,
                        "a quarter of the time between syncs ('time.sync_every')");
 }
 

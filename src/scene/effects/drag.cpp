@@ -31,11 +31,11 @@ std::vector<Rule> rules_of_drag() {
 }
 
 /// Long times between syncs would leave almost nothing of the velocities.
-void check_times_of_drag(const Check& check) {
-    const Scene& scene = check.scene;
+void check_times_of_drag(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     const double interval = steps_between_syncs(scene);
     if (scene.effects.drag * interval > longest_drag)
-        check.refuse({"effects.drag.rate"},
+        draft.refuse({"effects.drag.rate"},
                      fmt::format("'effects.drag.rate' = {} leaves less than a fiftieth of a "
                                  "velocity from sync to sync: {:g} at most, or a smaller "
                                  "time.sync_every",

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "dynamics/sync_effect.hpp"
-#include "scene/check.hpp"
 #include "scene/key.hpp"
+#include "scene/scene_draft.hpp"
 
 namespace carrom {
 
@@ -37,10 +37,10 @@ struct EffectDeclaration {
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
     /// Defaults that depend on its numbers, before any check.
-    void (*derive)(const Check&) = nullptr;
+    void (*derive)(const SceneDraft&) = nullptr;
     /// Checks of more than one number: of times, and of what depends on a right box and discs.
-    void (*check_times)(const Check&) = nullptr;
-    void (*check_room)(const Check&) = nullptr;
+    void (*check_times)(const SceneDraft&) = nullptr;
+    void (*check_room)(const SceneDraft&) = nullptr;
     /// Its part of the line about effects; empty in a scene without it.
     std::string (*summary)(const Effects&) = nullptr;
     CheckAllowance (*allowance)(const Effects&) = nullptr;

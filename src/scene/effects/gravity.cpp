@@ -84,11 +84,11 @@ bool falls_too_far(const Scene& scene, double g) {
 
 /// Strong gravity needs syncs that follow each other sooner than they do by default. Where one in
 /// each micro-step is too late, check_fall says so.
-void shorten_sync(const Check& check) {
-    Scene& scene = check.scene;
+void shorten_sync(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
     const Gravity& g = scene.effects.gravity;
     const std::int64_t by_default = scene.sync_every;
-    if (check.settings.has("time.sync_every") || scene.box == Box()) return;
+    if (draft.settings.has("time.sync_every") || scene.box == Box()) return;
     while (scene.sync_every > 1 && (falls_too_far(scene, g.x) || falls_too_far(scene, g.y)))
         scene.sync_every /= 2;
     if (falls_too_far(scene, g.x) || falls_too_far(scene, g.y)) scene.sync_every = by_default;
@@ -96,14 +96,14 @@ void shorten_sync(const Check& check) {
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the
 /// box's.
-void check_fall(const Check& check) {
-    const Scene& scene = check.scene;
+void check_fall(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
                                  {"effects.gravity.y", scene.effects.gravity.y}}) {
         if (!falls_too_far(scene, g)) continue;
         const double longest = std::floor(std::sqrt(scene.box.longest() / std::fabs(g)) *
                                           static_cast<double>(scene.micro_steps));
-        check.refuse({key},
+        draft.refuse({key},
                      fmt::format("'{}' = {} makes discs fall further than half the box "
                                  "from sync to sync; {}",
                                  key, g,

@@ -49,8 +49,8 @@ std::vector<Rule> rules_of_growth() {
 }
 
 /// Discs that grow must have room until the last step.
-void check_growth(const Check& check) {
-    const Scene& scene = check.scene;
+void check_growth(const SceneDraft& draft) {
+    const Scene& scene = draft.scene;
     if (scene.effects.growth == 0) return;
     const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
     const double densest = scene.effects.species.empty() ? largest_packing : 1;
@@ -61,7 +61,7 @@ void check_growth(const Check& check) {
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
     if (growth <= most || most < 1) return; // missing room at the start is reported elsewhere
-    check.refuse({"effects.growth.rate"},
+    draft.refuse({"effects.growth.rate"},
                  fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
                              "there is room for them up to step {:.0f}",
                              scene.steps, scene.radius * growth, scene.last_packing(),

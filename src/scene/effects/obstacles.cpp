@@ -58,15 +58,15 @@ std::vector<Rule> rules_of_obstacles() {
     };
 }
 
-void check_obstacles(const Check& check) {
-    const Box box = check.scene.box;
-    const double size = box.longest(), radius = check.scene.radius;
-    const bool is_periodic = check.scene.effects.are_periodic();
-    const double period = check.scene.effects.periods(box).shortest();
+void check_obstacles(const SceneDraft& draft) {
+    const Box box = draft.scene.box;
+    const double size = box.longest(), radius = draft.scene.radius;
+    const bool is_periodic = draft.scene.effects.are_periodic();
+    const double period = draft.scene.effects.periods(box).shortest();
     const auto is_inside = [box](double x, double y) {
         return x >= 0 && x <= box.x && y >= 0 && y <= box.y;
     };
-    check.refuse_rows("effects.obstacles.discs", [&](const Numbers& n, std::size_t) -> std::string {
+    draft.refuse_rows("effects.obstacles.discs", [&](const Numbers& n, std::size_t) -> std::string {
         if (!is_inside(n[0], n[1]))
             return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
         if (!(n[2] >= 0 && n[2] <= size))
@@ -77,7 +77,7 @@ void check_obstacles(const Check& check) {
                                largest_in_period * period - radius, n[2]);
         return {};
     });
-    check.refuse_rows(
+    draft.refuse_rows(
         "effects.obstacles.segments", [&](const Numbers& n, std::size_t) -> std::string {
             if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3]))
                 return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the "

@@ -87,12 +87,12 @@ std::vector<Rule> rules_of_rubbing() {
 }
 
 /// A body's velocity along itself must be one that discs may have.
-void check_room_of_rubbing(const Check& check) {
-    const Effects& effects = check.scene.effects;
-    const auto hold = [&check](const std::string& table, const Surface& surface) {
+void check_room_of_rubbing(const SceneDraft& draft) {
+    const Effects& effects = draft.scene.effects;
+    const auto hold = [&draft](const std::string& table, const Surface& surface) {
         const std::string key = table + ".velocity",
-                          text = speed_problem(surface.velocity, check.scene);
-        if (!text.empty()) check.refuse({key}, fmt::format("'{}': {}", key, text));
+                          text = speed_problem(surface.velocity, draft.scene);
+        if (!text.empty()) draft.refuse({key}, fmt::format("'{}': {}", key, text));
     };
     for (std::size_t side = 0; side < boundary_names.size(); ++side)
         hold(std::string("box.") + boundary_names[side], effects.boundaries[side].surface);

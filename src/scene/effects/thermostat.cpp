@@ -272,23 +272,23 @@ std::vector<Rule> rules_of_thermostat() {
 }
 
 /// A sync that follows long after another one would leave nothing of the velocities.
-void check_times_of_thermostat(const Check& check) {
+void check_times_of_thermostat(const SceneDraft& draft) {
     constexpr double longest = 4;
-    const Scene& scene = check.scene;
+    const Scene& scene = draft.scene;
     const double interval = static_cast<double>(scene.sync_every) /
                             static_cast<double>(scene.micro_steps);
     const double rate = scene.effects.thermostat.rate;
     if (!scene.effects.thermostat.is_any() || !(rate * interval > longest)) return;
-    check.refuse({"effects.thermostat.rate"},
+    draft.refuse({"effects.thermostat.rate"},
                  fmt::format("'effects.thermostat.rate' = {} acts more than {} times between two "
                              "syncs: {:g} at most, or a smaller time.sync_every",
                              rate, longest, longest / interval));
 }
 
-void check_room_of_thermostat(const Check& check) {
-    const double speed = std::sqrt(check.scene.effects.thermostat.temperature);
-    if (const std::string text = speed_problem(speed, check.scene); !text.empty())
-        check.refuse({"effects.thermostat.temperature"},
+void check_room_of_thermostat(const SceneDraft& draft) {
+    const double speed = std::sqrt(draft.scene.effects.thermostat.temperature);
+    if (const std::string text = speed_problem(speed, draft.scene); !text.empty())
+        draft.refuse({"effects.thermostat.temperature"},
                      "'effects.thermostat.temperature': " + text);
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared by the checks of a scene: the scene as far as it is known, and a list of problems.
+// A scene that is being read: as far as it is known, with the settings that it comes from and the
+// problems that its checks have found. All problems are reported at once, so checks go on after
+// one.
 #pragma once
 
 #include <initializer_list>
@@ -18,7 +20,7 @@ namespace carrom {
 /// The key that rules and checks of measurements name.
 inline constexpr std::string_view quantities = "output.measurements.quantities";
 
-struct Check {
+struct SceneDraft {
     Scene& scene;
     Settings& settings;
     Problems& problems;
@@ -63,13 +65,13 @@ inline double steps_between_syncs(const Scene& scene) {
 
 /// Checks the number, sizes, places and speeds of discs. Returns false if box or discs
 /// are not known to be right; then both sizes are 0.
-bool check_discs(const Check& check);
+bool check_discs(const SceneDraft& draft);
 
 /// Checks numbers of steps, rates and times against each other.
-void check_times(const Check& check);
+void check_times(const SceneDraft& draft);
 
 /// A contact time that the scene does not set becomes `longest` steps at most; a longer one is a
 /// problem, with `why` as the reason.
-void limit_contact_time(const Check& check, double longest, std::string_view why);
+void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why);
 
 } // namespace carrom
