@@ -16,52 +16,52 @@ namespace {
 
 using Words = std::vector<std::int64_t>;
 
-struct Field {
+struct OldField {
     std::string_view name;
     std::int64_t only_with = 0; ///< a bit of "quantities"; the field exists only with it
     bool is_list = true;        ///< its size comes first
 };
 
 /// In the order of the older words, after the number of their format.
-constexpr Field older_fields[] = {{"quantities", 0, false},
-                                  {"every_steps", 0, false},
-                                  {"from_step", 0, false},
-                                  {"distance", 0, false},
-                                  {"velocity", 0, false},
-                                  {"first_step", 0, false},
-                                  {"last_step", 0, false},
-                                  {"speed_scale", 0, false},
-                                  {"n_samples", 0, false},
-                                  {"n_discs", 0, false},
-                                  {"area", 0, false},
-                                  {"pairs"},
-                                  {"vx"},
-                                  {"vy"},
-                                  {"speeds"},
-                                  {"x"},
-                                  {"y"},
-                                  {"pending"},
-                                  {"left", 0, false},
-                                  {"right", 0, false},
-                                  {"bottom", 0, false},
-                                  {"top", 0, false},
-                                  {"ideal_pairs"},
-                                  {"impulses"},
-                                  {"displacements"},
-                                  {"pressures"},
-                                  {"last_motion"},
-                                  {"virial_bound", 0, false},
-                                  {"pending_virial"},
-                                  {"thermo", 64},
-                                  {"psi6", 128},
-                                  {"neighbours", 128},
-                                  {"moduli", 128},
-                                  {"psi6_pairs", 128},
-                                  {"psi6_products", 128},
-                                  {"wavenumber", 256, false},
-                                  {"structure_factor", 256},
-                                  {"correlation", 512, false},
-                                  {"flights", 512}};
+constexpr OldField older_fields[] = {{"quantities", 0, false},
+                                     {"every_steps", 0, false},
+                                     {"from_step", 0, false},
+                                     {"distance", 0, false},
+                                     {"velocity", 0, false},
+                                     {"first_step", 0, false},
+                                     {"last_step", 0, false},
+                                     {"speed_scale", 0, false},
+                                     {"n_samples", 0, false},
+                                     {"n_discs", 0, false},
+                                     {"area", 0, false},
+                                     {"pairs"},
+                                     {"vx"},
+                                     {"vy"},
+                                     {"speeds"},
+                                     {"x"},
+                                     {"y"},
+                                     {"pending"},
+                                     {"left", 0, false},
+                                     {"right", 0, false},
+                                     {"bottom", 0, false},
+                                     {"top", 0, false},
+                                     {"ideal_pairs"},
+                                     {"impulses"},
+                                     {"displacements"},
+                                     {"pressures"},
+                                     {"last_motion"},
+                                     {"virial_bound", 0, false},
+                                     {"pending_virial"},
+                                     {"thermo", 64},
+                                     {"psi6", 128},
+                                     {"neighbours", 128},
+                                     {"moduli", 128},
+                                     {"psi6_pairs", 128},
+                                     {"psi6_products", 128},
+                                     {"wavenumber", 256, false},
+                                     {"structure_factor", 256},
+                                     {"correlation", 512, false},
+                                     {"flights", 512}};
 
 /// A quantity and its fields in the order of Measurement::keep; '#' is the size of a list alone.
 struct OlderQuantity {
@@ -91,7 +91,7 @@ const std::vector<OlderQuantity>& older_quantities() {
 std::map<std::string_view, Words> older_values(const Words& words) {
     std::map<std::string_view, Words> values;
     std::size_t next = 1;
-    for (const Field& field : older_fields) {
+    for (const OldField& field : older_fields) {
         if (field.only_with != 0 && (values["quantities"][0] & field.only_with) == 0) continue;
         if (next >= words.size()) return {};
         const std::uint64_t size = field.is_list ? static_cast<std::uint64_t>(words[next]) : 0;

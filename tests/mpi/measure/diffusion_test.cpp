@@ -82,7 +82,7 @@ struct ByHand {
     std::vector<std::array<double, 2>> flown{};
     std::array<std::vector<double>, 4> squares{}, products{}; ///< of each time, over windows
 
-    void add(const std::vector<Flying>& now, std::size_t step) {
+    void inspect(const std::vector<Flying>& now, std::size_t step) {
         const auto nearest = [](double d, double period) {
             return period == 0 ? d : std::remainder(d, period);
         };
@@ -149,7 +149,7 @@ TEST_CASE("measurements: diffusion has the flights of all discs in windows") {
             std::fill(expected.masses.begin() + 100, expected.masses.end(), 7.0);
         for (std::int64_t step = 5; step <= 60; ++step) {
             advance_to(simulation, sampler, step);
-            expected.add(all_flying(simulation, world), static_cast<std::size_t>(step - 5));
+            expected.inspect(all_flying(simulation, world), static_cast<std::size_t>(step - 5));
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         const std::vector<double> squares = column_of(tables, "velocity_autocorrelation",
