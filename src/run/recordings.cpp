@@ -9,6 +9,7 @@
 
 #include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
+#include "scene/frame_times.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -88,16 +89,17 @@ void Recordings::report_loss(const std::string& file, std::int64_t recorded) con
 
 /// Reports frames that the restart of a run lacks in its trajectory.
 void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
-    const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
+    const TrajectoryOutput& output = *scene_.trajectory;
+    const std::int64_t last_due = last_frame(output, step);
     if (last >= last_due) return;
-    const std::int64_t first_missing = last < 0 ? 0 : (last / every + 1) * every;
-    messages_.warn("{}: has no frames of steps {} to {}, and goes on with step {}\n",
-                   scene_.trajectory->file, first_missing, last_due, last_due + every);
+    const std::int64_t first_missing = last < 0 ? 0 : next_frame(output, last);
+    messages_.warn("{}: has no frames of steps {} to {}, and goes on with step {}\n", output.file,
+                   first_missing, last_due, next_frame(output, step));
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {
     if (!scene_.trajectory) return std::numeric_limits<std::int64_t>::max();
-    return (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
+    return next_frame(*scene_.trajectory, step);
 }
 
 bool Recordings::act() {
@@ -107,7 +109,7 @@ bool Recordings::act() {
     add_rows();
     ImageCounts* const counts = run_.images();
     if (counts) static_cast<void>(counts->counts()); // keeps their memory small
-    if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
+    if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
         std::vector<BondOrder> orders; // first, because finding them moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
             orders = simulation.bond_orders();

@@ -82,6 +82,11 @@ std::vector<Key> keys_of_recordings() {
         key("output.trajectory.every_steps", "steps", "Time from frame to frame.",
             [](auto& s) -> auto& { return s.trajectory->every_steps; })
             .within(every),
+        key("output.trajectory.frames_per_decade", "",
+            "Frames at steps that grow by a factor, so many while they grow tenfold, from "
+            "every_steps on; 0: at regular steps.",
+            [](auto& s) -> auto& { return s.trajectory->frames_per_decade; })
+            .within({0, 1000}),
         flags_key(
             "output.trajectory.fields", "",
             "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's "

@@ -88,10 +88,11 @@ struct CheckpointOutput {
     Transfers transfers = Transfers::independent;
 };
 
-/// `[output.trajectory]`: frames at regular steps in one file.
+/// `[output.trajectory]`: frames in one file, at regular steps or at steps that grow by a factor.
 struct TrajectoryOutput {
     std::string file; ///< in the run's folder
     std::int64_t every_steps = 1;
+    std::int64_t frames_per_decade = 0; ///< 0: at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
          has_neighbours = false;
     bool has_image = false; ///< in a periodic box; true if the scene names no fields
