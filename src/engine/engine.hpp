@@ -19,7 +19,7 @@
 #include "engine/stress_sums.hpp"
 #include "engine/totals.hpp"
 #include "engine/tuning.hpp"
-#include "engine/wall_impulses.hpp"
+#include "engine/wall_event.hpp"
 
 namespace carrom {
 
@@ -71,8 +71,9 @@ public:
 
     /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
-    /// See Simulation::add_impulses_to.
-    void add_impulses_to(WallImpulses* impulses) { impulses_ = impulses; }
+    /// From now on collisions with the box's sides are appended to `events` of one rank, in no
+    /// particular order; null ends that.
+    void note_walls_in(std::vector<WallEvent>* events) { wall_events_ = events; }
     /// From now on collisions of pairs are appended to `events` of one rank, in no particular
     /// order; null ends that.
     void note_pairs_in(std::vector<PairEvent>* events) { pair_events_ = events; }
@@ -99,12 +100,12 @@ protected:
     /// Notes the flight from (x, y) to where the disc is now. Threads may call it at once.
     void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
-        return log_ != nullptr || impulses_ != nullptr || pair_events_ != nullptr;
+        return log_ != nullptr || wall_events_ != nullptr || pair_events_ != nullptr;
     }
 
     std::vector<Collision>* log_ = nullptr;
     std::vector<PairEvent>* pair_events_ = nullptr;
-    WallImpulses* impulses_ = nullptr;
+    std::vector<WallEvent>* wall_events_ = nullptr;
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
     /// Partial sums begin as copies of it. In its units all terms are 0 until sums are asked for.

@@ -8,11 +8,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "dynamics/plain_dynamics.hpp"
+#include "engine/followers.hpp"
 
 namespace carrom {
 
@@ -34,18 +34,8 @@ struct PairEvent {
     }
 };
 
-/// Whoever wants to know of pairs. What is taken must not depend on the order of the events,
-/// because threads and ranks find them in any order.
-class PairFollower {
-public:
-    PairFollower() = default;
-    virtual ~PairFollower() = default;
-    PairFollower(const PairFollower&) = delete;
-    PairFollower& operator=(const PairFollower&) = delete;
-
-    /// Takes events of this rank: each pair is the event of the rank that owns its first disc.
-    virtual void take(std::span<const PairEvent> events) = 0;
-};
+/// Each pair is an event of the rank that owns its first disc.
+using PairFollower = EventFollower<PairEvent>;
 
 /// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
 /// is the first disc at that time, before or after the collision, and `to` is the separation then.

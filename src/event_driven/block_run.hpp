@@ -68,6 +68,7 @@ struct BlockGround {
     /// not built.
     bool is_alone = false;
     bool notes_pairs = false;            ///< collisions of pairs go to BlockOutcome::pairs
+    bool logs_walls_alone = false;       ///< of what is logged
     double velocity_unit = 1;            ///< of the velocities in these
     std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
     Extent extent{};                     ///< the box, for runs of the whole box
@@ -88,7 +89,8 @@ struct LoggedEvent {
     DiscId p = 0, q = 0; ///< if `is_wall`, q is 0 for a wall across x, 1 for one across y, and
                          ///< otherwise an obstacle
     double impulse = 0;
-    double normal_impulse = 0; ///< along x or y with its sign, if the disc met a wall
+    double gained_x = 0, gained_y = 0; ///< change of velocity, per micro-step
+    double vx = 0, vy = 0;             ///< of the first disc, afterwards
 };
 
 /// The state of a disc at the end of a window. It leaves out what a window does not change, and so

@@ -296,12 +296,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {
         const bool at_wall = is_wall(event.q);
+        if (ground.logs_walls_alone && !at_wall) return;
         outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id,
                                 at_wall ? event.q - x_wall : discs[event.q].id,
-                                std::sqrt(wx * wx + wy * wy),
-                                event.q == x_wall   ? wx
-                                : event.q == y_wall ? wy
-                                                    : 0});
+                                std::sqrt(wx * wx + wy * wy), wx, wy, discs[event.p].vx,
+                                discs[event.p].vy});
     }
 
     Dynamics dynamics;

@@ -10,20 +10,25 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
     for (const LoggedEvent& event : outcome.log) {
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(event.p).mass;
-        const double unit = mass * (dynamics_.frame_at(event.time).slowing *
-                                    static_cast<double>(this->micro_steps_));
-        if (this->impulses_ && event.is_wall && event.q <= 1)
-            this->impulses_->add(event.q, event.normal_impulse * unit);
+        const Frame frame = dynamics_.frame_at(event.time);
+        const double per_step = static_cast<double>(this->micro_steps_),
+                     unit = mass * (frame.slowing * per_step);
+        if (this->wall_events_ && event.is_wall && event.q <= 1) {
+            Disc after;
+            after.vx = event.vx, after.vy = event.vy;
+            this->wall_events_->push_back(wall_event(frame, event.q, mass, after, event.gained_x,
+                                                     event.gained_y, per_step, false));
+        }
         if (this->log_)
             this->log_->push_back(
                 {this->last_sync(), dynamics_.micro_steps_at(event.time), event.generation, event.p,
                  event.is_wall ? Collision::wall : event.q, event.impulse * unit});
     }
     if (!this->pair_events_) return;
-    for (PairEvent event : outcome.pairs) {
-        event.micro_step = this->last_sync();
-        this->pair_events_->push_back(event);
-    }
+    std::vector<PairEvent>& noted = *this->pair_events_;
+    noted.insert(noted.end(), outcome.pairs.begin(), outcome.pairs.end());
+    for (std::size_t k = noted.size() - outcome.pairs.size(); k < noted.size(); ++k)
+        noted[k].micro_step = this->last_sync();
 }
 
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.

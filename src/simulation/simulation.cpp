@@ -141,7 +141,8 @@ void Simulation::advance_towards(std::int64_t last_step) {
         advance_checked();
     else // at most to the first step after a sync
         engine_->advance_towards(last_step);
-    hand_over_pairs();
+    pairs_.hand_over();
+    walls_.hand_over();
 }
 
 void Simulation::begin_stress_sums(double bound) {
@@ -243,21 +244,24 @@ void Simulation::log_to(std::vector<Collision>* log) {
     engine_->log_to(log);
 }
 
-void Simulation::add_impulses_to(WallImpulses* impulses) { engine_->add_impulses_to(impulses); }
-
 void Simulation::follow_pairs(PairFollower& follower) {
-    followers_.push_back(&follower);
-    engine_->note_pairs_in(&pair_events_);
+    pairs_.add(follower);
+    engine_->note_pairs_in(pairs_.place());
 }
 
 void Simulation::forget(PairFollower& follower) {
-    std::erase(followers_, &follower);
-    if (followers_.empty()) engine_->note_pairs_in(nullptr);
+    pairs_.forget(follower);
+    engine_->note_pairs_in(pairs_.place());
 }
 
-void Simulation::hand_over_pairs() {
-    for (PairFollower* follower : followers_) follower->take(pair_events_);
-    pair_events_.clear();
+void Simulation::follow_walls(WallFollower& follower) {
+    walls_.add(follower);
+    engine_->note_walls_in(walls_.place());
+}
+
+void Simulation::forget(WallFollower& follower) {
+    walls_.forget(follower);
+    engine_->note_walls_in(walls_.place());
 }
 
 void Simulation::note_crossings_in(std::vector<Crossing>& crossings) {

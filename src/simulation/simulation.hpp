@@ -14,9 +14,12 @@
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "engine/collision.hpp"
+#include "engine/followers.hpp"
+#include "engine/pair_event.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/totals.hpp"
 #include "engine/tuning.hpp"
+#include "engine/wall_event.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 
@@ -25,14 +28,11 @@ namespace carrom {
 struct AveragedSystem;
 class Engine;
 class StateCheck;
-class PairFollower;
-struct PairEvent;
 struct BondOrder;
 struct HexaticSums;
 struct LocalView;
 struct MotionSample;
 struct StressSums;
-struct WallImpulses;
 
 class Simulation {
 public:
@@ -78,13 +78,12 @@ public:
     /// ends that.
     void log_to(std::vector<Collision>* log);
 
-    /// From now on the momentum that discs give to the sides of the box is added to
-    /// `impulses` of one rank; null ends that.
-    void add_impulses_to(WallImpulses* impulses);
-    /// From now on `follower` is given this rank's collisions of pairs, with each call of
-    /// `advance_towards`, until it is forgotten.
+    /// From now on `follower` is given this rank's collisions of pairs, or with the sides of the
+    /// box, with each call of `advance_towards`, until it is forgotten.
     void follow_pairs(PairFollower& follower);
     void forget(PairFollower& follower);
+    void follow_walls(WallFollower& follower);
+    void forget(WallFollower& follower);
     /// From now on the box lengths by which syncs in a periodic box bring own discs
     /// back are appended to `crossings`, until it is forgotten.
     void note_crossings_in(std::vector<Crossing>& crossings);
@@ -135,7 +134,6 @@ public:
 
 private:
     void advance_checked();
-    void hand_over_pairs();
     const SpeciesTable* table_if_mixed() const; ///< null if all discs are equal
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
     /// Like `shown()`, but only the velocities are right.
@@ -155,8 +153,8 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
-    std::vector<PairFollower*> followers_;
-    std::vector<PairEvent> pair_events_;    ///< since they were handed over
+    Followers<PairEvent> pairs_;
+    Followers<WallEvent> walls_;
     mutable std::vector<Disc> shown_;       ///< under gravity
     mutable std::vector<Disc> stored_;      ///< once discs have left the box
     mutable SideColumns stored_columns_;    ///< once discs have left the box

@@ -28,10 +28,14 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
                      dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
-        if (this->impulses_ && c.is_wall()) {
-            const auto [at_x, at_y] = dynamics_.met_walls(unhit_[i], m, c.time);
-            if (at_x) this->impulses_->add(0, mass * dx);
-            if (at_y) this->impulses_->add(1, mass * dy);
+        if (this->wall_events_ && c.is_wall()) {
+            const auto met = dynamics_.met_walls(unhit_[i], m, c.time);
+            for (const std::size_t axis : {0, 1})
+                if (axis == 0 ? met.at_x : met.at_y)
+                    this->wall_events_->push_back(
+                        wall_event(dynamics_.frame_at(m + c.time), axis, mass, results[c.p],
+                                   results[c.p].vx - unhit_[i].vx, results[c.p].vy - unhit_[i].vy,
+                                   k, met.at_x && met.at_y));
         }
         if (this->pair_events_ && !c.is_wall()) {
             const double time = m + c.time;

@@ -40,7 +40,7 @@ quantities = ["{name}"]
 every_steps = {every}
 from_step = 1
 """
-QUANTITIES = ("wall_pressure", "velocities", "density", "displacement",
+QUANTITIES = ("wall_pressure", "wall_exchange", "velocities", "density", "displacement",
               "diffusion", "pressure", "thermo", "radial_distribution", "profiles",
               "correlations", "transport")
 

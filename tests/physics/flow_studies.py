@@ -10,6 +10,8 @@ transport  viscosities and thermal conductivity in periodic boxes, against Ensko
            Chem. Phys. 54, 1898 (1971)); near freezing they are known to differ, the viscosity
            upwards and the others downwards (Garcia-Rojo, Luding and Brey, Phys. Rev. E 74, 061305
            (2006)), so that nothing is held beyond a packing of 0.5
+conduction a gas between walls of two temperatures: the heat that the walls give, and that of
+           profiles, against Enskog's conductivity times the slope of the temperature
 
 Exit codes and errors are those of tests/physics/literature.py.
 """
@@ -123,7 +125,40 @@ def transport(program, is_short):
         yield row
 
 
-STUDIES = {"shock": (shock, 0.05, 0.03), "transport": (transport, 0.2, 0.04)}
+def conduction(program, is_short):
+    """Walls at 2 and 0.5 in kT. In each strip the heat should be Enskog's conductivity there times
+    the slope of the temperature. Next to walls the temperature jumps, so strips there do not count.
+    """
+    length, discs, steps = (100, 600, 8_000) if is_short else (200, 2_400, 30_000)
+    early, strips = steps // 5, 20
+    for packing in (0.1, 0.2):
+        width = discs * math.pi / (4 * packing * length)
+        report = literature.run(
+            program, "conduction.toml", box__size=f"[{length}, {width!r}]", discs__count=discs,
+            discs__packing=packing, time__steps=steps, output__averages_from_step=early,
+            box__bottom__kind='"periodic"', box__top__kind='"periodic"',
+            output__measurements__quantities='["profiles", "wall_exchange"]',
+            output__measurements__every_steps=4, output__measurements__from_step=early,
+            output__measurements__profile_columns=strips, output__measurements__profile_rows=1,
+            output__measurements__profile_samples=(steps - early) // 4 + 1)
+        walls, table = (report["measurements"][name] for name in ("wall_exchange", "profiles"))
+        heat = (walls["left_heat"][0] - walls["right_heat"][0]) / 2
+        error = math.hypot(walls["left_heat_error"][0], walls["right_heat_error"][0]) / 2
+        inner = range(3, strips - 3)
+        slopes = [(table["temperature"][k + 1] - table["temperature"][k - 1]) * strips /
+                  (2 * length) for k in inner]
+        fourier = statistics.fmean(
+            -enskog(table["density"][k] * math.pi / 4, table["temperature"][k])[2] * slope
+            for k, slope in zip(inner, slopes))
+        field = statistics.fmean(table["heat_x"][k] + table["contact_heat_x"][k] for k in inner)
+        yield {"packing": packing, "discs": discs, "collisions": report["pair_collisions"],
+               "walls": heat, "walls_error": error, "walls_known": fourier,
+               "walls_known_error": 0.02 * fourier, "profiles": field, "profiles_error": error,
+               "profiles_known": heat, "profiles_known_error": error}
+
+
+STUDIES = {"shock": (shock, 0.05, 0.03), "transport": (transport, 0.2, 0.04),
+           "conduction": (conduction, 0.05, 0.04)}
 
 if __name__ == "__main__":
     literature.main(__doc__, STUDIES)

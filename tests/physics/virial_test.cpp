@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include <fmt/format.h>
 
-#include "engine/wall_impulses.hpp"
+#include "engine/wall_event.hpp"
 #include "equations_of_state.hpp"
 #include "gas_runs.hpp"
 #include "parallel/exchange.hpp"
@@ -70,6 +70,14 @@ void check_periodic(double eta, std::size_t n, double n_collisions, double large
               .epsilon(1e-12));
 }
 
+/// The impulses of discs on each side.
+struct NormalImpulses : WallFollower {
+    void take(std::span<const WallEvent> events) override {
+        for (const WallEvent& event : events) sums[event.side] += event.normal;
+    }
+    std::array<double, 4> sums{};
+};
+
 /// The means of both walls along x, and along y, over the averaged time.
 void check_walls(TestScene scene, double n_collisions) {
     const Communicator world = Communicator::world();
@@ -79,18 +87,17 @@ void check_walls(TestScene scene, double n_collisions) {
     run_until(simulation, 60 * n);
     Averaging averaging(scene, simulation, world);
     const std::int64_t first = simulation.step();
-    WallImpulses impulses(1e9);
-    simulation.add_impulses_to(&impulses);
+    NormalImpulses impulses;
+    simulation.follow_walls(impulses);
     run_until(simulation, 60 * n + n_collisions, averaging.actions());
-    simulation.add_impulses_to(nullptr);
+    simulation.forget(impulses);
     const Averages averages = averaging.averages();
     const double size = scene.setting.box_size,
                  steps = static_cast<double>(simulation.step() - first);
     const double room = 1 - 2 * scene.setting.radius / size;
     const TensorEstimate& p = averages.pressure_tensor;
     const auto wall = [&](std::size_t side) {
-        return (impulses.normal[side].value() + impulses.normal[side + 1].value()) /
-               (2 * size * steps);
+        return (impulses.sums[side] + impulses.sums[side + 1]) / (2 * size * steps);
     };
     INFO(scene.name);
     fmt::print(

@@ -2,65 +2,63 @@
 // "wall_pressure": the momentum that discs give to each side of the box, collision by collision.
 #include <cmath>
 
-#include "engine/wall_impulses.hpp"
+#include "engine/wall_event.hpp"
 #include "measure/measurement.hpp"
 #include "measure/speeds.hpp"
+#include "measure/wall_sums.hpp"
 #include "statistics/blocking.hpp"
 
 namespace carrom {
 
 namespace {
 
-/// The length of a side at a step. Between oscillating walls it is the mean.
-double length_of(const Scene& scene, std::size_t side, double step) {
-    const Extent box = extent_of_lines(scene.effects, scene.box, step);
-    return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
-}
-
-class WallPressure : public Measurement {
+class WallPressure : public Measurement, public WallFollower {
 public:
-    using Measurement::Measurement;
-    ~WallPressure() override { run_.simulation.add_impulses_to(nullptr); }
+    explicit WallPressure(MeasuredRun& run) : Measurement(run), since_last_(1) {}
+    ~WallPressure() override { run_.simulation.forget(*this); }
 
     void begin() override {
         speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
         follow();
     }
 
+    void take(std::span<const WallEvent> events) override {
+        for (const WallEvent& event : events) {
+            since_last_.add(event.side, event.normal);
+            ++counts_[event.side];
+        }
+    }
+
     void sample(const SampledState& state) override {
         if (state.is_first) return;
-        std::array<std::uint64_t, 4> counts = since_last_->counts;
-        run_.ranks.sum(std::span<std::uint64_t>(counts));
-        for (std::size_t side = 0; side < 4; ++side) {
-            ExactSum sum = since_last_->normal[side];
-            run_.ranks.sum(sum);
-            impulses_.push_back(sum.value());
-            collisions_[side] += counts[side];
-        }
-        *since_last_ = WallImpulses(bound());
+        run_.ranks.sum(std::span<std::uint64_t>(counts_));
+        const std::array<double, 4> impulses = since_last_.values(run_.ranks);
+        impulses_.insert(impulses_.end(), impulses.begin(), impulses.end());
+        for (std::size_t side = 0; side < 4; ++side) collisions_[side] += counts_[side];
+        clear();
     }
 
     void keep(KeptNumbers& kept) override {
         kept(speed_scale_), kept(collisions_), kept(impulses_);
         std::vector<std::uint64_t> pending; ///< sums of all ranks since the last sample
         if (!kept.is_restored()) {
-            std::array<std::uint64_t, 4> counts = since_last_->counts;
+            std::array<std::uint64_t, 4> counts = counts_;
             run_.ranks.sum(std::span<std::uint64_t>(counts));
-            for (std::size_t side = 0; side < 4; ++side) {
-                ExactSum sum = since_last_->normal[side];
-                run_.ranks.sum(sum);
-                pending.insert(pending.end(), {sum.low_word(), sum.high_word(), counts[side]});
-            }
+            const std::vector<std::uint64_t> words = since_last_.words(run_.ranks);
+            for (std::size_t side = 0; side < 4; ++side)
+                pending.insert(pending.end(), {words[2 * side], words[2 * side + 1], counts[side]});
         }
         kept(pending);
         if (!kept.is_restored()) return;
         follow();
         if (pending.size() != 12) return kept.refuse();
         if (!run_.ranks.is_root()) return;
+        std::vector<std::uint64_t> words;
         for (std::size_t side = 0; side < 4; ++side) {
-            since_last_->normal[side].add_words(pending[3 * side], pending[3 * side + 1]);
-            since_last_->counts[side] = pending[3 * side + 2];
+            words.insert(words.end(), {pending[3 * side], pending[3 * side + 1]});
+            counts_[side] = pending[3 * side + 2];
         }
+        since_last_.add_words(words.data());
     }
 
     std::vector<MeasuredTable> tables() const override {
@@ -71,11 +69,15 @@ public:
     }
 
 private:
-    /// More than a run ever sums up, with a resolution of 2^-63 of a speed.
-    double bound() const { return speed_scale_ * 0x1p62; }
+    void clear() {
+        // More than a run ever sums up, with a resolution of 2^-63 of a speed.
+        since_last_ = WallSums(speed_scale_ * 0x1p62);
+        counts_.fill(0);
+    }
     void follow() {
-        since_last_.emplace(bound());
-        run_.simulation.add_impulses_to(&*since_last_);
+        clear();
+        run_.simulation.forget(*this);
+        run_.simulation.follow_walls(*this);
     }
 
     MeasuredTable history() const {
@@ -92,10 +94,11 @@ private:
             std::vector<double> row = {from, to};
             for (std::size_t side = 0; side < 4;
                  ++side) // walls move evenly, so their mean length is that in the middle
-                row.push_back(scene.effects.boundaries[side].is_periodic()
-                                  ? std::nan("")
-                                  : impulses_[4 * k + side] /
-                                        (length_of(scene, side, (from + to) / 2) * (to - from)));
+                row.push_back(
+                    scene.effects.boundaries[side].is_periodic()
+                        ? std::nan("")
+                        : impulses_[4 * k + side] /
+                              (length_of_side(scene, side, (from + to) / 2) * (to - from)));
             table.rows.push_back(std::move(row));
         }
         return table;
@@ -130,8 +133,9 @@ private:
 
     double speed_scale_ = 0; ///< sets the unit of impulses
     std::array<std::uint64_t, 4> collisions_{};
-    std::vector<double> impulses_;           ///< by interval: for the four sides
-    std::optional<WallImpulses> since_last_; ///< on this rank since the last sample
+    std::vector<double> impulses_; ///< by interval: for the four sides
+    WallSums since_last_;          ///< on this rank since the last sample, as all that follows
+    std::array<std::uint64_t, 4> counts_{};
 };
 
 } // namespace

@@ -67,9 +67,9 @@ std::vector<Rule> rules_of_shear() {
 }
 
 /// A flow has the temperature that its rate and its losses give it, whatever it began with.
-void warn_of_temperature(const Check& check) {
-    Scene& scene = check.scene;
-    if (!scene.effects.are_sheared() || !check.settings.has("discs.temperature")) return;
+void warn_of_temperature(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
+    if (!scene.effects.are_sheared() || !draft.settings.has("discs.temperature")) return;
     const Thermostat& thermostat = scene.effects.thermostat;
     if (thermostat.has_temperature() && thermostat.temperature == scene.temperature) return;
     const char* then =

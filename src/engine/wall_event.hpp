@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A collision of a disc with a side of the box: what the side has given to the disc. Engines note
+// it only where a measurement follows walls.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/disc.hpp"
+#include "core/frame.hpp"
+#include "engine/followers.hpp"
+
+namespace carrom {
+
+/// Impulses and energies are as the box sees them, per step; sides are in the order of
+/// `side_names`.
+struct WallEvent {
+    std::uint8_t side = 0;
+    double normal = 0; ///< impulse across the side and away from it
+    double along = 0;  ///< impulse along it, in the direction of the axis
+    double energy = 0; ///< kinetic energy of the disc's motion that the side has added
+};
+using WallFollower = EventFollower<WallEvent>;
+
+/// `after` is the disc's stored state and (dx, dy) is the change of its stored velocity.
+/// Axis 0 means left and right. A disc in a corner meets two sides at once, and each of them has
+/// the part that is normal to it: `is_corner`.
+inline WallEvent wall_event(const Frame& frame, std::size_t axis, double mass, const Disc& after,
+                            double dx, double dy, double unit, bool is_corner) {
+    const double per_step = frame.slowing * unit, gained_x = dx * per_step,
+                 gained_y = dy * per_step,
+                 mean_x = after.vx * per_step + frame.vx * unit - gained_x / 2,
+                 mean_y = after.vy * per_step + frame.vy * unit - gained_y / 2;
+    const double across = axis == 0 ? gained_x : gained_y, beside = axis == 0 ? gained_y : gained_x,
+                 energy_across = across * (axis == 0 ? mean_x : mean_y),
+                 energy_beside = beside * (axis == 0 ? mean_y : mean_x);
+    WallEvent event;
+    event.side = static_cast<std::uint8_t>(2 * axis + (across < 0 ? 1 : 0));
+    event.normal = mass * (across < 0 ? -across : across);
+    event.along = is_corner ? 0 : mass * beside;
+    event.energy = mass * (is_corner ? energy_across : energy_across + energy_beside);
+    return event;
+}
+
+} // namespace carrom

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "wall_exchange": the energy and the momentum along it that each side of the box gives to the
+// discs, collision by collision. Between walls of two temperatures that is the flow of heat, and
+// between walls that slide it is the shear stress.
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/wall_event.hpp"
+#include "measure/measurement.hpp"
+#include "measure/speeds.hpp"
+#include "measure/wall_sums.hpp"
+#include "statistics/blocking.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::array side_words{"left", "right", "bottom", "top"};
+constexpr std::array part_words{"heat", "shear"};
+
+class WallExchange : public Measurement, public WallFollower {
+public:
+    explicit WallExchange(MeasuredRun& run)
+        : Measurement(run), since_last_{WallSums(1), WallSums(1)} {}
+    ~WallExchange() override { run_.simulation.forget(*this); }
+
+    void begin() override {
+        speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
+        follow();
+    }
+
+    void take(std::span<const WallEvent> events) override {
+        for (const WallEvent& event : events) {
+            since_last_[0].add(event.side, event.energy);
+            since_last_[1].add(event.side, event.along);
+        }
+    }
+
+    void sample(const SampledState& state) override {
+        if (state.is_first) return;
+        for (const WallSums& part : since_last_) {
+            const std::array<double, 4> sums = part.values(run_.ranks);
+            given_.insert(given_.end(), sums.begin(), sums.end());
+        }
+        clear();
+    }
+
+    void keep(KeptNumbers& kept) override {
+        kept(speed_scale_), kept(given_);
+        std::array<std::vector<std::uint64_t>, 2> pending;
+        for (std::size_t part = 0; part < 2 && !kept.is_restored(); ++part)
+            pending[part] = since_last_[part].words(run_.ranks);
+        for (std::vector<std::uint64_t>& words : pending) kept(words);
+        if (!kept.is_restored()) return;
+        follow();
+        for (std::size_t part = 0; part < 2; ++part) {
+            if (pending[part].size() != 8) return kept.refuse();
+            if (run_.ranks.is_root()) since_last_[part].add_words(pending[part].data());
+        }
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        if (given_.empty()) return {};
+        MeasuredTable over_time = history();
+        MeasuredTable means = means_of(over_time);
+        return {std::move(means), std::move(over_time)};
+    }
+
+private:
+    void clear() {
+        // More than a run ever sums up, with a resolution of 2^-63 of a speed, or of its square.
+        since_last_ = {WallSums(speed_scale_ * speed_scale_ * 0x1p62),
+                       WallSums(speed_scale_ * 0x1p62)};
+    }
+    void follow() {
+        clear();
+        run_.simulation.forget(*this);
+        run_.simulation.follow_walls(*this);
+    }
+
+    MeasuredTable history() const {
+        MeasuredTable table{
+            "wall_exchange_history",
+            {"heat: kinetic energy that a side has given to the discs between two steps, work of "
+             "moving walls with it; shear: momentum along the side; over its length and that time "
+             "(nan: a periodic side)",
+             "masses of 1, times in steps; spins do not count"},
+            {"from_step", "to_step"},
+            {}};
+        for (const char* part : part_words)
+            for (const char* side : side_words)
+                table.columns.push_back(fmt::format("{}_{}", side, part));
+        for (std::size_t k = 0; k < given_.size() / 8; ++k) {
+            const double from = run_.step_of(k);
+            const double to = from + static_cast<double>(run_.output.every_steps);
+            std::vector<double> row = {from, to};
+            for (std::size_t n = 0; n < 8; ++n)
+                row.push_back(
+                    run_.scene.effects.boundaries[n % 4].is_periodic()
+                        ? std::nan("")
+                        : given_[8 * k + n] /
+                              (length_of_side(run_.scene, n % 4, (from + to) / 2) * (to - from)));
+            table.rows.push_back(std::move(row));
+        }
+        return table;
+    }
+
+    static MeasuredTable means_of(const MeasuredTable& history) {
+        MeasuredTable table{
+            "wall_exchange",
+            {"means over the history with one standard error (nan where intervals are too few)"},
+            {},
+            {{}}};
+        for (std::size_t column = 2; column < history.columns.size(); ++column) {
+            std::vector<double> terms;
+            double sum = 0;
+            for (const std::vector<double>& row : history.rows) {
+                terms.push_back(row[column]);
+                sum += row[column];
+            }
+            table.columns.push_back(history.columns[column]);
+            table.columns.push_back(history.columns[column] + "_error");
+            table.rows[0].push_back(sum / static_cast<double>(terms.size()));
+            table.rows[0].push_back(standard_error(terms));
+        }
+        return table;
+    }
+
+    double speed_scale_ = 0;             ///< sets the units of sums
+    std::vector<double> given_;          ///< by interval and part: for the four sides
+    std::array<WallSums, 2> since_last_; ///< heat and shear on this rank since the last sample
+};
+
+bool has_no_walls(const Scene& s) {
+    return measures(s, "wall_exchange") && s.effects.is_periodic_x() && s.effects.is_periodic_y();
+}
+
+bool has_open_sides(const Scene& s) {
+    return measures(s, "wall_exchange") && s.effects.have_open_boundaries();
+}
+
+} // namespace
+
+MeasuredQuantity wall_exchange_quantity() {
+    return {{.name = "wall_exchange",
+             .help = "Energy and momentum along it that each side gives to the discs.",
+             .has_history = true,
+             .rules = {{.one = "\"wall_exchange\"",
+                        .other = "a box that is periodic all round",
+                        .why = "it has no walls",
+                        .keys = {quantities_key},
+                        .is_broken = has_no_walls},
+                       {.one = "\"wall_exchange\"",
+                        .other = "an open side",
+                        .why = "with open sides velocities and densities alone are measured",
+                        .keys = {quantities_key},
+                        .is_broken = has_open_sides}}},
+            make_measurement<WallExchange>,
+            {"wall_exchange_history"}};
+}
+
+} // namespace carrom
