@@ -4,7 +4,7 @@
 
   build/python/bin/python docs/tools/fields.py build/carrom [NAME ...] [--output docs/pictures]
 
-NAME is shock, transport or slow_liquid. Together they take some minutes.
+NAME is shock, transport, heat_between_walls or slow_liquid. Together they take some minutes.
 """
 import argparse
 import pathlib
@@ -58,6 +58,26 @@ def draw_transport(figure, measured):
     figure.axes[0].legend()
 
 
+def draw_heat_between_walls(figure, measured):
+    """Temperature, and the flow of heat with its two parts; dashes are what the walls give."""
+    table = read(measured / "profiles.csv")
+    walls = read(measured / "wall_exchange.csv")
+    places = np.unique(table["x"])
+    def mean(column):
+        return np.array([table[column][table["x"] == x].mean() for x in places])
+    left, right = figure.subplots(1, 2)
+    left.plot(places, mean("temperature"), ".-", color="#c05000")
+    left.set(xlabel="x", ylabel="kT", ylim=(0, None))
+    carried, passed = mean("heat_x"), mean("contact_heat_x")
+    right.plot(places, carried + passed, ".-", color="#0060b0", label="both")
+    right.plot(places, carried, ".-", color="#c05000", label="carried by discs")
+    right.plot(places, passed, ".-", color="#208040", label="passed on in collisions")
+    right.axhline((walls["left_heat"] - walls["right_heat"]) / 2, color="black", linewidth=0.8,
+                  linestyle="--")
+    right.set(xlabel="x", ylabel="flow of heat", ylim=(0, None))
+    right.legend()
+
+
 def draw_slow_liquid(figure, measured):
     """F_s, mean square displacement and chi_4 of small and large discs."""
     for axes, (name, scale) in zip(figure.subplots(1, 3), (("scattering", "linear"),
@@ -72,7 +92,13 @@ def draw_slow_liquid(figure, measured):
     figure.axes[0].legend()
 
 
-PICTURES = {"shock": draw_shock, "transport": draw_transport, "slow_liquid": draw_slow_liquid}
+PICTURES = {"shock": draw_shock, "transport": draw_transport,
+            "heat_between_walls": draw_heat_between_walls, "slow_liquid": draw_slow_liquid}
+SCENES = {"heat_between_walls": "conduction"} # where its name is another one
+MORE = {"heat_between_walls": ["output.measurements.quantities=['profiles', 'wall_exchange']",
+                               "output.measurements.from_step=2000",
+                               "output.measurements.profile_columns=20",
+                               "output.measurements.profile_rows=1"]}
 
 
 def main():
@@ -86,8 +112,10 @@ def main():
     plot_style.use()
     for name in options.names or PICTURES:
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([options.program.resolve(), "run", TOP / f"inputs/{name}.toml",
-                            "--quiet", "-o", f"{folder}/run"], check=True)
+            settings = [word for text in MORE.get(name, []) for word in ("--set", text)]
+            subprocess.run([options.program.resolve(), "run",
+                            TOP / f"inputs/{SCENES.get(name, name)}.toml", "--quiet",
+                            "-o", f"{folder}/run", *settings], check=True)
             figure = plt.figure(figsize=(11, 3.6))
             PICTURES[name](figure, pathlib.Path(folder, "run/measurements"))
             figure.savefig(options.output / f"{name}.png", dpi=100)

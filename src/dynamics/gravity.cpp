@@ -86,8 +86,8 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
     return {weight, shift * gravity_.x, shift * gravity_.y, rest * gravity_.x, rest * gravity_.y};
 }
 
-Frame FallingFrame::at(double time) const {
-    return {gravity_.is_any() || drag_ != 0,
+Frame FallingFrame::moving_at(double time) const {
+    return {true,
             fallen(gravity_.x, time),
             fallen(gravity_.y, time),
             gravity_.x * time,

@@ -71,12 +71,10 @@ public:
 
     /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
-    /// From now on collisions with the box's sides are appended to `events` of one rank, in no
-    /// particular order; null ends that.
-    void note_walls_in(std::vector<WallEvent>* events) { wall_events_ = events; }
-    /// From now on collisions of pairs are appended to `events` of one rank, in no particular
-    /// order; null ends that.
-    void note_pairs_in(std::vector<PairEvent>* events) { pair_events_ = events; }
+    /// They are given this rank's collisions of pairs, or with the box's sides, in no particular
+    /// order.
+    Followers<PairEvent>& followers_of_pairs() { return pair_followers_; }
+    Followers<WallEvent>& followers_of_walls() { return wall_followers_; }
     /// From now on the energy that moving images give own discs is added to `work`, as long as
     /// collisions are logged; per micro-step, of stored states. Null ends that.
     void add_work_to(double* work) { work_ = work; }
@@ -100,12 +98,12 @@ protected:
     /// Notes the flight from (x, y) to where the disc is now. Threads may call it at once.
     void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
-        return log_ != nullptr || wall_events_ != nullptr || pair_events_ != nullptr;
+        return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();
     }
 
     std::vector<Collision>* log_ = nullptr;
-    std::vector<PairEvent>* pair_events_ = nullptr;
-    std::vector<WallEvent>* wall_events_ = nullptr;
+    Followers<PairEvent> pair_followers_;
+    Followers<WallEvent> wall_followers_;
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
     /// Partial sums begin as copies of it. In its units all terms are 0 until sums are asked for.

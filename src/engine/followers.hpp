@@ -21,21 +21,27 @@ public:
     virtual void take(std::span<const Event> events) = 0;
 };
 
-/// The followers of events of one kind, and the events that they have not been given yet.
+/// The followers of events of one kind. They are given events soon after these have happened, so
+/// that memory does not grow with their number.
 template <class Event> class Followers {
 public:
     void add(EventFollower<Event>& follower) { all_.push_back(&follower); }
     void forget(EventFollower<Event>& follower) { std::erase(all_, &follower); }
-    /// Where events are noted; null if nobody follows them.
-    std::vector<Event>* place() { return all_.empty() ? nullptr : &events_; }
+    bool are_any() const { return !all_.empty(); }
+
+    void give(std::span<const Event> events) const {
+        for (EventFollower<Event>* follower : all_) follower->take(events);
+    }
+    /// Room for an event that waits for `hand_over`, for engines that find events one by one.
+    Event& note() { return noted_.emplace_back(); }
     void hand_over() {
-        for (EventFollower<Event>* follower : all_) follower->take(events_);
-        events_.clear();
+        give(noted_);
+        noted_.clear();
     }
 
 private:
     std::vector<EventFollower<Event>*> all_;
-    std::vector<Event> events_;
+    std::vector<Event> noted_;
 };
 
 } // namespace carrom

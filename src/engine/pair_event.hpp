@@ -39,16 +39,16 @@ using PairFollower = EventFollower<PairEvent>;
 
 /// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
 /// is the first disc at that time, before or after the collision, and `to` is the separation then.
-/// `unit` turns stored velocities into those per step.
+/// `unit` turns stored velocities into those per step. Filled in its place, which saves a copy.
 template <class Dynamics>
-PairEvent pair_event(const Dynamics& dynamics, const Disc& place, const Separation& to,
-                     const Disc& p, const Disc& q, double vx_before, double vy_before, double time,
-                     double unit) {
+void note_in(PairEvent& event, const Dynamics& dynamics, const Disc& place, const Separation& to,
+             const Disc& p, const Disc& q, double vx_before, double vy_before, double time,
+             double unit, std::int64_t last_sync) {
     const Frame frame = dynamics.frame_at(time);
     const double mass = dynamics.mass_of(p) * frame.slowing * unit;
-    PairEvent event;
     event.p = p.id;
     event.q = q.id;
+    event.micro_step = last_sync;
     event.time = dynamics.micro_steps_at(time);
     event.x = place.x_at(time) + frame.x;
     event.y = place.y_at(time) + frame.y;
@@ -60,7 +60,6 @@ PairEvent pair_event(const Dynamics& dynamics, const Disc& place, const Separati
     event.p_vy = (p.vy * frame.slowing + frame.vy) * unit;
     event.q_vx = (q.vx * frame.slowing + frame.vx) * unit;
     event.q_vy = (q.vy * frame.slowing + frame.vy) * unit;
-    return event;
 }
 
 } // namespace carrom

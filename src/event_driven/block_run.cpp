@@ -300,12 +300,12 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
     else
         dynamics.collide_at(p, q, event.time);
     if (is_own[event.p] != 0) {
+        const Separation to = dynamics.separation(p, q);
         [[maybe_unused]] const double impulse = stress.add_to(
-            stress_terms, outcome->stress, dynamics, p, q, dynamics.separation(p, q), event.time,
-            ground.flown_before);
+            stress_terms, outcome->stress, dynamics, p, q, to, event.time, ground.flown_before);
         if constexpr (Dynamics::has_moving_images)
             outcome->work += impulse * periods().between(p, q, event.time).vx;
-        if (ground.notes_pairs) note_pair(event, stress);
+        if (ground.notes_pairs) note_pair(event, stress, to);
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }

@@ -68,6 +68,7 @@ struct BlockGround {
     /// not built.
     bool is_alone = false;
     bool notes_pairs = false;            ///< collisions of pairs go to BlockOutcome::pairs
+    std::int64_t last_sync = 0;          ///< a micro-step, for these
     bool logs_walls_alone = false;       ///< of what is logged
     double velocity_unit = 1;            ///< of the velocities in these
     std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
@@ -132,7 +133,7 @@ struct BlockOutcome {
     SideColumns columns;          ///< their new values
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
-    std::vector<PairEvent> pairs; ///< times are since the last sync
+    std::vector<PairEvent> pairs;
     std::uint64_t n_events = 0;   ///< number of events whose first disc is own
     StressSums stress{1};         ///< of these events
     double work = 0;              ///< done by moving images in these events

@@ -287,11 +287,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     /// Must be called after the collision, while the second disc is at the place of the event's
     /// image.
-    [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before) {
+    [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before,
+                                     const Separation& to) {
         const Disc &p = discs[event.p], &q = discs[event.q];
-        outcome->pairs.push_back(pair_event(dynamics, p, dynamics.separation(p, q), p, q,
-                                            before.vx(), before.vy(), event.time,
-                                            ground.velocity_unit));
+        note_in(outcome->pairs.emplace_back(), dynamics, p, to, p, q, before.vx(), before.vy(),
+                event.time, ground.velocity_unit, ground.last_sync);
     }
 
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {

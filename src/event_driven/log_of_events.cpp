@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes events of the event-driven engine on to the log, the sums of wall impulses and the pair
-// followers that want them.
+// Passes events of the event-driven engine on to the log and to the followers of walls and pairs.
 #include "event_driven/event_driven_engine.hpp"
 
 namespace carrom {
@@ -13,22 +12,19 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
         const Frame frame = dynamics_.frame_at(event.time);
         const double per_step = static_cast<double>(this->micro_steps_),
                      unit = mass * (frame.slowing * per_step);
-        if (this->wall_events_ && event.is_wall && event.q <= 1) {
+        if (this->wall_followers_.are_any() && event.is_wall && event.q <= 1) {
             Disc after;
             after.vx = event.vx, after.vy = event.vy;
-            this->wall_events_->push_back(wall_event(frame, event.q, mass, after, event.gained_x,
-                                                     event.gained_y, per_step, false));
+            this->wall_followers_.note() = wall_event(frame, event.q, mass, after, event.gained_x,
+                                                      event.gained_y, per_step, false);
         }
         if (this->log_)
             this->log_->push_back(
                 {this->last_sync(), dynamics_.micro_steps_at(event.time), event.generation, event.p,
                  event.is_wall ? Collision::wall : event.q, event.impulse * unit});
     }
-    if (!this->pair_events_) return;
-    std::vector<PairEvent>& noted = *this->pair_events_;
-    noted.insert(noted.end(), outcome.pairs.begin(), outcome.pairs.end());
-    for (std::size_t k = noted.size() - outcome.pairs.size(); k < noted.size(); ++k)
-        noted[k].micro_step = this->last_sync();
+    this->wall_followers_.hand_over();
+    this->pair_followers_.give(outcome.pairs);
 }
 
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.

@@ -66,10 +66,11 @@ public:
     /// What a collision adds, in whole units of the sums, so that its parts add up to it.
     ContactUnits in_units(const std::array<double, n_contact_moments>& of_contact) const {
         ContactUnits units{};
-        for (std::size_t k = 0; k < n_contact_moments;
-             ++k) // of the hardest blows 2^62 units remain
-            units[k] = static_cast<std::int64_t>(
-                std::clamp(of_contact[k] * contact_scales_[k], -0x1p62, 0x1p62));
+        for (std::size_t k = 0; k < n_contact_moments; ++k) {
+            const double scaled = of_contact[k] * contact_scales_[k];
+            const double above = scaled < -0x1p62 ? -0x1p62 : scaled; // std::clamp branches
+            units[k] = static_cast<std::int64_t>(above > 0x1p62 ? 0x1p62 : above);
+        } // of the hardest blows 2^62 units remain
         return units;
     }
     void add_contact(std::size_t cell, const ContactUnits& units) {

@@ -23,7 +23,7 @@ void FollowedDiscs::begin() {
         lengths_.emplace(run_.scene.box, run_.simulation, run_.ranks);
 }
 
-const std::vector<FollowedDisc>& FollowedDiscs::now() {
+const FollowedStates& FollowedDiscs::now() {
     const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
     const std::vector<Disc> flown = lengths_ ? flown_on(run_.simulation) : std::vector<Disc>{};
     const std::span<const Disc> discs = lengths_ ? std::span<const Disc>(flown)
@@ -31,17 +31,20 @@ const std::vector<FollowedDisc>& FollowedDiscs::now() {
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()
                                                         : std::span<const DiscImage>{};
     PieceStream stream(run_.ranks, discs, n_discs_, [](const Disc& disc) { return disc.id; });
-    discs_.clear();
+    for (std::vector<double>* column : states_.columns()) column->resize(n_own_);
+    std::size_t i = 0;
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round)
         for (const Disc& disc : stream.next()) {
-            FollowedDisc& one = discs_.emplace_back();
-            one = {disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit};
-            if (lengths.empty()) continue;
-            one.x += lengths[discs_.size() - 1].x * run_.scene.box.x;
-            one.y += lengths[discs_.size() - 1].y * run_.scene.box.y;
+            states_.x[i] = disc.x_at(time), states_.y[i] = disc.y_at(time);
+            states_.vx[i] = disc.vx * unit, states_.vy[i] = disc.vy * unit;
+            if (!lengths.empty()) {
+                states_.x[i] += lengths[i].x * run_.scene.box.x;
+                states_.y[i] += lengths[i].y * run_.scene.box.y;
+            }
+            ++i;
         }
     if (n_discs_ > 1 && !run_.scene.effects.obstacles.are_any()) subtract_mean();
-    return discs_;
+    return states_;
 }
 
 /// Nothing stops a common motion along a periodic axis, and it is no diffusion (see
@@ -50,20 +53,19 @@ void FollowedDiscs::subtract_mean() {
     const double length = run_.scene.box.longest() * 0x1p70;
     std::array<ExactSum, 5> sums = {ExactSum(0x1p70), ExactSum(length), ExactSum(length),
                                     ExactSum(speed_ * 0x1p70), ExactSum(speed_ * 0x1p70)};
-    for (std::size_t i = 0; i < discs_.size(); ++i) {
+    const std::array<std::vector<double>*, 4> columns = states_.columns();
+    for (std::size_t i = 0; i < states_.size(); ++i) {
         const double mass = species_.of(first_id_ + i).mass;
-        const FollowedDisc& disc = discs_[i];
-        const std::array<double, 5> terms = {mass, mass * disc.x, mass * disc.y, mass * disc.vx,
-                                             mass * disc.vy};
-        for (std::size_t k = 0; k < terms.size(); ++k) sums[k].add(terms[k]);
+        sums[0].add(mass);
+        for (std::size_t k = 0; k < columns.size(); ++k) sums[1 + k].add(mass * (*columns[k])[i]);
     }
     for (ExactSum& sum : sums) run_.ranks.sum(sum);
-    const double mass = sums[0].value();
-    const bool along_x = run_.scene.effects.is_periodic_x(),
-               along_y = run_.scene.effects.is_periodic_y();
-    for (FollowedDisc& disc : discs_) {
-        if (along_x) disc.x -= sums[1].value() / mass, disc.vx -= sums[3].value() / mass;
-        if (along_y) disc.y -= sums[2].value() / mass, disc.vy -= sums[4].value() / mass;
+    const std::array is_periodic = {run_.scene.effects.is_periodic_x(),
+                                    run_.scene.effects.is_periodic_y()};
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (!is_periodic[k % 2]) continue;
+        const double mean = sums[1 + k].value() / sums[0].value();
+        for (double& number : *columns[k]) number -= mean;
     }
 }
 

@@ -5,6 +5,8 @@
 // Discs are kept by runs of ids (pieces.hpp). Price of a sample: each disc is sent once.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -16,8 +18,13 @@
 
 namespace carrom {
 
-struct FollowedDisc {
-    double x = 0, y = 0, vx = 0, vy = 0; ///< velocities are per step
+/// Places, and velocities per step, by id. Each is an array of its own, so that loops over discs
+/// run in vectors.
+struct FollowedStates {
+    std::vector<double> x, y, vx, vy;
+
+    std::size_t size() const { return x.size(); }
+    std::array<std::vector<double>*, 4> columns() { return {&x, &y, &vx, &vy}; }
 };
 
 class FollowedDiscs {
@@ -27,7 +34,7 @@ public:
     /// From the present step on. **Collective.**
     void begin();
     /// As they are now, those of this rank's run of ids. **Collective.**
-    const std::vector<FollowedDisc>& now();
+    const FollowedStates& now();
     DiscId first_id() const { return first_id_; }
     std::uint64_t n_discs() const { return n_discs_; }
 
@@ -47,7 +54,7 @@ private:
     std::size_t n_own_ = 0;
     double speed_ = 0; ///< by which units of sums are chosen
     std::optional<ImageCounts> lengths_;
-    std::vector<FollowedDisc> discs_;
+    FollowedStates states_;
 };
 
 } // namespace carrom

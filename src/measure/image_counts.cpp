@@ -13,6 +13,7 @@ std::vector<Disc> flown_on(const Simulation& simulation) {
     Frame frame = simulation.frame();
     frame.periods = {};
     std::vector<Disc> discs;
+    discs.reserve(simulation.discs().size());
     for (const Disc& disc : simulation.discs())
         discs.push_back(frame.in_box(disc, simulation.clock()));
     return discs;

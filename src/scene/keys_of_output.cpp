@@ -83,8 +83,8 @@ std::vector<Key> keys_of_recordings() {
             [](auto& s) -> auto& { return s.trajectory->every_steps; })
             .within(every),
         key("output.trajectory.frames_per_decade", "",
-            "Frames at steps that grow by a factor, so many while they grow tenfold, from "
-            "every_steps on; 0: at regular steps.",
+            "Number of frames while the step grows tenfold, from every_steps on; 0: frames at "
+            "regular steps.",
             [](auto& s) -> auto& { return s.trajectory->frames_per_decade; })
             .within({0, 1000}),
         flags_key(

@@ -141,8 +141,6 @@ void Simulation::advance_towards(std::int64_t last_step) {
         advance_checked();
     else // at most to the first step after a sync
         engine_->advance_towards(last_step);
-    pairs_.hand_over();
-    walls_.hand_over();
 }
 
 void Simulation::begin_stress_sums(double bound) {
@@ -245,23 +243,19 @@ void Simulation::log_to(std::vector<Collision>* log) {
 }
 
 void Simulation::follow_pairs(PairFollower& follower) {
-    pairs_.add(follower);
-    engine_->note_pairs_in(pairs_.place());
+    engine_->followers_of_pairs().add(follower);
 }
 
 void Simulation::forget(PairFollower& follower) {
-    pairs_.forget(follower);
-    engine_->note_pairs_in(pairs_.place());
+    engine_->followers_of_pairs().forget(follower);
 }
 
 void Simulation::follow_walls(WallFollower& follower) {
-    walls_.add(follower);
-    engine_->note_walls_in(walls_.place());
+    engine_->followers_of_walls().add(follower);
 }
 
 void Simulation::forget(WallFollower& follower) {
-    walls_.forget(follower);
-    engine_->note_walls_in(walls_.place());
+    engine_->followers_of_walls().forget(follower);
 }
 
 void Simulation::note_crossings_in(std::vector<Crossing>& crossings) {

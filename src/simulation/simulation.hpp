@@ -14,7 +14,6 @@
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "engine/collision.hpp"
-#include "engine/followers.hpp"
 #include "engine/pair_event.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/totals.hpp"
@@ -79,7 +78,7 @@ public:
     void log_to(std::vector<Collision>* log);
 
     /// From now on `follower` is given this rank's collisions of pairs, or with the sides of the
-    /// box, with each call of `advance_towards`, until it is forgotten.
+    /// box, during each call of `advance_towards`, until it is forgotten.
     void follow_pairs(PairFollower& follower);
     void forget(PairFollower& follower);
     void follow_walls(WallFollower& follower);
@@ -153,8 +152,6 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
-    Followers<PairEvent> pairs_;
-    Followers<WallEvent> walls_;
     mutable std::vector<Disc> shown_;       ///< under gravity
     mutable std::vector<Disc> stored_;      ///< once discs have left the box
     mutable SideColumns stored_columns_;    ///< once discs have left the box

@@ -10,7 +10,7 @@ template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
-    if (!this->pair_events_) return;
+    if (!this->pair_followers_.are_any()) return;
     unhit_partners_.clear();
     for (const Candidate& c : verdicts_.kept)
         unhit_partners_.push_back(c.is_wall() ? Disc{} : results[c.q]);
@@ -28,27 +28,28 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
                      dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
-        if (this->wall_events_ && c.is_wall()) {
+        if (this->wall_followers_.are_any() && c.is_wall()) {
             const auto met = dynamics_.met_walls(unhit_[i], m, c.time);
             for (const std::size_t axis : {0, 1})
                 if (axis == 0 ? met.at_x : met.at_y)
-                    this->wall_events_->push_back(
-                        wall_event(dynamics_.frame_at(m + c.time), axis, mass, results[c.p],
-                                   results[c.p].vx - unhit_[i].vx, results[c.p].vy - unhit_[i].vy,
-                                   k, met.at_x && met.at_y));
+                    this->wall_followers_.note() = wall_event(
+                        dynamics_.frame_at(m + c.time), axis, mass, results[c.p],
+                        results[c.p].vx - unhit_[i].vx, results[c.p].vy - unhit_[i].vy, k,
+                        met.at_x && met.at_y);
         }
-        if (this->pair_events_ && !c.is_wall()) {
+        if (this->pair_followers_.are_any() && !c.is_wall()) {
             const double time = m + c.time;
-            PairEvent& event = this->pair_events_->emplace_back(pair_event(
-                dynamics_, unhit_[i], dynamics_.separation_at(unhit_[i], unhit_partners_[i], time),
-                results[c.p], results[c.q], unhit_[i].vx, unhit_[i].vy, time, k));
-            event.micro_step = this->last_sync();
+            note_in(this->pair_followers_.note(), dynamics_, unhit_[i],
+                    dynamics_.separation_at(unhit_[i], unhit_partners_[i], time), results[c.p],
+                    results[c.q], unhit_[i].vx, unhit_[i].vy, time, k, this->last_sync());
         }
         if (this->log_)
             this->log_->push_back({this->last_sync() + m, c.time, 0, unhit_[i].id,
                                    c.is_wall() ? Collision::wall : results[c.q].id,
                                    mass * std::sqrt(dx * dx + dy * dy)});
     }
+    this->wall_followers_.hand_over();
+    this->pair_followers_.hand_over();
 }
 
 // The functions that the engine's own file calls. The class itself is compiled there.

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Print what quantities take of a run, in instructions: docs/performance/quantities.csv.
+"""Print what quantities take of a run, in instructions and memory:
+docs/performance/quantities.csv.
 
   tests/performance/quantity_costs.py CARROM [QUANTITY ...]
 
 A gas at a packing of 0.3 in a periodic box, or for quantities of walls between walls, runs on one
 thread with the event-driven method. Each disc collides once in a step on average. The shares are
-those of a run of 1e5 discs as well, because the work for a disc and step does not depend on their
-number. valgrind counts the instructions of steps and of samples, but not those of the start.
-`per_collision` is the share of the run's instructions where a sample is taken after each collision
-of a disc, and `per_ten` where it is taken after ten. It takes some minutes.
+about those of a run of 1e5 discs, because the work for a disc and step does not depend on their
+number. Profiles have one cell here, so that as many collisions lie across its edge as lie across
+edges of the default grid among 1e5 discs. valgrind counts the instructions of steps and of samples,
+but not those of the start. `per_collision` is the share of the run's instructions where a sample is
+taken after each collision of a disc, and `per_ten`, the default, where it is taken after ten.
+`megabytes` is what the largest memory of a run of 1e5 discs grows by, with a sample after each of
+40 steps. It takes some minutes.
 """
 import math
 import os
@@ -20,7 +24,7 @@ import tempfile
 
 from instructions import SETTINGS
 
-DISCS, STEPS = 1000, 40
+DISCS, STEPS, MANY = 1000, 40, 100_000
 SCENE = """[box]
 size = {size}
 left.kind = "periodic"
@@ -40,22 +44,45 @@ quantities = ["{name}"]
 every_steps = {every}
 from_step = 1
 """
+SETTINGS_OF = {"profiles": "profile_columns = 1\nprofile_rows = 1\n"}
 QUANTITIES = ("wall_pressure", "wall_exchange", "velocities", "density", "displacement",
               "diffusion", "pressure", "thermo", "radial_distribution", "profiles",
               "correlations", "transport")
 
 
+def write_scene(path, discs, kind, name, every):
+    """A gas of a radius of 1 that measures a quantity, or nothing."""
+    scene = SCENE.format(size=math.sqrt(discs * math.pi / 0.3), discs=discs, kind=kind,
+                         speed=2 * math.sqrt(math.pi / 8) / 1.063, steps=STEPS)
+    if name:
+        scene += MEASURED.format(name=name, every=every)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(scene)
+
+
+def megabytes(program, kind, name=""):
+    """The largest memory of a run of many discs."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_scene(f"{folder}/scene.toml", MANY, kind, name, 1)
+        pid = os.spawnvpe(os.P_NOWAIT, program, [program, "run", f"{folder}/scene.toml", "--quiet",
+                                                 "--threads", "1", "-o", f"{folder}/run"],
+                          os.environ | SETTINGS)
+        _, status, usage = os.wait4(pid, 0)
+    if status != 0:
+        sys.exit(f"a run with {name or 'no quantity'} failed")
+    return usage.ru_maxrss / 1000 # it is in kB
+
+
 def instructions(program, kind, name="", every=1):
     """Of all steps and samples of a run."""
-    size = math.sqrt(DISCS * math.pi / 0.3) # of a radius of 1
-    scene = SCENE.format(size=size, discs=DISCS, speed=2 * math.sqrt(math.pi / 8) / 1.063,
-                         steps=STEPS, kind=kind)
     with tempfile.TemporaryDirectory() as folder:
-        with open(f"{folder}/scene.toml", "w", encoding="utf-8") as file:
-            file.write(scene + (MEASURED.format(name=name, every=every) if name else ""))
+        write_scene(f"{folder}/scene.toml", DISCS, kind, name, every)
+        if name in SETTINGS_OF:
+            with open(f"{folder}/scene.toml", "a", encoding="utf-8") as file:
+                file.write(SETTINGS_OF[name])
         command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
                    "--collect-atstart=no", "--toggle-collect=carrom::Simulation::advance_towards*",
-                   "--toggle-collect=carrom::Sampler::sample_if_due*", program, "run",
+                   "--toggle-collect=carrom::Sampler::act*", program, "run",
                    f"{folder}/scene.toml", "--quiet", "--threads", "1", "-o", f"{folder}/run"]
         result = subprocess.run(command, check=True, capture_output=True, text=True, timeout=600,
                                 env=os.environ | SETTINGS)
@@ -65,12 +92,15 @@ def instructions(program, kind, name="", every=1):
 def main():
     """Print the table."""
     program, names = sys.argv[1], sys.argv[2:] or QUANTITIES
-    plain = {kind: instructions(program, kind) for kind in ("periodic", "wall")}
-    print("quantity,per_collision,per_ten")
-    for name in names:
-        kind = "wall" if name.startswith("wall") else "periodic"
-        shares = [instructions(program, kind, name, every) / plain[kind] - 1 for every in (1, 10)]
-        print(f"{name},{shares[0]:.3f},{shares[1]:.3f}", flush=True)
+    kinds = {name: "wall" if name.startswith("wall") else "periodic" for name in names}
+    plain = {kind: (instructions(program, kind), megabytes(program, kind))
+             for kind in set(kinds.values())}
+    print("quantity,per_collision,per_ten,megabytes")
+    for name, kind in kinds.items():
+        count, memory = plain[kind]
+        shares = [instructions(program, kind, name, every) / count - 1 for every in (1, 10)]
+        print(f"{name},{shares[0]:.3f},{shares[1]:.3f},"
+              f"{max(0, megabytes(program, kind, name) - memory):.1f}", flush=True)
 
 
 if __name__ == "__main__":

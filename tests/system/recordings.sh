@@ -113,6 +113,23 @@ expect_told 'parts/trajectory.h5: has no frames of steps 0 to 24, and goes on wi
     'a restart without its trajectory'
 expect_told 'parts/collisions.h5: begins with step 26' 'a restart without its log'
 
+# Frames at steps that grow by a factor: a restart goes on with them, and names what is missing.
+decades=(--set output.trajectory.every_steps=2 --set output.trajectory.frames_per_decade=4
+         --set output.checkpoint.every_steps=25 --set output.checkpoint.keep=1000000)
+run 3 run "$input" "${small[@]}" "${decades[@]}" -o decades
+expect_code 0 'frames at growing steps'
+run 1 convert decades/trajectory.h5 --to xyz --output frames.xyz
+steps=$(grep -o 'Time=[0-9]*' frames.xyz | cut -d= -f2 | tr '\n' ' ')
+[ "$steps" = '0 2 4 6 11 20 36 63 ' ] || complain "frames at steps $steps"
+run 2 run "$input" "${small[@]}" "${decades[@]}" -o decades_parts --steps 40
+run 1 run -o decades_parts --resume --steps 90 --quiet
+run 1 diff decades/trajectory.h5 decades_parts/trajectory.h5
+expect_code 0 'frames at growing steps, gone on with'
+rm -r decades_parts/trajectory*
+run 2 run --restart decades_parts/checkpoints/checkpoint-000000000025.h5 --quiet --steps 90
+expect_told 'trajectory.h5: has no frames of steps 0 to 20, and goes on with step 36' \
+    'a restart without its frames at growing steps'
+
 # Frames without image counts get none; after a checkpoint without them they count from there.
 periodic=()
 for side in left right bottom top; do periodic+=(--set "box.$side.kind=periodic"); done

@@ -6,6 +6,7 @@
 // Lags and origins are those of multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
 // and a level is added whenever the time doubles. Price of a sample: each disc is sent once, and
 // compared with some 1.5 `correlation_points` of its earlier states.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -55,16 +56,51 @@ void check_correlations(const SceneDraft& draft) {
                                  scene.effects.species.size(), most_species));
 }
 
-/// cos(2 pi t) to 4e-16, without a call, so that loops over discs run in vectors: half of the work
+/// cos(2 pi t) to 1e-15, without a call, so that loops over discs run in vectors: half of the work
 /// of a sample would be in std::cos.
 inline double cosine_of_turns(double turns) {
     constexpr double rounds = 0x1.8p52; // whoever adds it rounds to a whole number
-    const double z = std::numbers::pi * (turns - ((turns + rounds) - rounds)), x = z * z;
-    double series = 1 - x / 420; // sin z over z
-    for (const double product : {342.0, 272.0, 210.0, 156.0, 110.0, 72.0, 42.0, 20.0, 6.0})
-        series = 1 - x * (1 / product) * series;
-    return 1 - 2 * x * series * series;
+    const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
+    double series = 0; // sin z over z, for z up to pi / 4
+    for (const double factorial : {1307674368000.0, 6227020800.0, 39916800.0, 362880.0, 5040.0,
+                                   120.0, 6.0})
+        series = 1 / factorial - x * series;
+    series = 1 - x * series;
+    const double half = 1 - 2 * x * series * series; // cos 2 z
+    return 2 * half * half - 1;
 }
+
+/// What discs have become since earlier states of theirs.
+struct Comparison {
+    const FollowedStates &now, &before;
+    double turns_per_length, overlap_squared;
+
+    /// Adds `n` discs from place `begin` on to the moments `of`, at most a run of ids, in their
+    /// order. Terms are found first, because sums in order hinder vectors.
+    void add_to(double* of, std::size_t begin, std::size_t n) const {
+        std::array<double, ids_of_run> square, product, wave; // no zeros, which would cost a tenth
+        std::int64_t n_near = 0;
+        const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
+                     *const vy = &now.vy[begin], *const x_before = &before.x[begin],
+                     *const y_before = &before.y[begin], *const vx_before = &before.vx[begin],
+                     *const vy_before = &before.vy[begin];
+        for (std::size_t i = 0; i < n; ++i) {
+            const double dx = x[i] - x_before[i], dy = y[i] - y_before[i];
+            square[i] = dx * dx + dy * dy;
+            n_near += square[i] < overlap_squared ? 1 : 0;
+            product[i] = vx[i] * vx_before[i] + vy[i] * vy_before[i];
+            wave[i] = cosine_of_turns(dx * turns_per_length) +
+                      cosine_of_turns(dy * turns_per_length);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            of[squares] += square[i];
+            of[fourths] += square[i] * square[i];
+            of[products] += product[i];
+            of[waves] += wave[i] / 2;
+        }
+        of[overlaps] += static_cast<double>(n_near);
+    }
+};
 
 class Correlations : public Measurement {
 public:
@@ -81,7 +117,7 @@ public:
     void begin() override { discs_.begin(); }
 
     void sample(const SampledState& /*state*/) override {
-        const std::vector<FollowedDisc>& now = discs_.now();
+        const FollowedStates& now = discs_.now();
         begin_levels();
         std::vector<std::size_t> lags;
         std::vector<double> sums;
@@ -115,7 +151,7 @@ public:
         }
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
-            for (std::vector<FollowedDisc>& states : level) keep_states(kept, states);
+            for (FollowedStates& states : level) keep_states(kept, states);
     }
 
     std::vector<MeasuredTable> tables() const override {
@@ -126,24 +162,16 @@ public:
     }
 
 private:
-    using Level = std::vector<std::vector<FollowedDisc>>;
+    using Level = std::vector<FollowedStates>;
 
     /// For each species and for all discs: the moments, and the square of the overlap.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
 
-    void keep_states(KeptNumbers& kept, std::vector<FollowedDisc>& states) {
-        std::uint64_t is_there = run_.ranks.max(states.empty() ? 0.0 : 1.0) > 0 ? 1 : 0;
+    void keep_states(KeptNumbers& kept, FollowedStates& states) {
+        std::uint64_t is_there = run_.ranks.max(states.size() == 0 ? 0.0 : 1.0) > 0 ? 1 : 0;
         kept(is_there);
         if (is_there == 0) return;
-        for (double FollowedDisc::* field :
-             {&FollowedDisc::x, &FollowedDisc::y, &FollowedDisc::vx, &FollowedDisc::vy}) {
-            std::vector<double> numbers;
-            for (const FollowedDisc& state : states) numbers.push_back(state.*field);
-            discs_.keep(kept, numbers);
-            if (!kept.is_restored()) continue;
-            states.resize(numbers.size());
-            for (std::size_t i = 0; i < numbers.size(); ++i) states[i].*field = numbers[i];
-        }
+        for (std::vector<double>* column : states.columns()) discs_.keep(kept, *column);
     }
 
     void begin_levels() {
@@ -158,25 +186,18 @@ private:
     /// Adds this rank's discs to `sums`: of each species and moment one for each run of ids. Terms
     /// of one sum are added in the order of ids on one rank, so that all machine shapes have the
     /// same bits.
-    void compare(const std::vector<FollowedDisc>& now, const std::vector<FollowedDisc>& before,
+    void compare(const FollowedStates& now, const FollowedStates& before,
                  std::span<double> sums) const {
-        std::vector<double> cosines(now.size());
-        const double per_length = wavenumber_ / (2 * std::numbers::pi);
-        for (std::size_t i = 0; i < now.size(); ++i)
-            cosines[i] = cosine_of_turns((now[i].x - before[i].x) * per_length) +
-                         cosine_of_turns((now[i].y - before[i].y) * per_length);
+        const Comparison comparison{now, before, wavenumber_ / (2 * std::numbers::pi),
+                                    overlap_ * overlap_};
+        const DiscId end = discs_.first_id() + now.size();
         std::size_t kind = 0;
-        for (std::size_t i = 0; i < now.size(); ++i) {
-            const DiscId id = discs_.first_id() + i;
+        for (DiscId id = discs_.first_id(), next = id; id < end; id = next) {
             while (id >= ends_[kind]) ++kind;
-            const double dx = now[i].x - before[i].x, dy = now[i].y - before[i].y,
-                         square = dx * dx + dy * dy;
-            double* const of = &sums[(kind * n_runs() + id / ids_of_run) * n_moments];
-            of[squares] += square;
-            of[fourths] += square * square;
-            of[products] += now[i].vx * before[i].vx + now[i].vy * before[i].vy;
-            of[waves] += cosines[i] / 2;
-            of[overlaps] += square < overlap_ * overlap_ ? 1 : 0;
+            const std::uint64_t run = id / ids_of_run;
+            next = std::min({end, ends_[kind], (run + 1) * ids_of_run});
+            comparison.add_to(&sums[(kind * n_runs() + run) * n_moments], id - discs_.first_id(),
+                              next - id);
         }
     }
 

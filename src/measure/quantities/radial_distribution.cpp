@@ -131,8 +131,9 @@ private:
     static std::vector<double> numbers_of(const std::vector<std::uint64_t>& counts) {
         return {counts.begin(), counts.end()};
     }
-    static std::vector<double> ratios(const std::vector<double>& pairs,
-                                      const std::vector<double>& ideal_pairs) {
+    /// Not inlined, because GCC 12 would then warn of a wrong delete.
+    [[gnu::noinline]] static std::vector<double> ratios(const std::vector<double>& pairs,
+                                                        const std::vector<double>& ideal_pairs) {
         std::vector<double> g(pairs.size(), 0);
         for (std::size_t k = 0; k < g.size(); ++k)
             if (ideal_pairs[k] > 0) g[k] = pairs[k] / ideal_pairs[k];
