@@ -105,7 +105,9 @@ class Frames(Sequence[Frame]):
     def fields(self) -> list[str]:
         """Names of the fields that frames have, as H5MD has them."""
         discs: Any = {} if self._file is None else self._file["particles/discs"]
-        return [name for name in discs if name != "box" and "value" in discs[name]]
+        # A data set is no group. To ask it for a name would read and compare all of its values.
+        groups = (name for name in discs if name != "box" and hasattr(discs[name], "keys"))
+        return [name for name in groups if "value" in discs[name]]
 
     def close(self) -> None:
         """Close the file. What frames have read stays; more cannot be read."""

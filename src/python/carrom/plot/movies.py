@@ -22,7 +22,7 @@ from PIL import Image
 
 from carrom.errors import FileError, MissingPackageError
 from carrom.frame import Frame
-from carrom.plot.drawing import Style, Picture, colour_of
+from carrom.plot.drawing import Picture, Style, colour_of
 from carrom.plot.sources import Drawable, frames_of, scene_of
 
 Pixels = npt.NDArray[np.uint8]
