@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 
+#include "scene_tools.hpp"
 #include "scenes.hpp"
 #include "shape_parts.hpp"
 #include "time_stepped.hpp"
