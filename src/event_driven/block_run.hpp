@@ -134,10 +134,10 @@ struct BlockOutcome {
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::vector<PairEvent> pairs;
-    std::uint64_t n_events = 0;   ///< number of events whose first disc is own
-    StressSums stress{1};         ///< of these events
-    double work = 0;              ///< done by moving images in these events
-    double too_fast = 0;          ///< the largest speed of an own disc that got too far, or 0
+    std::uint64_t n_events = 0; ///< number of events whose first disc is own
+    StressSums stress{1};       ///< of these events
+    double work = 0;            ///< done by moving images in these events
+    double too_fast = 0;        ///< the largest speed of an own disc that got too far, or 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
                             ///< has met, or 0
     double largest_speed_at_end = 0;

@@ -246,17 +246,13 @@ void Simulation::follow_pairs(PairFollower& follower) {
     engine_->followers_of_pairs().add(follower);
 }
 
-void Simulation::forget(PairFollower& follower) {
-    engine_->followers_of_pairs().forget(follower);
-}
+void Simulation::forget(PairFollower& follower) { engine_->followers_of_pairs().forget(follower); }
 
 void Simulation::follow_walls(WallFollower& follower) {
     engine_->followers_of_walls().add(follower);
 }
 
-void Simulation::forget(WallFollower& follower) {
-    engine_->followers_of_walls().forget(follower);
-}
+void Simulation::forget(WallFollower& follower) { engine_->followers_of_walls().forget(follower); }
 
 void Simulation::note_crossings_in(std::vector<Crossing>& crossings) {
     engine_->note_crossings_in(crossings);

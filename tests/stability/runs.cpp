@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "parallel/exchange.hpp"
 #include "quad.hpp"
+#include "scene_tools.hpp"
 
 namespace carrom::test {
 

@@ -62,8 +62,8 @@ inline double cosine_of_turns(double turns) {
     constexpr double rounds = 0x1.8p52; // whoever adds it rounds to a whole number
     const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
     double series = 0; // sin z over z, for z up to pi / 4
-    for (const double factorial : {1307674368000.0, 6227020800.0, 39916800.0, 362880.0, 5040.0,
-                                   120.0, 6.0})
+    for (const double factorial :
+         {1307674368000.0, 6227020800.0, 39916800.0, 362880.0, 5040.0, 120.0, 6.0})
         series = 1 / factorial - x * series;
     series = 1 - x * series;
     const double half = 1 - 2 * x * series * series; // cos 2 z
@@ -81,9 +81,10 @@ struct Comparison {
         std::array<double, ids_of_run> square, product, wave; // no zeros, which would cost a tenth
         std::int64_t n_near = 0;
         const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
-                     *const vy = &now.vy[begin], *const x_before = &before.x[begin],
-                     *const y_before = &before.y[begin], *const vx_before = &before.vx[begin],
-                     *const vy_before = &before.vy[begin];
+                            *const vy = &now.vy[begin], *const x_before = &before.x[begin],
+                            *const y_before = &before.y[begin],
+                            *const vx_before = &before.vx[begin],
+                            *const vy_before = &before.vy[begin];
         for (std::size_t i = 0; i < n; ++i) {
             const double dx = x[i] - x_before[i], dy = y[i] - y_before[i];
             square[i] = dx * dx + dy * dy;
