@@ -74,8 +74,9 @@ def draw_heat_between_walls(figure, measured):
     right.plot(places, passed, ".-", color="#208040", label="passed on in collisions")
     right.axhline((walls["left_heat"] - walls["right_heat"]) / 2, color="black", linewidth=0.8,
                   linestyle="--")
-    right.set(xlabel="x", ylabel="flow of heat", ylim=(0, None))
-    right.legend()
+    # Room above the curves for the legend.
+    right.set(xlabel="x", ylabel="flow of heat", ylim=(0, 1.45 * (carried + passed).max()))
+    right.legend(loc="upper right")
 
 
 def draw_slow_liquid(figure, measured):

@@ -82,7 +82,7 @@ std::vector<Key> keys_of_recordings() {
         key("output.trajectory.every_steps", "steps", "Time from frame to frame.",
             [](auto& s) -> auto& { return s.trajectory->every_steps; })
             .within(every),
-        key("output.trajectory.frames_per_decade", "",
+        key("output.trajectory.frames_per_decade", "frames",
             "Number of frames while the step grows tenfold, from every_steps on; 0: frames at "
             "regular steps.",
             [](auto& s) -> auto& { return s.trajectory->frames_per_decade; })

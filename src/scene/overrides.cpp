@@ -70,7 +70,7 @@ void remove_rivals(Settings& settings, const Settings& given) {
 void add_table(Settings& given, Problems& problems, const Place& place, const std::string& table,
                const NamedValues& values) {
     for (const auto& [part, value] : values) {
-        const std::string name = table + '.' + part;
+        const std::string name = fmt::format("{}.{}", table, part);
         const auto* inner = std::get_if<NamedValues>(&value.data);
         if (inner && find_table(name))
             add_table(given, problems, place, name, *inner);

@@ -70,7 +70,7 @@ def counted(program, scene):
             "--tool=callgrind",
             f"--callgrind-out-file={folder}/out",
             "--collect-atstart=no",
-            "--toggle-collect=carrom::Simulation::advance_towards*",
+            "--toggle-collect=carrom::EngineBase*::advance_towards*",
             program,
             scene,
         ]

@@ -358,7 +358,7 @@ TEST_CASE("Where no known key is near none is guessed: those that there are get 
                    "the tables [box], [discs], [time], [effects] and [output]"));
     CHECK(mentions(problems_in(good, {"box.sidelength=1"}), "[box] has size"));
     CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}),
-                   "[output.trajectory] has every_steps, fields"));
+                   "[output.trajectory] has every_steps, frames_per_decade, fields"));
     CHECK_FALSE(mentions(problems_in(good, {"time.method=exact"}), "did you mean"));
     CHECK(
         mentions(problems_in(good, {"time.method=evnt-driven"}), "did you mean \"event-driven\"?"));
