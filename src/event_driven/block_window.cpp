@@ -17,9 +17,8 @@ constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc,
 constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
 constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tries
-/// Discs in a block with its halo. They need not all stay in the cache, because most of them are
-/// compared only once.
-constexpr double discs_in_cache = 24000;
+/// For each thread and window: what it waits at barriers and for messages (an estimate).
+constexpr double cost_per_window = 50000;
 constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision rate is estimated
 /// Ratio of diameter to reach below which two reaches of halo are enough: if discs fly far compared
 /// with their size, few chains of collisions lead further than that in a window.
@@ -33,9 +32,9 @@ constexpr int most_more = 2;   ///< reaches
 constexpr int long_calm = 200; ///< windows without a repeated run before a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
-/// The mean distance of discs.
+/// The mean distance of discs where they are.
 double spacing_of(const BlockNeeds& needs) {
-    const double n = needs.n_discs + 1;
+    const double n = needs.n_discs * needs.crowding + 1;
     return needs.box.is_square() ? needs.box.x / std::sqrt(n)
                                  : std::sqrt(needs.box.x / n) * std::sqrt(needs.box.y);
 }
@@ -52,12 +51,15 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     choice.halo = needs.halo.value_or((2 * needs.radius < thin_gas * choice.reach ? 2 : 3) +
                                       needs.more_halo);
     const double margin = choice.halo * choice.reach;
-    double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
+    double side = std::sqrt(most_discs_seen) * spacing - 2 * margin;
     if (side > needs.box.shortest()) // a block cannot be higher than the box, so it can be longer
-        side = discs_in_cache * spacing * (spacing / needs.box.shortest()) - 2 * margin;
+        side = most_discs_seen * spacing * (spacing / needs.box.shortest()) - 2 * margin;
     const double longest = needs.box.longest();
     choice.block_side = needs.is_one_block ? longest
                                            : std::min(std::max(side, 1.5 * margin), longest);
+    if (needs.n_blocks > 0 && !needs.is_one_block)
+        choice.block_side = std::min(choice.block_side,
+                                     std::sqrt((needs.n_discs + 1) / needs.n_blocks) * spacing);
     return choice;
 }
 
@@ -72,12 +74,14 @@ double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
                                             : share_along(needs.box.x, needs.goes_round_x) *
                                                   share_along(needs.box.y, needs.goes_round_y);
     const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.radius_to_look_for));
-    const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
+    const double partners = needs.n_discs * needs.crowding *
+                            (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);
     const double events = needs.collision_rate * choice.duration;
     const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 +
                               events * (cost_per_event + 2 * cost_per_partner * partners);
-    return (cost_per_disc + share * run_blocks) / choice.duration;
+    const double wait = cost_per_window * needs.n_threads / (needs.n_discs + 1);
+    return (cost_per_disc + wait + share * run_blocks) / choice.duration;
 }
 
 } // namespace

@@ -27,14 +27,20 @@ struct BlockNeeds {
     int more_halo = 0;         ///< reaches that Caution adds to the halo
     bool goes_round_x = false, goes_round_y = false; ///< the halo does not end with the box, but
                                                      ///< goes on with images of the discs
+    double crowding = 1; ///< how many times denser it is around a disc than in the mean of the box
+    double n_threads = 0, n_blocks = 0; ///< of all ranks together; 0 if each rank has one thread
     double radius_to_look_for = 0; ///< radius of equal discs that have as many others near them
 };
+
+/// Discs in a block with its halo. They need not all stay in the cache, because most of them are
+/// compared only once.
+inline constexpr double most_discs_seen = 24000;
 
 struct BlockChoice {
     double duration = 0; ///< of the window
     double reach = 0;
     int halo = 3;          ///< in reaches
-    double block_side = 0; ///< the engine rounds it to whole cells
+    double block_side = 0; ///< where discs crowd; the engine rounds it to whole cells
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.

@@ -18,9 +18,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/engine_base.hpp"
+#include "parallel/joint_reduction.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
 
@@ -33,6 +35,14 @@ struct BlockTuning {
     double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
     bool is_validated = true;         ///< false gives wrong results
     bool parts_sizes = false;         ///< each octave of radii has a level of cells
+    std::optional<bool> cuts_by_work; ///< unset cuts by work where discs crowd
+    bool notes_work = false;          ///< `take_work()` has something to return
+};
+
+/// What the run of a block has done, for studies of how threads share a window.
+struct BlockWork {
+    std::uint64_t n_carried = 0; ///< collisions carried out, those of the halo included
+    std::uint64_t n_seen = 0;    ///< discs, those of the halo included
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
@@ -42,6 +52,10 @@ public:
                       const Tuning& tuning, const BlockTuning& block_tuning = {});
 
     RollbackCounts rollback_counts() const override;
+
+    /// What the runs of this rank's blocks have done since the last call, round by round: a window
+    /// has one round, and another one for each rollback.
+    std::vector<std::vector<BlockWork>> take_work() { return std::exchange(rounds_, {}); }
 
 private:
     using Base = EngineBase<Dynamics>;
@@ -68,12 +82,14 @@ private:
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
     double speed_bound_until(double target) const;
+    double largest_of_all() const;
     void refuse_jam();
     void shorten();
     void redistribute();
     GridGeometry lay_cells(double reach);
     void make_blocks();
     double block_side() const;
+    CutNeeds cut_needs(double n_cells_of_box) const;
     void run_blocks();
     void commit();
     void log_events(const BlockOutcome& outcome);
@@ -89,6 +105,8 @@ private:
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
 
+    /// Each thread gets at least this many blocks, so that no thread waits long for the others.
+    static constexpr double blocks_per_thread = 4;
     /// Twice a block's halo is fetched at once for the blocks at the strip's ends, because fetching
     /// more of it later makes all ranks run all blocks again.
     int first_halo_depth() const { return 2 * choice_.halo; }
@@ -105,8 +123,17 @@ private:
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
                           ///< its blocks; equal on all ranks
     double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
+    /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
+    /// over own discs. Even gases have less than 1 for each, because discs keep others away.
+    double crowding_ = 0;
+    double mean_crowding_ = 1; ///< over all discs, or 1 if it is near 1; equal on all ranks
+    double n_threads_of_all_ = 0; ///< threads of all ranks, or 0 if each has one
+    /// What validation has reduced for the window: how many ranks found a disc too fast, blocks to
+    /// run again, cascades, requests to stop, events, crowding; and the largest speed at its end.
+    JointReduction reduced_;
+    static constexpr double crowding_unit = 1024; ///< sums of whole numbers have no order
+    bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
     Caution caution_;
-    std::uint64_t n_events_ = 0; ///< on this rank in the last window
     RollbackCounts counts_;      ///< its counts of blocks are of this rank alone
 
     BlockChoice choice_;
@@ -115,9 +142,9 @@ private:
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int halo_depth_ = 0;    ///< reaches that the rank's halo covers
     CellBlock own_cells_{0, 1, 0, 1};
-    int block_columns_ = 1, block_rows_ = 1; ///< size of a block in cells
-    int n_block_rows_ = 1;
+    BlockCuts cuts_; ///< of the own cells into blocks
     std::vector<Block> blocks_;
+    std::vector<std::vector<BlockWork>> rounds_;
     std::vector<std::uint64_t> histories_;       ///< for each disc, own discs before the halo
     std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };

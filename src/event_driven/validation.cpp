@@ -31,16 +31,27 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
         n_marked += block.is_marked;
         n_cascades += block.outcome.is_cascade;
     }
-    std::uint64_t updates[] = {is_too_fast ? 1u : 0u, n_marked, n_cascades,
-                               is_stop_overdue() ? 1u : 0u};
+    reduced_ = {};
+    std::uint64_t n_events = 0;
+    for (const Block& block : blocks_) {
+        n_events += block.outcome.n_events;
+        reduced_.largest = std::max(reduced_.largest, block.outcome.largest_speed_at_end);
+    }
+    reduced_.sums = {is_too_fast ? 1u : 0u,
+                     n_marked,
+                     n_cascades,
+                     is_stop_overdue() ? 1u : 0u,
+                     n_events,
+                     static_cast<std::uint64_t>(crowding_unit * crowding_)};
     if (communicator_.size() > 1) {
         const PhaseClock::Scope wait(phases_, Phase::wait);
-        communicator_.sum(updates);
+        reduce(reduced_, communicator_);
     }
-    if (updates[3] > 0) throw StopRequested("stopped on request inside a step");
-    if (updates[0] > 0) return Verdict::too_fast;
-    if (updates[2] > 0) fail_on_cascade();
-    if (!block_tuning_.is_validated || updates[1] + updates[2] == 0) return Verdict::exact;
+    const auto& sums = reduced_.sums;
+    if (sums[3] > 0) throw StopRequested("stopped on request inside a step");
+    if (sums[0] > 0) return Verdict::too_fast;
+    if (sums[2] > 0) fail_on_cascade();
+    if (!block_tuning_.is_validated || sums[1] + sums[2] == 0) return Verdict::exact;
     const PhaseClock::Scope exchange(phases_, Phase::exchange);
     std::vector<LocalIndex> reported;
     discs_.report_to_owners(foreign, reported);
@@ -92,12 +103,9 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
     const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
-    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1) -
-                       own_cells_.first_column;
-    const int row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1) -
-                    own_cells_.first_row;
-    const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
-    std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked)
+    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1),
+              row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1);
+    std::atomic_ref(blocks_[cuts_.block_of(column, row)].is_marked)
         .store(1, std::memory_order_relaxed);
 }
 

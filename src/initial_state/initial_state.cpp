@@ -104,10 +104,11 @@ std::vector<InputDisc> triangular_discs(const Scene& scene, const Communicator& 
 }
 
 /// The generated discs with places, but without velocities.
-std::vector<InputDisc> generated_discs(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> generated_discs(const Scene& scene, const Communicator& communicator,
+                                       int n_threads) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
-    return insert_at_random(scene, communicator);
+    return insert_at_random(scene, communicator, n_threads);
 }
 
 std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& communicator) {
@@ -161,7 +162,7 @@ void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs
 } // namespace
 
 std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
-                                     const Communicator& communicator) {
+                                     const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::file) {
         std::vector<InputDisc> listed = scene.reads_disc_lines()
                                             ? read_discs(scene, lines, communicator)
@@ -175,7 +176,7 @@ std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
         discs = legacy_discs(scene, communicator);
         add_streams(scene, discs);
     } else {
-        discs = generated_discs(scene, communicator);
+        discs = generated_discs(scene, communicator, n_threads);
         give_velocities(scene, discs, communicator);
     }
     return discs;

@@ -4,7 +4,7 @@
 // point and for a cell.
 //
 // The grid knows points by number only; the caller keeps their coordinates and decides
-// what near means. Clearing costs as much as was added, however many cells there are.
+// what near means.
 #pragma once
 
 #include <algorithm>
@@ -49,12 +49,6 @@ public:
                 for (std::uint32_t k = heads_[i * rows_ + j]; k != none; k = next_[k])
                     if (is_hit(k)) return true;
         return false;
-    }
-
-    /// Forgets all points; `points` must be those that were added.
-    template <class Points> void clear(const Points& points) {
-        for (const auto& point : points) heads_[column(point.x) * rows_ + row(point.y)] = none;
-        next_.clear();
     }
 
 private:

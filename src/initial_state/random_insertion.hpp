@@ -4,9 +4,13 @@
 // In round k every disc without a place proposes one, a pure function of (seed, id, k), uniform in
 // [r, L-r]^2. It is rejected if it overlaps a disc that has its place, or a proposal of the same
 // round with a lower id; otherwise it is the disc's place. Proposals are judged by the rank whose
-// strip of x holds them, which also hears of everything within a diameter of its strip: one
-// exchange a round. At a packing of 0.3 some 150 rounds and 3 proposals a disc; the cost explodes
-// towards 0.54, where random insertion jams. About 80 bytes a disc, shared out over the ranks.
+// strip of x holds them, which also hears of everything within a diameter of its strip.
+//
+// At a packing of 0.3 some 150 rounds and 3 proposals a disc; the cost explodes towards 0.54, where
+// random insertion jams. So late rounds are judged many at once, by all threads, with one exchange.
+// A map of refused places then rejects nearly all proposals by one read. The few that overlap no
+// placed disc go to all ranks, which decide them in the order of their rounds and ids. So the
+// places are those of rounds one by one. About 120 bytes a disc, shared out over the ranks.
 #pragma once
 
 #include <vector>
@@ -18,6 +22,7 @@ namespace carrom {
 
 /// Returns the scene's discs with places and without velocities, each on the rank whose
 /// strip holds it. InputError on every rank if no arrangement is found. **Collective.**
-std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator);
+std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator,
+                                        int n_threads = 1);
 
 } // namespace carrom

@@ -73,6 +73,20 @@ void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const C
         scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
 }
 
+std::string warning_of_narrow_strips(const Scene& scene, int n_ranks, int n_threads) {
+    // A halo is as deep as some 7 mean distances of discs on both sides (docs/how-to/cluster.md).
+    constexpr double narrow = 15;
+    constexpr int few_ranks = 16, threads_of_rank = 4;
+    const double spacings = std::sqrt(static_cast<double>(scene.n_discs) * scene.box.longest() /
+                                      scene.box.shortest());
+    if (n_ranks < few_ranks || n_ranks * narrow <= spacings || n_threads >= threads_of_rank)
+        return "";
+    return fmt::format("{} ranks cut {} discs into narrow strips, and more than half of the work "
+                       "is done twice; try: {} ranks with --threads {}",
+                       n_ranks, scene.n_discs, n_ranks * n_threads / threads_of_rank,
+                       threads_of_rank);
+}
+
 void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages) {
     const auto pairs = [](std::uint64_t count) {
         return count == 1 ? std::string("1 pair") : fmt::format("{} pairs", count);

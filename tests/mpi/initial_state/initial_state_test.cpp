@@ -240,7 +240,9 @@ Listing listing_of(const std::string& text) {
 TEST_CASE("Random insertion follows its rule on any number of ranks") {
     for (const Texts& overrides :
          {Texts{"discs.packing=0.3"}, Texts{"discs.packing=0.45", "discs.seed=9"},
-          Texts{"discs.packing=0.01"}, Texts{"discs.packing=0.4", "discs.count=7"},
+          Texts{"discs.packing=0.01"}, Texts{"discs.packing=0.5", "discs.count=90"},
+          Texts{"discs.packing=0.5", "discs.count=80", "box.left.kind=periodic",
+                "box.right.kind=periodic", "box.bottom.kind=periodic", "box.top.kind=periodic"}, Texts{"discs.packing=0.4", "discs.count=7"},
           Texts{"discs.packing=0.1", "discs.count=1"},
           Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"},
           Texts{"discs.packing=0.45", "box.left.kind=periodic", "box.right.kind=periodic"},
@@ -250,7 +252,9 @@ TEST_CASE("Random insertion follows its rule on any number of ranks") {
                 "box.right.kind=periodic", "box.bottom.kind=periodic", "box.top.kind=periodic"}}) {
         CAPTURE(overrides);
         const Scene scene = scene_of(overrides);
-        check_generated(initial_state(scene, nullptr, ranks()), inserted_by_the_rule(scene));
+        const Discs by_the_rule = inserted_by_the_rule(scene);
+        for (const int n_threads : {1, 3})
+            check_generated(initial_state(scene, nullptr, ranks(), n_threads), by_the_rule);
     }
 }
 
