@@ -4,6 +4,7 @@
 
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
+#include "engine/wall_impulses.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 
@@ -15,13 +16,15 @@ public:
 
     bool has_effects() const { return !effects_.empty(); }
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.
-    /// Adds to `energy_given()`. **Collective.**
-    void act(StripDiscs& discs, std::int64_t n_syncs);
+    /// Adds to `energy_given()`, and to `impulses` what discs at rest press walls with until the
+    /// next sync; null if nobody measures that. **Collective.**
+    void act(StripDiscs& discs, std::int64_t n_syncs, WallImpulses* impulses);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
     /// included, per micro-step. For checks: its last bits depend on the machine shape.
     double energy_given() const { return energy_given_; }
 
 private:
+    std::vector<std::byte> gathered(std::span<const std::byte> mine) const;
     double energy_of(const SyncDiscs& at) const;
     /// Adds the flow of sheared discs, so many times, to velocities and spins.
     void add_flow(const SyncDiscs& at, double times) const;
@@ -29,6 +32,7 @@ private:
     SyncEffects effects_;
     SpeciesTable species_;
     double inertia_;
+    double micro_steps_; ///< of a step
     Box box_;
     double shear_; ///< per micro-step
     Communicator communicator_;

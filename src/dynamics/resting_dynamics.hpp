@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The dynamics of scenes in which discs come to rest (effects.rest): another dynamics, in which
+// some discs lie still in the box from one sync to the next, until something wakes them.
+//
+// At a sync scene/effects/rest.cpp decides which discs rest. Two resting discs have no events with
+// each other, and a resting disc has none with walls and obstacles. That is what makes a heap at
+// rest fast. Another disc meets a resting one as it meets a fixed disc: a quartic under gravity
+// (falling_contact.hpp). If it comes slower than the waking speed along the line of centres, it
+// leaves as from an obstacle. A faster one wakes the resting disc, and the two collide as others.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/effect_dynamics.hpp"
+#include "dynamics/falling_contact.hpp"
+#include "dynamics/resting.hpp"
+#include "dynamics/rubbing.hpp"
+
+namespace carrom {
+
+template <class Moving> class RestingDynamics : public Moving {
+public:
+    static constexpr bool may_rest = true;
+
+    /// `effects` per micro-step. There is gravity, and no drag.
+    RestingDynamics(const Box& box, double radius, const Effects& effects)
+        : Moving(box, radius, effects), places_(box, effects.gravity), effect_(effects.contact),
+          rubbing_({effect_.kind == ContactKind::rough ? effect_.tangential_restitution : -1,
+                    effect_.friction, 0},
+                   effect_),
+          wake_(effects.rest.wake) {}
+
+    const RestingPlaces& resting_places() const { return places_; }
+
+    /// A disc that rests moves in the frame of states.
+    double squared_speed_at(const Disc& disc, double time) const {
+        if (!disc.rests()) return squared_speed_of(disc);
+        const double vx = places_.gravity().x * time, vy = places_.gravity().y * time;
+        return vx * vx + vy * vy;
+    }
+
+    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+        if (!p.rests() && !q.rests()) return Moving::event_contact(p, q);
+        if (p.has_departed() || q.has_departed() || (p.rests() && q.rests())) return {};
+        return p.rests() ? contact_at_rest(q, p) : contact_at_rest(p, q);
+    }
+
+    void collide_at(Disc& p, Disc& q, double time) const {
+        if (!p.rests() && !q.rests()) return Moving::collide_at(p, q, time);
+        Disc &mover = p.rests() ? q : p, &resting = p.rests() ? p : q;
+        const bool is_touched = is_guarded(mover, time);
+        if (!wakes(mover, resting, time)) return leave(mover, resting, is_touched, nullptr);
+        places_.wake(resting, time);
+        this->exchange_momentum_at(p, q, this->encounter(p, q, q.x - p.x, q.y - p.y),
+                                   is_touched ? 1 : (1 + effect_.restitution) / 2);
+    }
+    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+        if (!p.rests() && !q.rests()) return Moving::collide_at(p, q, time, p_spin, q_spin);
+        Disc &mover = p.rests() ? q : p, &resting = p.rests() ? p : q;
+        const bool is_touched = is_guarded(mover, time);
+        if (!wakes(mover, resting, time))
+            return leave(mover, resting, is_touched, p.rests() ? &q_spin : &p_spin);
+        places_.wake(resting, time);
+        this->exchange_spin_at(p, q, this->encounter(p, q, q.x - p.x, q.y - p.y), is_touched,
+                               p_spin, q_spin);
+    }
+
+    double x_wall_time(const Disc& disc) const {
+        return disc.rests() ? Moving::never : Moving::x_wall_time(disc);
+    }
+    double y_wall_time(const Disc& disc) const {
+        return disc.rests() ? Moving::never : Moving::y_wall_time(disc);
+    }
+    bool may_meet_wall(const Disc& disc, double time) const {
+        return !disc.rests() && Moving::may_meet_wall(disc, time);
+    }
+    ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const {
+        return disc.rests() ? ObstacleContact{} : Moving::first_obstacle(disc, times);
+    }
+
+private:
+    /// From the resting disc to the other one, and the velocity of that, in the box.
+    struct Approach {
+        double x, y, vx, vy;
+    };
+    Approach approach(const Disc& mover, const Disc& resting) const {
+        const Gravity& g = places_.gravity();
+        return {(mover.x + RestingPlaces::fallen(g.x, mover.tau)) - places_.x_of(resting),
+                (mover.y + RestingPlaces::fallen(g.y, mover.tau)) - places_.y_of(resting),
+                mover.vx + g.x * mover.tau, mover.vy + g.y * mover.tau};
+    }
+
+    /// A function of the state of the disc that moves, and of the place of the other one.
+    PairContact<double> contact_at_rest(const Disc& mover, const Disc& resting) const {
+        const Approach to = approach(mover, resting);
+        const double delay = falling_contact(to.x, to.y, to.vx, to.vy, places_.gravity().x,
+                                             places_.gravity().y,
+                                             this->pair_diameter(mover, resting));
+        if (!(delay < Moving::never)) return {};
+        return {mover.tau, delay};
+    }
+
+    bool is_guarded(const Disc& mover, double time) const {
+        return time - mover.tau < effect_.contact_time;
+    }
+
+    /// Advances the disc that moves to `time`. Whether it comes so fast that it wakes the other.
+    bool wakes(Disc& mover, const Disc& resting, double time) const {
+        Moving::advance(mover, time);
+        const Approach to = approach(mover, resting);
+        const double distance = std::sqrt(to.x * to.x + to.y * to.y);
+        return -(to.vx * to.x + to.vy * to.y) > wake_ * distance;
+    }
+
+    /// The disc leaves as from an obstacle (Obstacles::rebound); the resting one is heavy.
+    void leave(Disc& mover, Disc& resting, bool is_touched, double* spin) const {
+        const Gravity& g = places_.gravity();
+        const Approach to = approach(mover, resting);
+        const double distance = std::sqrt(to.x * to.x + to.y * to.y);
+        const double nx = to.x / distance, ny = to.y / distance;
+        const double normal = nx * to.vx + ny * to.vy;
+        double away = (is_touched ? 1 : effect_.restitution) * std::fabs(normal);
+        const double pull = -(nx * g.x + ny * g.y);
+        if (pull > 0) away = std::max(away, 0.5 * pull * effect_.contact_time);
+        mover.vx += (away - normal) * nx;
+        mover.vy += (away - normal) * ny;
+        mover.pair_collisions += 1;
+        resting.pair_collisions += 1;
+        if (!rubbing_.acts()) return;
+        const double change = rubbing_.rub(nx * to.vy - ny * to.vx, std::fabs(away - normal),
+                                           {spin, this->species_table().of(mover.id).radius});
+        mover.vx -= change * ny;
+        mover.vy += change * nx;
+    }
+
+    RestingPlaces places_;
+    ContactEffect effect_;
+    Rubbing rubbing_;
+    double wake_;
+};
+
+using RestingMixedDynamics = RestingDynamics<MixedDynamics>;
+using RestingRoughDynamics = RestingDynamics<RoughDynamics>;
+
+} // namespace carrom
