@@ -16,7 +16,7 @@ constexpr double over = 1.8, over_for = 0.6;
 /// Sweeps end when no impulse changes by more than this share of a disc's weight.
 constexpr double small_change = 1e-5;
 /// A held disc is left with less than this share of what gravity gives.
-constexpr double held_below = 0.05;
+constexpr double held_below = 0.01;
 constexpr std::uint32_t fixed = 0xffffffff;
 
 double friction_of(const Surface& surface) { return surface.rubs() ? surface.friction : 0; }

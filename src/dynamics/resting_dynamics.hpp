@@ -7,6 +7,10 @@
 // rest fast. Another disc meets a resting one as it meets a fixed disc: a quartic under gravity
 // (falling_contact.hpp). If it comes slower than the waking speed along the line of centres, it
 // leaves as from an obstacle. A faster one wakes the resting disc, and the two collide as others.
+//
+// Only contacts slower than what gravity gives in the contact time are elastic within it. Faster
+// ones always take energy and rub: otherwise a disc between two resting ones would fly to and fro
+// without losing anything. No cascade comes of that, because each such contact takes some energy.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +33,9 @@ public:
           rubbing_({effect_.kind == ContactKind::rough ? effect_.tangential_restitution : -1,
                     effect_.friction, 0},
                    effect_),
-          wake_(effects.rest.wake) {}
+          wake_(effects.rest.wake),
+          guarded_speed_(std::hypot(effects.gravity.x, effects.gravity.y) *
+                         effect_.contact_time) {}
 
     const RestingPlaces& resting_places() const { return places_; }
 
@@ -47,23 +53,21 @@ public:
     }
 
     void collide_at(Disc& p, Disc& q, double time) const {
-        if (!p.rests() && !q.rests()) return Moving::collide_at(p, q, time);
-        Disc &mover = p.rests() ? q : p, &resting = p.rests() ? p : q;
-        const bool is_touched = is_guarded(mover, time);
-        if (!wakes(mover, resting, time)) return leave(mover, resting, is_touched, nullptr);
-        places_.wake(resting, time);
+        const Contact contact = reach(p, q, time);
+        if (contact.is_soft)
+            return leave(p.rests() ? q : p, p.rests() ? p : q, contact, nullptr);
+        wake_one(p, q, time);
         this->exchange_momentum_at(p, q, this->encounter(p, q, q.x - p.x, q.y - p.y),
-                                   is_touched ? 1 : (1 + effect_.restitution) / 2);
+                                   contact.is_guarded ? 1 : (1 + effect_.restitution) / 2);
     }
     void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
-        if (!p.rests() && !q.rests()) return Moving::collide_at(p, q, time, p_spin, q_spin);
-        Disc &mover = p.rests() ? q : p, &resting = p.rests() ? p : q;
-        const bool is_touched = is_guarded(mover, time);
-        if (!wakes(mover, resting, time))
-            return leave(mover, resting, is_touched, p.rests() ? &q_spin : &p_spin);
-        places_.wake(resting, time);
-        this->exchange_spin_at(p, q, this->encounter(p, q, q.x - p.x, q.y - p.y), is_touched,
-                               p_spin, q_spin);
+        const Contact contact = reach(p, q, time);
+        if (contact.is_soft)
+            return leave(p.rests() ? q : p, p.rests() ? p : q, contact,
+                         p.rests() ? &q_spin : &p_spin);
+        wake_one(p, q, time);
+        this->exchange_spin_at(p, q, this->encounter(p, q, q.x - p.x, q.y - p.y),
+                               contact.is_guarded, p_spin, q_spin);
     }
 
     double x_wall_time(const Disc& disc) const {
@@ -101,26 +105,39 @@ private:
         return {mover.tau, delay};
     }
 
-    bool is_guarded(const Disc& mover, double time) const {
-        return time - mover.tau < effect_.contact_time;
+    struct Contact {
+        bool is_soft = false; ///< one of the discs rests, and goes on resting
+        bool is_guarded = false;
+    };
+    /// Advances discs to their contact at `time`, but for one that rests.
+    Contact reach(Disc& p, Disc& q, double time) const {
+        const bool one_rests = p.rests() || q.rests();
+        const double last = p.rests() ? q.tau : q.rests() ? p.tau : std::max(p.tau, q.tau);
+        if (!p.rests()) Moving::advance(p, time);
+        if (!q.rests()) Moving::advance(q, time);
+        Approach to;
+        if (one_rests)
+            to = p.rests() ? approach(q, p) : approach(p, q);
+        else
+            to = {q.x - p.x, q.y - p.y, q.vx - p.vx, q.vy - p.vy};
+        const double distance = std::sqrt(to.x * to.x + to.y * to.y),
+                     closing = -(to.vx * to.x + to.vy * to.y);
+        return {one_rests && !(closing > wake_ * distance),
+                time - last < effect_.contact_time && !(closing > guarded_speed_ * distance)};
     }
-
-    /// Advances the disc that moves to `time`. Whether it comes so fast that it wakes the other.
-    bool wakes(Disc& mover, const Disc& resting, double time) const {
-        Moving::advance(mover, time);
-        const Approach to = approach(mover, resting);
-        const double distance = std::sqrt(to.x * to.x + to.y * to.y);
-        return -(to.vx * to.x + to.vy * to.y) > wake_ * distance;
+    void wake_one(Disc& p, Disc& q, double time) const {
+        if (p.rests()) places_.wake(p, time);
+        if (q.rests()) places_.wake(q, time);
     }
 
     /// The disc leaves as from an obstacle (Obstacles::rebound); the resting one is heavy.
-    void leave(Disc& mover, Disc& resting, bool is_touched, double* spin) const {
+    void leave(Disc& mover, Disc& resting, const Contact& contact, double* spin) const {
         const Gravity& g = places_.gravity();
         const Approach to = approach(mover, resting);
         const double distance = std::sqrt(to.x * to.x + to.y * to.y);
         const double nx = to.x / distance, ny = to.y / distance;
         const double normal = nx * to.vx + ny * to.vy;
-        double away = (is_touched ? 1 : effect_.restitution) * std::fabs(normal);
+        double away = (contact.is_guarded ? 1 : effect_.restitution) * std::fabs(normal);
         const double pull = -(nx * g.x + ny * g.y);
         if (pull > 0) away = std::max(away, 0.5 * pull * effect_.contact_time);
         mover.vx += (away - normal) * nx;
@@ -138,6 +155,7 @@ private:
     ContactEffect effect_;
     Rubbing rubbing_;
     double wake_;
+    double guarded_speed_; ///< the contact time does not act on faster contacts
 };
 
 using RestingMixedDynamics = RestingDynamics<MixedDynamics>;
