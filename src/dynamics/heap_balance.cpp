@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Over-relaxation takes a column of n discs some 10 n sweeps, not n^2. Under friction it leaves
+/// Over-relaxation takes heaps of some ten layers a tenth of the sweeps. Under friction it leaves
 /// impulses that go up and down, which a last part of plain sweeps takes away.
-constexpr double over = 1.8, over_for = 0.6;
+constexpr double over = 1.9, over_for = 0.6;
 /// Sweeps end when no impulse changes by more than this share of a disc's weight.
 constexpr double small_change = 1e-5;
 /// A held disc is left with less than this share of what gravity gives.
@@ -186,7 +186,7 @@ HeapForces HeapBalance::find(std::span<const HeapDisc> discs) const {
         bodies[i] = {gravity_.x, gravity_.y, 0, 1 / discs[i].mass};
         least_mass = std::min(least_mass, discs[i].mass);
     }
-    const double most = std::max(300.0, 30 * std::sqrt(static_cast<double>(discs.size())));
+    const double most = std::max(400.0, 40 * std::sqrt(static_cast<double>(discs.size())));
     double change = pull / least_mass;
     for (; forces.n_sweeps < most && change > small_change * pull * least_mass; ++forces.n_sweeps) {
         const double relaxation = forces.n_sweeps < over_for * most ? over : 1;

@@ -8,9 +8,9 @@
 // (falling_contact.hpp). If it comes slower than the waking speed along the line of centres, it
 // leaves as from an obstacle. A faster one wakes the resting disc, and the two collide as others.
 //
-// Only contacts slower than what gravity gives in the contact time are elastic within it. Faster
-// ones always take energy and rub: otherwise a disc between two resting ones would fly to and fro
-// without losing anything. No cascade comes of that, because each such contact takes some energy.
+// The contact time makes contacts elastic only if discs come slower than the speed below which they
+// may rest. Faster contacts always take energy and rub: otherwise a disc between two resting ones
+// would fly to and fro for ever. Each of them takes some energy, so no cascade comes of that.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,7 @@ public:
                     effect_.friction, 0},
                    effect_),
           wake_(effects.rest.wake),
-          guarded_speed_(std::hypot(effects.gravity.x, effects.gravity.y) *
-                         effect_.contact_time) {}
+          guarded_speed_(effects.rest.speed) {}
 
     const RestingPlaces& resting_places() const { return places_; }
 

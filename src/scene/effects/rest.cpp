@@ -105,7 +105,7 @@ std::vector<Key> keys_of_rest() {
             .within({.low = 0}),
         key("effects.rest.gap", "length", "Discs as close as this hold each other.",
             [](auto& s) -> auto& { return s.effects.rest.gap; })
-            .by_default("a hundredth of the radius")
+            .by_default("a fiftieth of the radius")
             .within({.low = 0, .excludes_low = true})
             .needs(rests),
         key("effects.rest.wake_speed", "length/step",
@@ -154,12 +154,13 @@ double smallest_radius_of(const Scene& scene) {
 void derive_rest(const Check& check) {
     Rest& rest = check.scene.effects.rest;
     if (!rest.is_any()) return;
-    if (!check.settings.has("effects.rest.gap")) rest.gap = smallest_radius_of(check.scene) / 100;
     if (!check.settings.has("effects.rest.wake_speed")) rest.wake = 2 * rest.speed;
 }
 
 void check_room_of_rest(const Check& check) {
-    const Rest& rest = check.scene.effects.rest;
+    Rest& rest = check.scene.effects.rest;
+    if (rest.is_any() && !check.settings.has("effects.rest.gap")) // radii are known only now
+        rest.gap = smallest_radius_of(check.scene) / 50;
     const double widest = smallest_radius_of(check.scene) / 4;
     if (rest.is_any() && rest.gap > widest)
         check.refuse({"effects.rest.gap"},
