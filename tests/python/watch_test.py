@@ -85,12 +85,12 @@ class ServerTest(unittest.TestCase):
             curves["pressure"]["values"], table[:, 2:].mean(axis=1), rtol=1e-12
         )
 
-    def test_looks_without_time_still_span_the_run(self):
+    def test_reads_without_time_still_span_the_run(self):
         run("hasty", steps=60, every=5)
         curves, asked = Curves(), carrom.open("hasty")
         gaps = []
         for _ in range(12):
-            steps = curves.look(asked, asked.frames, 200, seconds=-1)["energy"]["steps"]
+            steps = curves.read(asked, asked.frames, 200, seconds=-1)["energy"]["steps"]
             self.assertEqual((steps[0], steps[-1]), (0, 60))
             gaps.append(max(np.diff(steps)))
         self.assertEqual(gaps[:4], [60, 40, 20, 20])  # steps 0 and 60, then 40, 20, 10
