@@ -30,7 +30,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
         if (this->wall_followers_.are_any() && c.is_wall()) {
             const auto met = dynamics_.met_walls(unhit_[i], m, c.time);
-            for (const std::size_t axis : {0, 1})
+            for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
                 if (axis == 0 ? met.at_x : met.at_y)
                     this->wall_followers_.note() = wall_event(
                         dynamics_.frame_at(m + c.time), axis, mass, results[c.p],
