@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over collisions with the four sides of the box, which two quantities have. They are exact:
-// neither the order of collisions nor the rank that carries them out affects them.
+// What quantities of walls share: sums over collisions with the four sides of the box, tables of
+// them over time, and rules. The sums are exact, so neither the order of collisions nor the rank
+// that carries them out affects them.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/exact_sum.hpp"
-#include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "measure/measurement.hpp"
 
 namespace carrom {
 
@@ -55,9 +57,41 @@ private:
 };
 
 /// The length of a side at a step. Between oscillating walls it is the mean.
-inline double length_of_side(const Scene& scene, std::size_t side, double step) {
-    const Extent box = extent_of_lines(scene.effects, scene.box, step);
-    return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
+double length_of_side(const Scene& scene, std::size_t side, double step);
+
+/// A row for each interval between samples: its first and its last step, and what each side was
+/// given over its length and that time; NaN for a periodic side. `given` has `per_interval` numbers
+/// of each interval, one of each side after another.
+std::vector<std::vector<double>> rows_over_time(const MeasuredRun& run,
+                                                std::span<const double> given,
+                                                std::size_t per_interval);
+
+struct MeanAndError {
+    double mean = 0;
+    double error = 0; ///< one standard error; NaN where there are too few intervals
+};
+/// Of each column of `rows_over_time` but the two steps.
+std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
+
+/// Walls are there at all times and on at least two sides.
+template <bool (*is_measured)(const Scene&)>
+std::vector<Rule> rules_of_walls(std::string_view quantity) {
+    return {{.one = quantity,
+             .other = "a box that is periodic all round",
+             .why = "it has no walls",
+             .keys = {quantities_key},
+             .is_broken =
+                 [](const Scene& s) {
+                     return is_measured(s) && s.effects.is_periodic_x() &&
+                            s.effects.is_periodic_y();
+                 }},
+            {.one = quantity,
+             .other = "an open side",
+             .why = "with open sides velocities and densities alone are measured",
+             .keys = {quantities_key},
+             .is_broken = [](const Scene& s) {
+                 return is_measured(s) && s.effects.have_open_boundaries();
+             }}};
 }
 
 } // namespace carrom

@@ -3,15 +3,13 @@
 // discs, collision by collision. Between walls of two temperatures that is the flow of heat, and
 // between walls that slide it is the shear stress.
 #include <array>
-#include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "engine/wall_event.hpp"
-#include "measure/measurement.hpp"
 #include "measure/speeds.hpp"
 #include "measure/wall_sums.hpp"
-#include "statistics/blocking.hpp"
 
 namespace carrom {
 
@@ -92,18 +90,7 @@ private:
         for (const char* part : part_words)
             for (const char* side : side_words)
                 table.columns.push_back(fmt::format("{}_{}", side, part));
-        for (std::size_t k = 0; k < given_.size() / 8; ++k) {
-            const double from = run_.step_of(k);
-            const double to = from + static_cast<double>(run_.output.every_steps);
-            std::vector<double> row = {from, to};
-            for (std::size_t n = 0; n < 8; ++n)
-                row.push_back(
-                    run_.scene.effects.boundaries[n % 4].is_periodic()
-                        ? std::nan("")
-                        : given_[8 * k + n] /
-                              (length_of_side(run_.scene, n % 4, (from + to) / 2) * (to - from)));
-            table.rows.push_back(std::move(row));
-        }
+        table.rows = rows_over_time(run_, given_, 8);
         return table;
     }
 
@@ -113,17 +100,11 @@ private:
             {"means over the history with one standard error (nan where intervals are too few)"},
             {},
             {{}}};
-        for (std::size_t column = 2; column < history.columns.size(); ++column) {
-            std::vector<double> terms;
-            double sum = 0;
-            for (const std::vector<double>& row : history.rows) {
-                terms.push_back(row[column]);
-                sum += row[column];
-            }
-            table.columns.push_back(history.columns[column]);
-            table.columns.push_back(history.columns[column] + "_error");
-            table.rows[0].push_back(sum / static_cast<double>(terms.size()));
-            table.rows[0].push_back(standard_error(terms));
+        const std::vector<MeanAndError> means = means_over_time(history.rows);
+        for (std::size_t n = 0; n < means.size(); ++n) {
+            const std::string& name = history.columns[2 + n];
+            table.columns.insert(table.columns.end(), {name, name + "_error"});
+            table.rows[0].insert(table.rows[0].end(), {means[n].mean, means[n].error});
         }
         return table;
     }
@@ -133,13 +114,7 @@ private:
     std::array<WallSums, 2> since_last_; ///< heat and shear on this rank since the last sample
 };
 
-bool has_no_walls(const Scene& s) {
-    return measures(s, "wall_exchange") && s.effects.is_periodic_x() && s.effects.is_periodic_y();
-}
-
-bool has_open_sides(const Scene& s) {
-    return measures(s, "wall_exchange") && s.effects.have_open_boundaries();
-}
+bool measures_exchange(const Scene& s) { return measures(s, "wall_exchange"); }
 
 } // namespace
 
@@ -147,16 +122,7 @@ MeasuredQuantity wall_exchange_quantity() {
     return {{.name = "wall_exchange",
              .help = "Energy and momentum along it that each side gives to the discs.",
              .has_history = true,
-             .rules = {{.one = "\"wall_exchange\"",
-                        .other = "a box that is periodic all round",
-                        .why = "it has no walls",
-                        .keys = {quantities_key},
-                        .is_broken = has_no_walls},
-                       {.one = "\"wall_exchange\"",
-                        .other = "an open side",
-                        .why = "with open sides velocities and densities alone are measured",
-                        .keys = {quantities_key},
-                        .is_broken = has_open_sides}}},
+             .rules = rules_of_walls<measures_exchange>("\"wall_exchange\"")},
             make_measurement<WallExchange>,
             {"wall_exchange_history"}};
 }

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "wall_pressure": the momentum that discs give to each side of the box, collision by collision.
-#include <cmath>
-
 #include "engine/wall_event.hpp"
-#include "measure/measurement.hpp"
 #include "measure/speeds.hpp"
 #include "measure/wall_sums.hpp"
-#include "statistics/blocking.hpp"
 
 namespace carrom {
 
@@ -87,20 +83,7 @@ private:
              "that time (nan: a periodic side); masses of 1, times in steps"},
             {"from_step", "to_step", "left", "right", "bottom", "top"},
             {}};
-        const Scene& scene = run_.scene;
-        for (std::size_t k = 0; k < impulses_.size() / 4; ++k) {
-            const double from = run_.step_of(k);
-            const double to = from + static_cast<double>(run_.output.every_steps);
-            std::vector<double> row = {from, to};
-            for (std::size_t side = 0; side < 4;
-                 ++side) // walls move evenly, so their mean length is that in the middle
-                row.push_back(
-                    scene.effects.boundaries[side].is_periodic()
-                        ? std::nan("")
-                        : impulses_[4 * k + side] /
-                              (length_of_side(scene, side, (from + to) / 2) * (to - from)));
-            table.rows.push_back(std::move(row));
-        }
+        table.rows = rows_over_time(run_, impulses_, 4);
         return table;
     }
 
@@ -113,21 +96,15 @@ private:
              "top_error", "left_collisions", "right_collisions", "bottom_collisions",
              "top_collisions"},
             {}};
-        std::vector<double> means, errors, counts;
-        for (std::size_t side = 0; side < 4; ++side) {
-            std::vector<double> terms;
-            double sum = 0;
-            for (const std::vector<double>& row : history.rows) {
-                terms.push_back(row[2 + side]);
-                sum += terms.back();
-            }
-            means.push_back(sum / static_cast<double>(terms.size()));
-            errors.push_back(standard_error(terms));
-            counts.push_back(static_cast<double>(collisions_[side]));
+        std::vector<double> row, errors, counts;
+        for (const MeanAndError& side : means_over_time(history.rows)) {
+            row.push_back(side.mean);
+            errors.push_back(side.error);
         }
-        table.rows.emplace_back();
-        for (const auto* part : {&means, &errors, &counts})
-            table.rows[0].insert(table.rows[0].end(), part->begin(), part->end());
+        for (const std::uint64_t n : collisions_) counts.push_back(static_cast<double>(n));
+        for (const auto* part : {&errors, &counts})
+            row.insert(row.end(), part->begin(), part->end());
+        table.rows.push_back(std::move(row));
         return table;
     }
 
@@ -138,30 +115,15 @@ private:
     std::array<std::uint64_t, 4> counts_{};
 };
 
+bool measures_wall_pressure(const Scene& s) { return measures(s, "wall_pressure"); }
+
 } // namespace
 
 MeasuredQuantity wall_pressure_quantity() {
     return {{.name = "wall_pressure",
              .help = "Pressure on each side of the box, from all collisions with it.",
              .has_history = true,
-             .rules = {{.one = "\"wall_pressure\"",
-                        .other = "a box that is periodic all round",
-                        .why = "it has no walls",
-                        .keys = {quantities_key},
-                        .is_broken =
-                            [](const Scene& s) {
-                                return measures(s, "wall_pressure") && s.effects.is_periodic_x() &&
-                                       s.effects.is_periodic_y();
-                            }},
-                       {.one = "\"wall_pressure\"",
-                        .other = "an open side",
-                        .why = "with open sides velocities and densities alone are measured",
-                        .keys = {quantities_key},
-                        .is_broken =
-                            [](const Scene& s) {
-                                return measures(s, "wall_pressure") &&
-                                       s.effects.have_open_boundaries();
-                            }}}},
+             .rules = rules_of_walls<measures_wall_pressure>("\"wall_pressure\"")},
             make_measurement<WallPressure>,
             {"wall_pressure_history"}};
 }
