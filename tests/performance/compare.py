@@ -120,6 +120,7 @@ class Machine:
     def exact_peer(self, case, n_collisions, folder):
         """Collisions per second of the fastest of EDMD's programs, from where Carrom began. Multi
         ends with an error where a disc has more neighbours than it has room for; another counts.
+        So does another where one is not done after a minute.
         """
         if not case.edmd or not self.edmd:
             return None
@@ -139,8 +140,11 @@ class Machine:
                 file.write(f"a {words[1]} {words[2]} 0.5 {words[8]}\n")
         rates = []
         for peer in self.edmd:
-            words = [peer, str(n_collisions)]
-            run = subprocess.run(words, capture_output=True, text=True, cwd=folder, check=False)
+            words = [peer, str(max(1, round(n_collisions * case.edmd_share)))]
+            try:
+                run = subprocess.run(words, capture_output=True, text=True, cwd=folder, timeout=60)
+            except subprocess.TimeoutExpired:
+                continue
             found = re.search(r"collisions (\d+) seconds (\S+)", run.stdout)
             if run.returncode == 0 and found:
                 rates.append(int(found.group(1)) / float(found.group(2)))

@@ -214,7 +214,7 @@ def draw_cluster(rows, folder):
         plt.close(figure)
 
 
-def draw_sizes(rows, folder):
+def draw_numbers(rows, folder):
     points = sorted(
         (int(r["n_discs"]), float(r["ns_per_disc_step"]))
         for r in rows
@@ -237,6 +237,26 @@ def draw_sizes(rows, folder):
     )
     axes.set(xscale="log", yscale="log")
     figure.savefig(folder / "cost_against_size.png")
+    plt.close(figure)
+
+
+def draw_sizes(rows, folder):
+    """Collisions a second against the ratio of sizes, of Carrom and of EDMD, which has no rate
+    where it did not end within its time.
+    """
+    series = {}
+    for row in rows:
+        found = re.fullmatch(r"sizes 1 and (\d+), packing (\S+)", row["case"])
+        for name, column in (("Carrom", "rate"), ("EDMD", "edmd_rate")):
+            if found and row[column]:
+                points = series.setdefault(f"{name}, packing {found.group(2)}", [])
+                points.append((int(found.group(1)), float(row[column]) / 1e6))
+    figure, axes = new_axes("ratio of radii R", "million collisions per second")
+    draw_series(axes, series)
+    axes.set(xscale="log", yscale="log")
+    axes.set_xticks([1, 3, 10, 30], ["1", "3", "10", "30"])
+    axes.minorticks_off()
+    figure.savefig(folder / "sizes.png")
     plt.close(figure)
 
 
@@ -340,9 +360,11 @@ def main():
         text = replace_part(text, "rates", "\n\n".join(parts))
         text = replace_part(text, "two cores", two_cores_part(files))
         text = replace_part(text, "edmd", edmd_part(files))
-        draw_sizes(rows, folder)
+        draw_numbers(rows, folder)
     if (folder / "sizes.csv").exists():
-        text = replace_part(text, "sizes", sizes_part(read_csv(folder / "sizes.csv")))
+        rows = read_csv(folder / "sizes.csv")
+        text = replace_part(text, "sizes", sizes_part(rows))
+        draw_sizes(rows, folder)
     if (folder / "cluster.csv").exists():
         rows = read_csv(folder / "cluster.csv")
         text = replace_part(text, "cluster", cluster_part(rows))
