@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 import numpy as np
-from watch_support import BROWSER, Page, pixels, run, start, stored, wait_for
+from watch_support import BROWSER, SCENE, Page, pixels, run, start, stored, wait_for
 
 
 @unittest.skipUnless(BROWSER, "there is no chromium")
@@ -90,6 +90,14 @@ class BrowserTest(unittest.TestCase):
         height = np.ptp(places[-1, :, 1]) + 2 * radius
         self.assertAlmostEqual((np.ptp(rows) + 1) / height, scale, delta=0.02 * scale)
         self.assertAlmostEqual(covered.sum() / scale**2, 200 * np.pi * radius**2, delta=0.03 * 480)
+
+    def test_walls_that_move_are_drawn_where_they_are(self):
+        text = SCENE.format(steps=60, every=5, pressure=10)
+        run("piston", text=text.replace("[discs]", 'right = {kind = "moving", speed = -0.1}\n[discs]'))
+        with Page("piston") as page:
+            facts, _ = self.shown(page, "?step=30")
+            self.assertEqual([float(x) for x in facts["walls"].split(",")], [0, 0, 37, 40])
+            self.assertEqual(facts["drawn"], "200")
 
     def test_a_run_that_goes_on(self):
         process = start("going", steps=10**7, every=200)

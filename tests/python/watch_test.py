@@ -2,6 +2,7 @@
 """What the server of the page answers, held to the run's files as h5py reads them."""
 
 import json
+import math
 import os
 import resource
 import signal
@@ -10,6 +11,7 @@ import subprocess
 import sys
 import time
 import unittest
+import unittest.mock
 import urllib.error
 from pathlib import Path
 
@@ -47,6 +49,52 @@ class ServerTest(unittest.TestCase):
                 self.assertAlmostEqual(
                     about["radius"], np.sqrt(0.3 * 40**2 / 200 / np.pi), places=5
                 )
+
+    def test_walls_are_where_they_are_at_the_step(self):
+        sides = 'right = {kind = "moving", speed = -0.125}\nbottom = {kind = "oscillating", ' \
+                "amplitude = 2, period = 12, phase = -0.5}\n"
+        text = SCENE.format(steps=60, every=5, pressure=10).replace("[discs]", sides + "[discs]")
+        text = text.replace("[box]\nsize = 40\n", "[box]\nsize = [40, 30]\n")
+        run("walls", text=text)
+        _, places, _ = stored("walls")
+        radius = np.sqrt(0.3 * 40 * 30 / 200 / np.pi)
+        with Page("walls") as page:
+            for step in (0, 25, 60):
+                about, numbers = page.frame(f"step={step}")
+                left, bottom, right, top = about["walls"]
+                self.assertEqual((left, right, top), (0, 40 - step / 8, 30))
+                # 25 is a twelfth of a period after two of them, and 60 is five periods
+                angle = -0.5 + (math.pi / 6 if step == 25 else 0)
+                self.assertAlmostEqual(bottom, 2 * math.sin(angle), places=12)
+                self.assertEqual(about["room"], [0, -2, 40, 30])
+                self.assertEqual(about["shown"], 200)
+                x, y, _ = numbers.reshape(3, 200)
+                self.assertGreater(y.min() - 2, bottom + radius - 1e-4)  # counted from the room
+                self.assertLess(x.max(), right - radius + 1e-4)
+                np.testing.assert_allclose(y - 2, places[step // 5, :, 1], atol=1e-5)
+
+    def test_a_frame_of_200000_discs_reads_its_own_arrays_only(self):
+        text = SCENE.format(steps=4, every=1, pressure=4).replace("size = 40", "size = 1300")
+        run("large", text=text.replace("count = 200", "count = 200_000"))
+        with Page("large") as page:
+            page.json("state?have=0&last=-1")  # opens the run, as a page does first
+            counted, plain = [], h5py.Dataset.__getitem__
+
+            def read(dataset, *words):
+                values = plain(dataset, *words)
+                counted.append((dataset.name, np.asarray(values).nbytes))
+                return values
+
+            with unittest.mock.patch.object(h5py.Dataset, "__getitem__", read):
+                about, numbers = page.frame("step=3")
+        self.assertEqual((about["kind"], about["shown"]), ("density", 200_000))
+        arrays = [name for name, size in counted if size > 1000]
+        self.assertEqual(
+            sorted(arrays),
+            ["/particles/discs/position/value", "/particles/discs/velocity/value"],
+        )
+        self.assertLessEqual(sum(size for _, size in counted), 200_000 * 2 * 3 * 4 + 1000)
+        self.assertLessEqual(numbers.nbytes, 2 * 320 * 320 * 4)  # what the browser gets
 
     def test_a_field_is_that_of_the_table(self):
         quantities = 'output.measurements.quantities=["profiles"]'

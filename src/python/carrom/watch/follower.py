@@ -22,8 +22,9 @@ from carrom.runs import SCENE_FILES, Checkpoints, Run, open_run
 from carrom.scene import flattened
 from carrom.watch.curves import Curves, steps_of
 from carrom.watch.field import NewestField
-from carrom.watch.picture import View, picture
+from carrom.watch.picture import MOST_DISCS, View, picture
 from carrom.watch.progress import Rate, is_being_written, legacy_steps
+from carrom.watch.walls import walls_at
 
 _SHARE = 0.01  # of one core
 _LEAST_PAUSE = 1.0
@@ -46,6 +47,7 @@ class Follower:
         self._field = NewestField()
         self._rate = Rate()
         self._identity = ""
+        self._scene: dict[str, Any] = {}
         self._spent = 0.0
         if not self.path.exists() and not may_wait:
             raise FileError(f"{path}: there is no such folder; --wait waits for it")
@@ -108,6 +110,7 @@ class Follower:
         try:
             # The page shows a run at once, and asks again each second.
             self._run = open_run(self.path, check=False)
+            self._scene = _scene_of(self._run)
         except FileError:
             if self.path.exists() and not self.path.is_dir():
                 raise
@@ -201,7 +204,17 @@ class Follower:
             steps = steps_of(frames)
             if step not in steps:
                 raise NoDataError(f"there is no frame of step {step} (any more)")
-            return picture(frames[steps.index(step)], colour, view)
+            frame = frames[steps.index(step)]
+            walls = walls_at(self._scene, frame.box, step)
+            return picture(frame, colour, view, MOST_DISCS, walls)
+
+
+def _scene_of(run: Run) -> dict[str, Any]:
+    """Return the scene; {} where a file holds none, or one that cannot be read."""
+    try:
+        return run.scene
+    except CarromError:
+        return {}
 
 
 def _message(status: str, steps: list[int], is_trajectory: bool, step: int, path: Path) -> str:

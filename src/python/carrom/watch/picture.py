@@ -11,6 +11,7 @@ import numpy as np
 from carrom.errors import NoDataError
 from carrom.frame import Array, Frame
 from carrom.watch.order import hexatic_order
+from carrom.watch.walls import Walls, at_rest
 
 MOST_DISCS = 150_000
 """More discs in view are drawn as a density."""
@@ -46,24 +47,30 @@ class View:
 
 
 def picture(
-    frame: Frame, colour: str, view: View | None, most: int = MOST_DISCS
+    frame: Frame,
+    colour: str,
+    view: View | None,
+    most: int = MOST_DISCS,
+    walls: Walls | None = None,
 ) -> tuple[dict[str, Any], bytes]:
     """Return what the page draws: facts about it, and float32 numbers.
 
     `kind` "discs": columns x, y, value and, where radii differ, radius; x and y count from the
     view's corner. `kind` "density": rows of cells, the packing fraction and then the mean value.
+    Without `walls` those of the frame's box are at rest.
     """
     if colour not in COLOURS:
         raise ValueError(f"colour is one of {', '.join(COLOURS)}")
-    whole = View(0, 0, float(frame.box[0]), float(frame.box[1]))
-    seen = view or whole
+    walls = walls or at_rest(*frame.box)
+    seen = view or View(*walls.room)
     places = _places_in(frame, seen)
     about: dict[str, Any] = {
         "step": frame.step,
         "total": frame.n_discs,
         "inside": int(np.count_nonzero(frame.present)),
         "shown": len(places),
-        "box": [float(edge) for edge in frame.box],
+        "walls": list(walls.places),
+        "room": list(walls.room),
         "view": [seen.x_low, seen.y_low, seen.x_high, seen.y_high],
         "colour": colour,
         "radius": float(frame.radius.max()) if frame.n_discs else 0.0,

@@ -42,11 +42,12 @@ const Discs = (() => {
              toX: (px) => x0 + (px - left) / scale, toY: (py) => y1 - (py - top) / scale };
   }
 
-  function drawBox(context, map, box) {
+  // The walls where they are at the frame's step.
+  function drawWalls(context, map, [x0, y0, x1, y1]) {
     const style = getComputedStyle(document.documentElement);
     context.strokeStyle = style.getPropertyValue("--soft");
     context.lineWidth = Math.max(1, devicePixelRatio);
-    context.strokeRect(map.x(0), map.y(box[1]), box[0] * map.scale, box[1] * map.scale);
+    context.strokeRect(map.x(x0), map.y(y1), (x1 - x0) * map.scale, (y1 - y0) * map.scale);
   }
 
   function drawSmooth(context, frame, map, colours) {
@@ -130,7 +131,7 @@ const Discs = (() => {
     if (frame.about.kind === "density") drawn = drawDensity(context, frame, map, colours);
     else if (frame.x.length <= SMOOTH) drawn = drawSmooth(context, frame, map, colours);
     else drawn = drawRows(context, frame, map, colours);
-    drawBox(context, map, frame.about.box);
+    drawWalls(context, map, frame.about.walls);
     return drawn;
   }
 

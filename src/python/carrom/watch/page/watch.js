@@ -64,8 +64,7 @@ function show() {
   const frame = page.frames.get(key(step));
   if (!frame) return load(page.index);
   const about = frame.about;
-  const box = [0, 0, about.box[0], about.box[1]];
-  if (!page.view || page.isViewWhole) page.view = box;
+  if (!page.view || page.isViewWhole) page.view = about.room;
   if (about.colour === "speed" && !(page.top > 0)) page.top = about.top || 0;
   const top = about.colour === "psi6" ? 1 : page.top;
   const drawn = Discs.draw(element("discs"), frame, page.view, top);
@@ -80,8 +79,8 @@ function show() {
   Discs.drawGradient(element("gradient"), about.colour === "species" ? about.species : 0);
   element("cover").hidden = about.kind !== "density";
   if (about.kind === "density") Discs.drawShades(element("shades"));
-  const { total, kind } = about;
-  Object.assign(document.body.dataset, { step, drawn, total, kind });
+  const { total, kind, walls } = about;
+  Object.assign(document.body.dataset, { step, drawn, total, kind, walls: walls.join() });
   drawCurves();
 }
 
@@ -218,9 +217,10 @@ function widened([x0, y0, x1, y1]) {
 }
 
 function setView(wished) {
-  const [w, h] = page.shown.about.box, view = wished && widened(wished);
-  page.isViewWhole = view === null || view[3] - view[1] >= h && view[2] - view[0] >= w;
-  page.view = page.isViewWhole ? [0, 0, w, h] : view;
+  const room = page.shown.about.room, view = wished && widened(wished);
+  const isWide = (axis) => view[axis + 2] - view[axis] >= room[axis + 2] - room[axis];
+  page.isViewWhole = view === null || isWide(0) && isWide(1);
+  page.view = page.isViewWhole ? room : view;
   if (page.shown.about.total <= 150000) return show();
   clearTimeout(viewTimer);
   viewTimer = setTimeout(show, 200);
