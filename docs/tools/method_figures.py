@@ -81,7 +81,7 @@ def conflict_chain(folder):
         when = f"message {decided[candidate]}" if decided[candidate] else "at once"
         axes.text(middle, 3.78, f"t = {time:g}\n{'kept' if is_kept else 'struck'}\n{when}", ha="center", va="bottom", color=colour, fontsize=9)
     for cut in three_strips.CUTS:
-        axes.axvline(cut, ymax=0.52, color="black", linewidth=1.5)
+        axes.axvline(cut, ymax=0.52, color="black", linewidth=1.5, zorder=0)  # behind the discs and their numbers
     for rank, middle in enumerate((1, 3, 5)):
         axes.text(middle, 1.95, f"rank {rank}", ha="center")
     axes.set(xlim=(0, 6), ylim=(1.8, 4.6), aspect="equal", xticks=[], yticks=[])
@@ -140,14 +140,15 @@ def block_window(folder):
         place = [x for t, x in paths[k] if t == time][0] + length / 2
         axes.plot([place], [time], "o", color="black", markersize=3)
     times = [time for time, k in contacts if chosen in (k, k + 1)]
-    for time in times:
-        axes.annotate(f"{time:.2f}", ([x for t, x in paths[chosen] if t == time][0], time), textcoords="offset points", xytext=(9, 2), fontsize=8, color="#cc3311")
+    beside = axes.secondary_yaxis("right")  # where no line of a disc runs through the numbers
+    beside.set_yticks(times, [f"{time:.2f}" for time in times], color="#cc3311")
+    beside.tick_params(color="#cc3311")
     for middle, text in ((0, "own"), (-block - reach / 2, "ring"), (block + reach / 2, "ring"), (-block - 1.5 * reach, "rest of the halo"),
                          (block + 1.5 * reach, "rest of the halo")):
         axes.text(middle, end + 0.03, text, ha="center", fontsize=10)
     axes.annotate("", (block, -0.06), (block + reach, -0.06), arrowprops={"arrowstyle": "<->"}, annotation_clip=False)
     axes.text(block + reach / 2, -0.15, "one reach", ha="center", fontsize=9)
-    axes.text(-block - reach / 2, -0.15, "red: a ring disc, and its event history", ha="center", fontsize=9, color="#cc3311")
+    axes.text(-block - reach / 2, -0.15, "red: a ring disc, and the times of its event history", ha="center", fontsize=9, color="#cc3311")
     axes.set(xlim=(-block - 2 * reach - 0.4, block + 2 * reach + 0.4), ylim=(0, end), xticks=[], yticks=[0, end], yticklabels=["s", "end"], ylabel="time")
     save(figure, folder, "block_window.svg")
 

@@ -57,47 +57,72 @@ def direct(links, below):
             for name, others in links.items()}
 
 
-def places(links, row, n_sweeps=20):
-    """Centres in x; each module near the mean of what it is joined to, so that lines cross little."""
+def with_bends(shown, row):
+    """The rows of the picture and the ways through them.
+
+    A line to a module that is not in the next row has a bend, (from, to, row), in each row between,
+    so that it passes beside the boxes and not behind them.
+    """
     rows = [sorted(name for name in row if row[name] == k) for k in range(max(row.values()) + 1)]
-    joined = {name: list(others) for name, others in links.items()}
-    for name, others in links.items():
-        for other in others:
-            joined[other].append(name)
-    width = max(len(names) for names in rows) * (BOX[0] + GAP)
+    ways = []
+    for name in sorted(shown):
+        for other in shown[name]:
+            bends = [(name, other, k) for k in range(row[name] - 1, row[other], -1)]
+            for bend in bends:
+                rows[bend[2]].append(bend)
+            ways.append([name, *bends, other])
+    return rows, ways
+
+
+def places(rows, ways, n_sweeps=20):
+    """Centres in x; each module near the mean of what it is joined to, so that lines cross little."""
+    joined = {name: [] for names in rows for name in names}
+    for way in ways:
+        for one, next_one in zip(way, way[1:]):
+            joined[one].append(next_one)
+            joined[next_one].append(one)
+
+    def room(name):
+        return GAP + (BOX[0] if isinstance(name, str) else 0)
+
+    width = max(sum(map(room, names)) for names in rows)
     x = {}
 
     def spread(names):
-        for k, name in enumerate(names):
-            x[name] = width * (k + 0.5) / len(names)
+        spare, left = (width - sum(map(room, names))) / len(names), 0
+        for name in names:
+            x[name] = left + (room(name) + spare) / 2
+            left += room(name) + spare
 
     for names in rows:
         spread(names)
     for _ in range(n_sweeps):
         for names in rows:
             names.sort(key=lambda name: (sum(x[one] for one in joined[name]) /
-                                         max(1, len(joined[name])), name))
+                                         max(1, len(joined[name])), str(name)))
             spread(names)
     return x, width
 
 
 def svg(links):
     row = rows_of(links)
-    shown = direct(links, everything_below(links))
-    x, width = places(shown, row)
+    rows, ways = with_bends(direct(links, everything_below(links)), row)
+    x, width = places(rows, ways)
     top = max(row.values())
 
     def y(name):
-        return (top - row[name]) * ROW + 8
+        return (top - (row[name] if isinstance(name, str) else name[2])) * ROW + 8
 
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} '
              f'{top * ROW + BOX[1] + 16}" font-family="sans-serif" font-size="13">',
              '<rect width="100%" height="100%" fill="white"/>']
-    for name in sorted(shown):
-        for other in shown[name]:
-            a, b = y(name) + BOX[1], y(other)
-            lines.append(f'<path d="M{x[name]:.0f} {a} C{x[name]:.0f} {a + 26} {x[other]:.0f} '
-                         f'{b - 26} {x[other]:.0f} {b}" fill="none" stroke="#888"/>')
+    for way in ways:
+        path = f"M{x[way[0]]:.0f} {y(way[0])}"
+        for one, next_one in zip(way, way[1:]):
+            a, b = y(one) + BOX[1], y(next_one)
+            path += (f" V{a} C{x[one]:.0f} {a + 26} {x[next_one]:.0f} {b - 26} "
+                     f"{x[next_one]:.0f} {b}")
+        lines.append(f'<path d="{path}" fill="none" stroke="#888"/>')
     for name in sorted(links):
         lines.append(f'<rect x="{x[name] - BOX[0] / 2:.0f}" y="{y(name)}" width="{BOX[0]}" '
                      f'height="{BOX[1]}" rx="4" fill="#eef3f8" stroke="#345"/>')

@@ -214,7 +214,7 @@ def figure_both_methods(gases, path):
         axes.axvline(exact.cost, color=GREYS[index], linewidth=2, linestyle=STYLES[index][1])
         handles.append(matplotlib.lines.Line2D([], [], color=GREYS[index], marker=STYLES[index][0], linestyle=STYLES[index][1], label=f"packing {packing:.3g}"))
         for k, p in curve:
-            if k in ((1, 16, 256) if index == len(gases) - 1 else ()):
+            if k in ((1, 32, 256) if index == len(gases) - 1 else ()):
                 axes.annotate(f"K = {k}", (p.cost, abs(p.rate[0])), xytext=(6, 5), textcoords="offset points", fontsize=10, color=GREYS[index])
     axes.set_xlim(right=1)
     costs = [exact_point(points).cost for points in gases.values()]
