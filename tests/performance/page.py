@@ -316,13 +316,12 @@ def draw_roofline(kernels, peaks, folder):
             markersize=6,
             markerfacecolor="white",
         )
-        is_right = x > 1
         axes.annotate(
             name,
             (x, y),
             textcoords="offset points",
-            xytext=(-7 if is_right else 7, (4, -12, 4, 4, -12)[index % 5]),
-            ha="right" if is_right else "left",
+            xytext=(7, (4, -12, 4, 4, -12)[index % 5]),
+            ha="left",  # the lines of the roof are at the left of all points
             fontsize=10,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
         )

@@ -53,6 +53,13 @@ while read -r mistake rule; do
         named=$(sed -n 's/^rule: //p' "$test_folder/out")
         [ "$named" = "$rule" ] || complain \
             "$mistake in $scene breaks the rule '$rule', not '$named': $(cat "$test_folder/out")"
+        # Two ways of the same mistake are told apart.
+        case $mistake in
+        same-start) way='and the changes add up' ;;
+        last-start) way='and only the last collision counts' ;;
+        *) way='' ;;
+        esac
+        grep -qF "$way" "$test_folder/out" || complain "$mistake in $scene is not called '$way'"
         n_named=$((n_named + 1))
         # The right program's output has other numbers in the line that is named.
         line=$(sed -n 's/^line \([0-9]*\):.*/\1/p' "$test_folder/out")

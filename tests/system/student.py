@@ -22,6 +22,7 @@ MISTAKES = {  # and the rule that `carrom compare` must name
     "many": "one collision a step",
     "list": "one collision a step",
     "same-start": "one collision a step",
+    "last-start": "one collision a step",
     "half": "impulse",
     "no-stop": "stop at a wall",
     "bounce": "stop at a wall",
@@ -115,7 +116,7 @@ class Box:
             is_free = not both & taken
             if is_free or self.mistake == "lost-blocks":
                 taken |= both
-            if is_free or self.mistake in ("list", "same-start"):
+            if is_free or self.mistake in ("list", "same-start", "last-start"):
                 self.happen(t, p, q, moved)
         for disc in self.discs:
             if disc.id not in moved:
@@ -126,7 +127,7 @@ class Box:
         collision.
         """
         discs = [self.discs[p]] if q < 0 else [self.discs[p], self.discs[q]]
-        if self.mistake == "same-start":
+        if self.mistake in ("same-start", "last-start"):
             self.happen_from_start(t, discs, moved)
             return
         for disc in discs:
@@ -141,15 +142,18 @@ class Box:
             self.finish(disc, 1 - t)
 
     def happen_from_start(self, t, discs, moved):
-        """A collision as if it were the only one of the step; changes of velocity add up."""
+        """A collision as if it were the only one of the step. Changes of velocity add up, or the
+        last one replaces those before.
+        """
         before = [(disc.vx, disc.vy) for disc in discs]
         for disc in discs:
             x, y, disc.vx, disc.vy = self.start[disc.id]
             disc.x, disc.y = x + disc.vx * t, y + disc.vy * t
         self.bounce(discs[0]) if len(discs) == 1 else self.collide(*discs)
         for disc, (vx, vy) in zip(discs, before, strict=True):
-            disc.vx += vx - self.start[disc.id][2]
-            disc.vy += vy - self.start[disc.id][3]
+            if self.mistake == "same-start":
+                disc.vx += vx - self.start[disc.id][2]
+                disc.vy += vy - self.start[disc.id][3]
             moved.add(disc.id)
             self.finish(disc, 1 - t)
 

@@ -60,7 +60,11 @@ constexpr std::array known_mistakes{
     KnownMistake{Mistake::every_candidate, one_collision,
                  "all collisions of the list are carried out, and discs collide more than once"},
     KnownMistake{Mistake::each_from_start, one_collision,
-                 "discs collide more than once, each time with the velocities of the step's start"},
+                 "discs collide more than once, each time with the velocities of the step's start, "
+                 "and the changes add up"},
+    KnownMistake{Mistake::last_from_start, one_collision,
+                 "discs collide more than once, each time with the velocities of the step's start, "
+                 "and only the last collision counts"},
     KnownMistake{Mistake::half_impulse, impulse,
                  "discs exchange half of their relative velocity, and fly on side by side"},
 };

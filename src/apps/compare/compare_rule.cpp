@@ -146,7 +146,7 @@ void PlainRule::sort_candidates() {
 }
 
 void PlainRule::keep_candidates(double m) {
-    if (mistake_ == Mistake::each_from_start) {
+    if (mistake_ == Mistake::each_from_start || mistake_ == Mistake::last_from_start) {
         start_ = discs_;
         for (const Candidate& candidate : candidates_) keep_from_start(candidate, m);
         return;
@@ -205,13 +205,15 @@ void PlainRule::keep(const Candidate& candidate, double m) {
 }
 
 /// Carries out a collision with the discs of the micro-step's start, as if each were the only one.
-/// Changes of velocity add up, and the last collision of a disc says from where it flies on.
+/// The last collision of a disc says from where it flies on. Changes of velocity add up, unless the
+/// last one replaces those before, as in a program that writes the discs into a second array.
 void PlainRule::keep_from_start(const Candidate& candidate, double m) {
     const auto change = [this](DiscId id, const Disc& made) {
         const Disc& start = start_[id];
         Disc& disc = discs_[id];
-        disc.vx += made.vx - start.vx;
-        disc.vy += made.vy - start.vy;
+        const bool adds_up = mistake_ == Mistake::each_from_start;
+        disc.vx = adds_up ? disc.vx + (made.vx - start.vx) : made.vx;
+        disc.vy = adds_up ? disc.vy + (made.vy - start.vy) : made.vy;
         disc.x = made.x;
         disc.y = made.y;
         disc.tau = made.tau;

@@ -30,6 +30,7 @@ enum class Mistake {
     every_collision,
     every_candidate,
     each_from_start,
+    last_from_start,
     half_impulse,
     no_stop,
     bounce_for_stop,
@@ -92,7 +93,7 @@ private:
     double deepest_overlap_;
     Mistake mistake_;
     std::vector<Disc> discs_;
-    std::vector<Disc> start_; ///< the discs at the micro-step's start, for `each_from_start`
+    std::vector<Disc> start_; ///< the discs at the micro-step's start, for `..._from_start`
     std::int64_t micro_steps_;
     std::vector<Candidate> candidates_;
 };
