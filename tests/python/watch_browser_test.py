@@ -93,7 +93,8 @@ class BrowserTest(unittest.TestCase):
 
     def test_walls_that_move_are_drawn_where_they_are(self):
         text = SCENE.format(steps=60, every=5, pressure=10)
-        run("piston", text=text.replace("[discs]", 'right = {kind = "moving", speed = -0.1}\n[discs]'))
+        text = text.replace("[discs]", 'right = {kind = "moving", speed = -0.1}\n[discs]')
+        run("piston", text=text)
         with Page("piston") as page:
             facts, _ = self.shown(page, "?step=30")
             self.assertEqual([float(x) for x in facts["walls"].split(",")], [0, 0, 37, 40])
