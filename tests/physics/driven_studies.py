@@ -11,6 +11,7 @@ granular   a thin granular gas in uniform shear, its stress ratio and the rate o
            stand beside
 heated     a granular gas that kicks heat, its kT and its fourth cumulant a2, against kinetic theory
 langevin   diffusion of discs with friction and noise, against kT / (m (gamma + nu))
+places     g(r) and kT of discs with a thermostat, against g(r) without one
 channel    viscosities from flows of Couette and Poiseuille between thermal walls, against Enskog
 sizes      Z of fluids whose radii follow a distribution, by that of equal discs
 
@@ -26,6 +27,7 @@ approximation, the error that it is given stands beside it.
 import json
 import math
 import os
+import statistics
 import subprocess
 import tempfile
 
@@ -226,6 +228,42 @@ def langevin(program, is_short):
                "D_known_error": 0.02 * kt / (gamma + nu) * nu / (gamma + nu)}
 
 
+def places(program, is_short):
+    """Andersen's and Langevin's discs are where discs without a thermostat are.
+
+    `g_scatter` is the mean square of the differences of g(r) in units of their errors, which is 1
+    if there are none: its standard error is the root of 2 over the number of bins.
+    """
+    kt, packing, count = 0.01, 0.4, 500 if is_short else 1000
+    steps = 8_000 if is_short else 60_000
+    tables = {}
+    for kind in ("none", "andersen", "langevin"):
+        thermostat = {} if kind == "none" else {
+            "effects.thermostat.kind": f'"{kind}"', "effects.thermostat.rate": 0.05,
+            "effects.thermostat.temperature": kt}
+        report = run(program, PERIODIC | EVENTS | thermostat | {
+            "box.size": box_of(count, packing), "discs.count": count, "discs.radius": 0.5,
+            "discs.temperature": kt, "discs.seed": 1 + len(tables), "time.steps": steps,
+            "time.sync_every": 8, "output.averages_from_step": 1_000,
+            "output.measurements.quantities": '["radial_distribution"]',
+            "output.measurements.every_steps": 100, "output.measurements.from_step": 1_000,
+            "output.measurements.bins": 40, "output.measurements.largest_distance": 5})
+        table = report["measurements"]["radial_distribution"]
+        tables[kind] = list(zip(table["g"], table["g_error"]))
+        if kind == "none":
+            continue
+        squares = [(g - plain) ** 2 / (error ** 2 + plain_error ** 2)
+                   for (g, error), (plain, plain_error) in zip(tables[kind], tables["none"])
+                   if error > 0 and plain_error > 0] # discs do not overlap
+        yield {"thermostat": kind, "packing": packing, "collisions": report["pair_collisions"],
+               "kT": report["temperature"]["value"] / kt,
+               "kT_error": report["temperature"]["error"] / kt,
+               "kT_known": 1.0, "kT_known_error": 0.0, "g_largest": max(g for g, _ in tables[kind]),
+               "g_scatter": statistics.fmean(squares),
+               "g_scatter_error": math.sqrt(2 / len(squares)),
+               "g_scatter_known": 1.0, "g_scatter_known_error": 0.0}
+
+
 def parabola(points):
     """Coefficients of y = a + b x + c x^2, by least squares."""
     sums = [sum(x ** k for x, _ in points) for k in range(5)]
@@ -326,7 +364,8 @@ def sizes(program, is_short):
 # What makes the rows; the largest errors, over what is known, of a short and of the whole study.
 STUDIES = {"viscosity": (viscosity, 0.05, 0.02), "granular": (granular, 0.05, 0.01),
            "heated": (heated, math.inf, math.inf), "langevin": (langevin, 0.05, 0.02),
-           "channel": (channel, 0.2, 0.03), "sizes": (sizes, 0.02, 0.003)}
+           "places": (places, 0.5, 0.5), "channel": (channel, 0.2, 0.03),
+           "sizes": (sizes, 0.02, 0.003)}
 
 if __name__ == "__main__":
     literature.main(__doc__, STUDIES)
