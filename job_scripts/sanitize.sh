@@ -56,7 +56,7 @@ build_preset() {
     local preset=$1 words
     shift
     mapfile -t words < <(mpi_words)
-    words+=(-DCMAKE_C_COMPILER="${cxx/++/}" -DCMAKE_CXX_COMPILER="$cxx")
+    words+=(-DCMAKE_C_COMPILER="${cxx/++/}" -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_UNITY_BUILD=ON)
     (cd "$top" && cmake --preset "$preset" "${words[@]}") >&2 </dev/null ||
         die "cmake could not configure $preset"
     build=$top/build-$preset build_targets "$@"
@@ -124,9 +124,11 @@ files() {
 }
 
 threads() {
-    local archer hashes=$top/build-tsan/tests/stability_hashes settings
-    archer=$(find /usr/lib/llvm* /usr/lib/*-linux-gnu -name libarcher.so 2>/dev/null |
-        sort -V | tail -n 1) || true
+    local archer hashes=$top/build-tsan/tests/stability_hashes settings programs=()
+    local tests=(--test-dir "$top/build-tsan" -R 'x 2 threads')
+    # That of the same compiler, where several are installed.
+    archer=$(find "$(dirname "$(realpath "$(command -v "$cxx")")")/../lib" /usr/lib/*-linux-gnu \
+        -name libarcher.so 2>/dev/null | head -n 1) || true
     [ -n "$archer" ] || { say "threads: left out, there is no libarcher.so; $remedy"; return; }
     # Without archer the sanitizer does not know what OpenMP's barriers order. MPI is not
     # instrumented.
@@ -137,10 +139,15 @@ threads() {
         try 'threads: gases' "${settings[@]}" "$hashes" gas
         return
     fi
-    build_preset tsan
+    build_preset tsan carrom stability_hashes
+    mapfile -t programs < <(ctest "${tests[@]}" -N -V | grep -o '[a-z_]*_mpi_test' | sort -u)
+    build_preset tsan "${programs[@]}"
+    try 'threads: a run with a checkpoint' "${settings[@]}" "$top/build-tsan/carrom" run \
+        "$top/inputs/dense.toml" --steps 20 --threads 2 --check --quiet \
+        -o "$top/build-tsan/run" --overwrite
     try 'threads: all scenes' "${settings[@]}" "$hashes"
-    try 'threads: the tests of two threads' "${settings[@]}" ctest --test-dir "$top/build-tsan" \
-        -R 'x 2 threads' --output-on-failure --no-tests=error
+    try 'threads: the tests of two threads' "${settings[@]}" ctest "${tests[@]}" \
+        --output-on-failure --no-tests=error
 }
 
 memory() {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+using std::isnan; // Highway 1.0 calls it so where it has no vectors
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "event_driven/flight_filter.cpp"

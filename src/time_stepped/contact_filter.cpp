@@ -7,6 +7,8 @@
 
 #include "core/stop_request.hpp"
 
+using std::isnan; // Highway 1.0 calls it so where it has no vectors
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "time_stepped/contact_filter.cpp"
 #include "hwy/foreach_target.h" // compiles this file once per instruction set
