@@ -179,8 +179,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_levels() {
                                                 static_cast<std::size_t>(column) * column_length;
             const std::uint32_t first = starts[c.n_above], end = starts[c.n_above + c.n_rows];
             later_ends.clear();
-            filter_sized_column(sized_lanes(), table, column, {c.n_above, c.n_above + c.n_rows},
-                                margin_of(own, own), later, later_ends);
+            flight_filters<SizedLanes>().column(sized_lanes(), table, column,
+                                                {c.n_above, c.n_above + c.n_rows},
+                                                margin_of(own, own), later, later_ends);
             std::uint32_t slot = first, k = 0;
             for (const std::uint32_t later_end : later_ends) {
                 for (; k < later_end; ++k) predict_pair(slot, later[k]);
@@ -220,8 +221,8 @@ void BlockRun<Dynamics>::Scratch::find_runs_of(const LevelCells& level, const Fl
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_seen(const Flight& flight, float radius,
                                                const Image* image) {
-    const std::size_t n_partners = filter_sized(sized_lanes(), std::span(runs).first(n_runs),
-                                                flight, radius, partners.data());
+    const std::size_t n_partners = flight_filters<SizedLanes>().one(
+        sized_lanes(), std::span(runs).first(n_runs), flight, radius, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) {
         if (image)
             predict_image(flight.slot, partners[k], *image);
@@ -300,7 +301,7 @@ void BlockRun<Dynamics>::Scratch::predict_two_sized(std::uint32_t p, std::uint32
                       std::min(a.bottom, b.bottom), std::max(a.top, b.top)},
                      true);
         const float margin = margin_of(own, other);
-        const PartnerCounts n = filter_two_sized(
+        const PartnerCounts n = flight_filters<SizedLanes>().two(
             sized_lanes(), std::span(runs).first(n_runs), p_flight, q_flight, radii[p] + margin,
             radii[q] + margin, partners.data(), others_partners.data());
         for (std::size_t k = 0; k < n.p; ++k) predict_pair(p, partners[k]);

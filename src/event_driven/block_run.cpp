@@ -102,8 +102,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
                           n_reach_rows};
     for (int column = firsts.first_column; column < firsts.end_column; ++column) {
         later_ends.clear();
-        filter_column(lanes, table, column, {firsts.first_row, firsts.end_row}, touching_squared,
-                      later, later_ends);
+        flight_filters<FlightLanes>().column(lanes, table, column,
+                                             {firsts.first_row, firsts.end_row}, touching_squared,
+                                             later, later_ends);
         std::uint32_t slot = cell_run(column, firsts.first_row, firsts.first_row).begin, k = 0;
         for (const std::uint32_t end : later_ends) {
             for (; k < end; ++k) predict_pair(slot, later[k]);
@@ -115,8 +116,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const Flight& flight) {
     const std::uint32_t slot = flight.slot;
     find_runs(box_of(flight, farthest));
-    const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
-                                                  touching_squared, partners.data());
+    const std::size_t n_partners = flight_filters<FlightLanes>().one(
+        lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
 }
 
@@ -133,9 +134,9 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     const auto most = [](float u, float v) { return u > v ? u : v; };
     find_runs({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom),
                most(a.top, b.top)});
-    const PartnerCounts n = filter_two_flights(lanes, std::span(runs).first(n_runs), p_flight,
-                                               q_flight, touching_squared, partners.data(),
-                                               others_partners.data());
+    const PartnerCounts n = flight_filters<FlightLanes>().two(
+        lanes, std::span(runs).first(n_runs), p_flight, q_flight, touching_squared,
+        touching_squared, partners.data(), others_partners.data());
     predict_pair(p, q);
     for (std::size_t k = 0; k < n.p; ++k) predict_pair(p, partners[k]);
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);

@@ -111,6 +111,16 @@ HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector no
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
+/// Tells which of a vector of slots, the first of which is `slot`, might touch the flight.
+template <class SomeLanes>
+HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t slot,
+                                          const SpreadFlight& p, Vector now) {
+    const auto x = places(lanes.x + slot, lanes.vx + slot, now),
+               y = places(lanes.y + slot, lanes.vy + slot, now);
+    const auto vx = hn::LoadU(Lanes(), lanes.vx + slot), vy = hn::LoadU(Lanes(), lanes.vy + slot);
+    return hn::RebindMask(Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, p), p));
+}
+
 /// Appends to `next` the slots of `run` that might touch the flight; returns the new end.
 template <class SomeLanes>
 HWY_INLINE std::uint32_t* filter_run(const SomeLanes lanes, SlotRange run, const SpreadFlight& p,
@@ -120,20 +130,15 @@ HWY_INLINE std::uint32_t* filter_run(const SomeLanes lanes, SlotRange run, const
     for (std::uint32_t slot = run.begin; slot < run.end;
          slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
         const auto slots = hn::Add(steps, spread_slot(slot));
-        const auto x = places(lanes.x + slot, lanes.vx + slot, now),
-                   y = places(lanes.y + slot, lanes.vy + slot, now);
-        const auto vx = hn::LoadU(Lanes(), lanes.vx + slot),
-                   vy = hn::LoadU(Lanes(), lanes.vy + slot);
-        const auto touch = hn::RebindMask(
-            Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, p), p));
+        const auto touch = touching_slots(lanes, slot, p, now);
         next = append(slots, hn::And(touch, hn::Lt(slots, end)), next);
     }
     return next;
 }
 
 template <class SomeLanes>
-HWY_INLINE std::size_t filter_runs(const SomeLanes& all_lanes, std::span<const SlotRange> runs,
-                                   const Flight& flight, float touching, std::uint32_t* out) {
+std::size_t filter_runs(const SomeLanes& all_lanes, std::span<const SlotRange> runs,
+                        const Flight& flight, float touching, std::uint32_t* out) {
     const SomeLanes lanes =
         all_lanes; // a local copy, so that the compiler can keep the pointers in registers
     const SpreadFlight spread(flight, touching);
@@ -143,20 +148,10 @@ HWY_INLINE std::size_t filter_runs(const SomeLanes& all_lanes, std::span<const S
     return static_cast<std::size_t>(std::remove(out, next, flight.slot) - out);
 }
 
-std::size_t FilterFlights(const FlightLanes& lanes, std::span<const SlotRange> runs,
-                          const Flight& flight, float touching_squared, std::uint32_t* out) {
-    return filter_runs(lanes, runs, flight, touching_squared, out);
-}
-std::size_t FilterSized(const SizedLanes& lanes, std::span<const SlotRange> runs,
-                        const Flight& flight, float radius, std::uint32_t* out) {
-    return filter_runs(lanes, runs, flight, radius, out);
-}
-
 template <class SomeLanes>
-HWY_INLINE PartnerCounts filter_two_runs(const SomeLanes& all_lanes,
-                                         std::span<const SlotRange> runs, const Flight& p,
-                                         const Flight& q, float p_touching, float q_touching,
-                                         std::uint32_t* p_out, std::uint32_t* q_out) {
+PartnerCounts filter_two_runs(const SomeLanes& all_lanes, std::span<const SlotRange> runs,
+                              const Flight& p, const Flight& q, float p_touching, float q_touching,
+                              std::uint32_t* p_out, std::uint32_t* q_out) {
     const SomeLanes lanes = all_lanes;
     const SpreadFlight p_spread(p, p_touching), q_spread(q, q_touching);
     const auto now = hn::Set(Lanes(), p.now);
@@ -170,33 +165,17 @@ HWY_INLINE PartnerCounts filter_two_runs(const SomeLanes& all_lanes,
             const auto slots = hn::Add(steps, spread_slot(slot));
             const auto is_one_of_them = hn::Or(hn::Eq(slots, p_slot), hn::Eq(slots, q_slot));
             const auto inside = hn::AndNot(is_one_of_them, hn::Lt(slots, end));
-            const auto x = places(lanes.x + slot, lanes.vx + slot, now),
-                       y = places(lanes.y + slot, lanes.vy + slot, now);
-            const auto vx = hn::LoadU(Lanes(), lanes.vx + slot),
-                       vy = hn::LoadU(Lanes(), lanes.vy + slot);
-            const auto p_touch = hn::RebindMask(
-                Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, p_spread), p_spread));
+            // Both masks come before the first store, so that each number is loaded once.
+            const auto p_touch = touching_slots(lanes, slot, p_spread, now),
+                       q_touch = touching_slots(lanes, slot, q_spread, now);
             p_next = append(slots, hn::And(p_touch, inside), p_next);
-            const auto q_touch = hn::RebindMask(
-                Slots(), might_touch(x, y, vx, vy, touching_of(lanes, slot, q_spread), q_spread));
             q_next = append(slots, hn::And(q_touch, inside), q_next);
         }
     }
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-PartnerCounts FilterTwoFlights(const FlightLanes& lanes, std::span<const SlotRange> runs,
-                               const Flight& p, const Flight& q, float touching_squared,
-                               std::uint32_t* p_out, std::uint32_t* q_out) {
-    return filter_two_runs(lanes, runs, p, q, touching_squared, touching_squared, p_out, q_out);
-}
-PartnerCounts FilterTwoSized(const SizedLanes& lanes, std::span<const SlotRange> runs,
-                             const Flight& p, const Flight& q, float p_radius, float q_radius,
-                             std::uint32_t* p_out, std::uint32_t* q_out) {
-    return filter_two_runs(lanes, runs, p, q, p_radius, q_radius, p_out, q_out);
-}
-
-/// What the flight of a slot has in place of `touching`: the margin of a sum of radii and its own.
+/// The `touching` of a slot's flight: for discs of several sizes its radius and the margin.
 HWY_INLINE float touching_in(const FlightLanes&, std::uint32_t, float touching_squared) {
     return touching_squared;
 }
@@ -205,10 +184,9 @@ HWY_INLINE float touching_in(const SizedLanes& lanes, std::uint32_t slot, float 
 }
 
 template <class SomeLanes>
-HWY_INLINE void filter_cells_of_column(const SomeLanes& all_lanes, const CellTable& cells,
-                                       int column, CellRows rows, float touching,
-                                       std::vector<std::uint32_t>& partners,
-                                       std::vector<std::uint32_t>& ends) {
+void filter_cells_of_column(const SomeLanes& all_lanes, const CellTable& cells, int column,
+                            CellRows rows, float touching, std::vector<std::uint32_t>& partners,
+                            std::vector<std::uint32_t>& ends) {
     const SomeLanes lanes = all_lanes;
     const std::uint32_t* const own = cells.starts +
                                      static_cast<std::size_t>(column) * cells.column_length;
@@ -244,16 +222,11 @@ HWY_INLINE void filter_cells_of_column(const SomeLanes& all_lanes, const CellTab
     }
 }
 
-void FilterColumn(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                  float touching_squared, std::vector<std::uint32_t>& partners,
-                  std::vector<std::uint32_t>& ends) {
-    filter_cells_of_column(lanes, cells, column, rows, touching_squared, partners, ends);
+template <class SomeLanes> FlightFilters<SomeLanes> filters() {
+    return {filter_runs<SomeLanes>, filter_two_runs<SomeLanes>, filter_cells_of_column<SomeLanes>};
 }
-void FilterSizedColumn(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                       float margin, std::vector<std::uint32_t>& partners,
-                       std::vector<std::uint32_t>& ends) {
-    filter_cells_of_column(lanes, cells, column, rows, margin, partners, ends);
-}
+FlightFilters<FlightLanes> FiltersOfEqual() { return filters<FlightLanes>(); }
+FlightFilters<SizedLanes> FiltersOfSized() { return filters<SizedLanes>(); }
 
 } // namespace carrom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -261,53 +234,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace carrom {
 
-HWY_EXPORT(FilterFlights);
+HWY_EXPORT(FiltersOfEqual);
+HWY_EXPORT(FiltersOfSized);
 
-std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
-                           const Flight& flight, float touching_squared, std::uint32_t* out) {
-    return HWY_DYNAMIC_DISPATCH(FilterFlights)(lanes, runs, flight, touching_squared, out);
+template <> const FlightFilters<FlightLanes>& flight_filters() {
+    static const FlightFilters<FlightLanes> filters = HWY_DYNAMIC_DISPATCH(FiltersOfEqual)();
+    return filters;
 }
-
-HWY_EXPORT(FilterTwoFlights);
-
-PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
-                                 const Flight& p, const Flight& q, float touching_squared,
-                                 std::uint32_t* p_out, std::uint32_t* q_out) {
-    return HWY_DYNAMIC_DISPATCH(FilterTwoFlights)(lanes, runs, p, q, touching_squared, p_out,
-                                                  q_out);
-}
-
-HWY_EXPORT(FilterColumn);
-
-void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                   float touching_squared, std::vector<std::uint32_t>& partners,
-                   std::vector<std::uint32_t>& ends) {
-    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, rows, touching_squared, partners,
-                                       ends);
-}
-
-HWY_EXPORT(FilterSized);
-
-std::size_t filter_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
-                         const Flight& flight, float radius, std::uint32_t* out) {
-    return HWY_DYNAMIC_DISPATCH(FilterSized)(lanes, runs, flight, radius, out);
-}
-
-HWY_EXPORT(FilterTwoSized);
-
-PartnerCounts filter_two_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
-                               const Flight& p, const Flight& q, float p_radius, float q_radius,
-                               std::uint32_t* p_out, std::uint32_t* q_out) {
-    return HWY_DYNAMIC_DISPATCH(FilterTwoSized)(lanes, runs, p, q, p_radius, q_radius, p_out,
-                                                q_out);
-}
-
-HWY_EXPORT(FilterSizedColumn);
-
-void filter_sized_column(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                         float margin, std::vector<std::uint32_t>& partners,
-                         std::vector<std::uint32_t>& ends) {
-    HWY_DYNAMIC_DISPATCH(FilterSizedColumn)(lanes, cells, column, rows, margin, partners, ends);
+template <> const FlightFilters<SizedLanes>& flight_filters() {
+    static const FlightFilters<SizedLanes> filters = HWY_DYNAMIC_DISPATCH(FiltersOfSized)();
+    return filters;
 }
 
 } // namespace carrom

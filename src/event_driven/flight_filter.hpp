@@ -21,22 +21,14 @@ struct Flight {
     std::uint32_t slot = 0;
 };
 
-/// Writes the slots of `runs`, other than the flight's own, that might come within the square root
-/// of `touching_squared` of `flight`, and returns their number. Lanes hold positions extrapolated
-/// to the window's start. `out` must have room for all slots of the runs and `filter_padding` more,
-/// and lanes must be readable up to `filter_padding` entries beyond the last slot.
-std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
-                           const Flight& flight, float touching_squared, std::uint32_t* out);
+/// Flights of discs of several sizes, with their radii in units of the lanes.
+struct SizedLanes : FlightLanes {
+    const float* radii = nullptr;
+};
 
 struct PartnerCounts {
     std::size_t p = 0, q = 0;
 };
-
-/// Filters for two flights with the same `now` at once, into a list for each. The slots of the two
-/// flights are in neither list.
-PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
-                                 const Flight& p, const Flight& q, float touching_squared,
-                                 std::uint32_t* p_out, std::uint32_t* q_out);
 
 /// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length
 /// + r] and end where the next cell's begin. Each column has one more entry than rows.
@@ -52,28 +44,39 @@ struct CellRows {
     int first = 0, end = 0;
 };
 
-/// Finds every pair that might touch in the window, of a disc in `rows` of a column and a disc that
-/// comes after it. That one is later in the same column or in a column to the right, within the
-/// table's reach. Appends the second discs of the pairs to `partners`, whose size never shrinks.
-/// Appends to `ends`, for each disc of the rows, where its partners end in that list.
-void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                   float touching_squared, std::vector<std::uint32_t>& partners,
-                   std::vector<std::uint32_t>& ends);
+/// The filters for discs of one size (FlightLanes) or of several (SizedLanes). Lanes hold positions
+/// extrapolated to the window's start, and must be readable up to `filter_padding` entries beyond
+/// the last slot.
+///
+/// `touching` says how near two discs must come. For discs of one size it is the square of that
+/// distance. For discs of several sizes the distance is the sum of the two radii and a margin, and
+/// `touching` is the radius of the flight plus the margin; for a column it is the margin alone.
+template <class SomeLanes> struct FlightFilters {
+    /// Writes the slots of `runs`, other than the flight's own, that might come so near to
+    /// `flight`, and returns their number. `out` must have room for all slots of the runs and
+    /// `filter_padding` more.
+    std::size_t (*one)(const SomeLanes& lanes, std::span<const SlotRange> runs,
+                       const Flight& flight, float touching, std::uint32_t* out);
 
-/// Flights of discs of several sizes, with their radii in units of the lanes.
-struct SizedLanes : FlightLanes {
-    const float* radii = nullptr;
+    /// Filters for two flights with the same `now` at once, into a list for each. The slots of the
+    /// two flights are in neither list.
+    PartnerCounts (*two)(const SomeLanes& lanes, std::span<const SlotRange> runs, const Flight& p,
+                         const Flight& q, float p_touching, float q_touching, std::uint32_t* p_out,
+                         std::uint32_t* q_out);
+
+    /// Finds every pair that might touch in the window, of a disc in `rows` of a column and a disc
+    /// that comes after it. That one is later in the same column or in a column to the right,
+    /// within the table's reach. Appends the second discs of the pairs to `partners`, whose size
+    /// never shrinks. Appends to `ends`, for each disc of the rows, where its partners end in that
+    /// list.
+    void (*column)(const SomeLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                   float touching, std::vector<std::uint32_t>& partners,
+                   std::vector<std::uint32_t>& ends);
 };
 
-/// These find discs that might come as near as the sum of the two radii and a margin. `radius` is
-/// the radius of the flight plus the margin.
-std::size_t filter_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
-                         const Flight& flight, float radius, std::uint32_t* out);
-PartnerCounts filter_two_sized(const SizedLanes& lanes, std::span<const SlotRange> runs,
-                               const Flight& p, const Flight& q, float p_radius, float q_radius,
-                               std::uint32_t* p_out, std::uint32_t* q_out);
-void filter_sized_column(const SizedLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                         float margin, std::vector<std::uint32_t>& partners,
-                         std::vector<std::uint32_t>& ends);
+/// Those for the instruction set of this processor.
+template <class SomeLanes> const FlightFilters<SomeLanes>& flight_filters();
+template <> const FlightFilters<FlightLanes>& flight_filters();
+template <> const FlightFilters<SizedLanes>& flight_filters();
 
 } // namespace carrom

@@ -100,14 +100,14 @@ TEST_CASE("Flights: all that touch are found among some runs of slots") {
             const int column = static_cast<int>(random() % (n_columns - 1));
             const std::vector<SlotRange> runs = {flights.cells(column, 1, n_rows - 1),
                                                  flights.cells(column + 1, 0, n_rows - 2)};
-            const std::size_t n = filter_flights(flights.lanes(), runs, flights.flight(p, now),
-                                                 touching_squared, p_out.data());
+            const std::size_t n = flight_filters<FlightLanes>().one(
+                flights.lanes(), runs, flights.flight(p, now), touching_squared, p_out.data());
             for (const SlotRange& run : runs)
                 REQUIRE(flights.are_partners(first_of(p_out, n), run, p, {p}, now));
             if (p == q) continue;
-            const PartnerCounts both = filter_two_flights(
+            const PartnerCounts both = flight_filters<FlightLanes>().two(
                 flights.lanes(), runs, flights.flight(p, now), flights.flight(q, now),
-                touching_squared, p_out.data(), q_out.data());
+                touching_squared, touching_squared, p_out.data(), q_out.data());
             for (const SlotRange& run : runs) {
                 REQUIRE(flights.are_partners(first_of(p_out, both.p), run, p, {p, q}, now));
                 REQUIRE(flights.are_partners(first_of(q_out, both.q), run, q, {p, q}, now));
@@ -146,13 +146,13 @@ TEST_CASE("Flights: discs of several sizes are found as near as the sum of their
         const auto wide = [&](std::uint32_t slot) {
             return radii[slot] + static_cast<float>(margin);
         };
-        const std::size_t n = filter_sized(lanes, runs, flights.flight(p, now), wide(p),
-                                           p_out.data());
+        const std::size_t n = flight_filters<SizedLanes>().one(lanes, runs, flights.flight(p, now),
+                                                               wide(p), p_out.data());
         check({p_out.data(), n}, p, p, now);
         if (p == q) continue;
-        const PartnerCounts both = filter_two_sized(lanes, runs, flights.flight(p, now),
-                                                    flights.flight(q, now), wide(p), wide(q),
-                                                    p_out.data(), q_out.data());
+        const PartnerCounts both = flight_filters<SizedLanes>().two(
+            lanes, runs, flights.flight(p, now), flights.flight(q, now), wide(p), wide(q),
+            p_out.data(), q_out.data());
         check({p_out.data(), both.p}, p, q, now);
         check({q_out.data(), both.q}, q, p, now);
     }
@@ -164,8 +164,8 @@ TEST_CASE("Flights: of a column each pair that touches is found from its first d
         const Flights flights(seed);
         for (int column = 0; column < n_columns; ++column) {
             std::vector<std::uint32_t> later, ends;
-            filter_column(flights.lanes(), flights.table(), column, {0, n_rows}, touching_squared,
-                          later, ends);
+            flight_filters<FlightLanes>().column(flights.lanes(), flights.table(), column,
+                                                 {0, n_rows}, touching_squared, later, ends);
             const SlotRange own = flights.cells(column, 0, n_rows);
             REQUIRE(ends.size() == own.end - own.begin);
             const int last = std::min(column + 2, n_columns - 1);
