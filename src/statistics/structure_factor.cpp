@@ -72,10 +72,6 @@ std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenu
     return vectors;
 }
 
-double n_wave_vectors(double lx, double ly, double largest_wavenumber) {
-    return largest_wavenumber * largest_wavenumber * lx * ly / (8 * std::numbers::pi);
-}
-
 DensityModes density_modes(std::span<const Disc> discs, double time, std::uint64_t n_discs,
                            double lx, double ly, std::span<const WaveVector> vectors,
                            int n_threads) {

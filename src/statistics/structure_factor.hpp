@@ -21,8 +21,6 @@ double wavenumber(const WaveVector& vector, double lx, double ly);
 
 /// The vectors up to a length, one of each two opposite ones: n ascending from 0, then m.
 std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenumber);
-/// About how many vectors these are.
-double n_wave_vectors(double lx, double ly, double largest_wavenumber);
 
 /// The modes of a rank's discs, in fixed point.
 struct DensityModes {

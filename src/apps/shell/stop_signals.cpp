@@ -68,6 +68,4 @@ StopSignals::StopSignals(bool are_reported) {
 
 StopSignals::~StopSignals() { is_answer_due = false; }
 
-bool StopSignals::has_come() const { return is_stop_requested(); }
-
 } // namespace carrom

@@ -18,9 +18,6 @@ public:
     ~StopSignals(); ///< ends the answers
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
-
-    /// Whether this rank has got one. Ranks get theirs at different times.
-    bool has_come() const;
 };
 
 } // namespace carrom

@@ -2,11 +2,11 @@
 // The first contact of a parabola with a disc, held to its own path in quad precision.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "catch.hpp"
 
 #include "dynamics/falling_contact.hpp"
+#include "numbers_of_any_size.hpp"
 #include "quad.hpp"
 
 using namespace carrom;
@@ -44,20 +44,10 @@ double least_gap(const Flight& flight, double until, int n) {
     return least;
 }
 
-class Numbers {
-public:
-    double uniform(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
-
-private:
-    std::mt19937_64 engine_{20261};
-};
-
 } // namespace
 
 TEST_CASE("falling contact: it is on the circle, and nothing comes before") {
-    Numbers random;
+    Numbers random(20261);
     int n_hits = 0, n_misses = 0;
     for (int k = 0; k < 4000; ++k) {
         Flight flight{random.uniform(-8, 8),
@@ -91,7 +81,7 @@ TEST_CASE("falling contact: it is on the circle, and nothing comes before") {
 }
 
 TEST_CASE("falling contact: a disc that has just been left comes back when its flight says") {
-    Numbers random;
+    Numbers random(20261);
     for (int k = 0; k < 2000; ++k) {
         const double angle = random.uniform(0, 6.28), reach = random.uniform(0.5, 2),
                      speed = std::exp2(random.uniform(-20, 1));
@@ -129,7 +119,7 @@ TEST_CASE("falling contact: touching counts while the distance falls") {
 }
 
 TEST_CASE("falling contact: lengths and times scaled by powers of two give scaled bits") {
-    Numbers random;
+    Numbers random(20261);
     for (int k = 0; k < 500; ++k) {
         const double n[] = {random.uniform(-8, 8),     random.uniform(2, 8),
                             random.uniform(-2, 2),     random.uniform(-2, 2),

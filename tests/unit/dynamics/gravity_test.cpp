@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "catch.hpp"
 
 #include "dynamics/drag.hpp"
 #include "dynamics/gravity.hpp"
+#include "numbers_of_any_size.hpp"
 
 using namespace carrom;
+using test::Numbers;
 
 namespace {
 
@@ -43,16 +44,6 @@ struct Flight {
     }
 };
 
-class Numbers {
-public:
-    double uniform(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
-
-private:
-    std::mt19937_64 engine_{20262};
-};
-
 } // namespace
 
 TEST_CASE("fall: how far drag lets fall is right to some ulp") {
@@ -79,7 +70,7 @@ TEST_CASE("fall: with drag, too, time since a rest is made of what fell and what
 }
 
 TEST_CASE("fall: a contact with drag is at the wall, and nothing comes before") {
-    Numbers random;
+    Numbers random(20262);
     int n_hits = 0, n_misses = 0;
     for (int k = 0; k < 3000; ++k) {
         Flight flight{std::exp2(random.uniform(-30, 6)),
@@ -104,7 +95,7 @@ TEST_CASE("fall: a contact with drag is at the wall, and nothing comes before") 
 }
 
 TEST_CASE("fall: a disc that has just left a wall comes back after a flight, however small") {
-    Numbers random;
+    Numbers random(20262);
     for (int k = 0; k < 1000; ++k) {
         const double speed = std::exp2(random.uniform(-40, 2)),
                      pull = std::exp2(random.uniform(-10, 2)),
@@ -145,7 +136,7 @@ TEST_CASE("fall: touching counts while the distance falls, less and less drag is
 }
 
 TEST_CASE("fall: lengths and times scaled by powers of two give scaled bits") {
-    Numbers random;
+    Numbers random(20262);
     for (int k = 0; k < 300; ++k) {
         const double distance = random.uniform(0, 8), velocity = random.uniform(-2, 2),
                      pull = random.uniform(-1, 1), rate = random.uniform(0.01, 0.3);
