@@ -132,7 +132,7 @@ private:
     double work_of_images_ = 0;             ///< on this rank, since the last inspection
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last inspection
     bool may_lose_energy_ = false, walls_give_energy_ = false;
-    bool surfaces_rub_ = false;  ///< of walls or obstacles: spins change there
+    bool surfaces_rub_ = false;  ///< walls or obstacles rub: spins change there
     bool acts_at_syncs_ = false; ///< an effect does so: see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;

@@ -21,7 +21,7 @@ struct SceneDisc {
 
 /// The finding's discs, those that they collided with in `log`, and the nearest, a
 /// dozen in the order of ids. `discs` are this rank's share; those of rank `keeper`
-/// include the finding's disc. The same on all ranks. **Collective.**
+/// include the finding's disc. All ranks get the same list. **Collective.**
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,
                                     int keeper, std::span<const Collision> log,
                                     const Periods& periods, const Communicator& communicator);

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// What lists of partners allow for beyond the distances, because places of images are rounded.
+/// Lists of partners reach this much further than the distances, because images are rounded.
 constexpr double margin = 1e-9;
 
 /// A strip that ends where the box does.

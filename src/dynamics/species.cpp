@@ -8,7 +8,7 @@ namespace {
 /// More species than this are not searched one by one.
 constexpr std::size_t few_species = 8;
 
-/// As many species can be numbered with 16 bits.
+/// So many species can be numbered with 16 bits.
 constexpr std::size_t most_numbers = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
 
 } // namespace

@@ -84,7 +84,7 @@ public:
         if constexpr (Dynamics::has_species) wx_ = q.vx - p.vx, wy_ = q.vy - p.vy;
     }
 
-    double vx() const { return vx_; } ///< of p
+    double vx() const { return vx_; } ///< p's velocity before
     double vy() const { return vy_; }
 
     /// Called after it, at `time`, with the separation from p to q. Flights have gathered stress
@@ -93,7 +93,7 @@ public:
                                          const Dynamics& dynamics, const Disc& p, const Disc& q,
                                          const Separation& to, double time, double flown) const {
         const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
-        // Of equal masses q has lost what p has gained, so half of u is known afterwards.
+        // If masses are equal, q has lost what p has gained, so half of u is known afterwards.
         double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
         if constexpr (Dynamics::has_species) {
             half_ux = 0.5 * (wx_ + (q.vx - p.vx));

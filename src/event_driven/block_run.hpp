@@ -56,7 +56,7 @@ struct CellBlock {
 struct BlockGround {
     std::span<const Disc> discs; ///< the rank's own discs, then the halo
     std::size_t n_own = 0;
-    const CellGrid* grid = nullptr; ///< of the discs at the window's start
+    const CellGrid* grid = nullptr; ///< holds the discs at the window's start
     CellBlock own_cells; ///< an own disc that rounding puts outside belongs to the nearest cell
     BlockWindow window;
     bool is_logged = false;
@@ -69,8 +69,8 @@ struct BlockGround {
     bool is_alone = false;
     bool notes_pairs = false;            ///< collisions of pairs go to BlockOutcome::pairs
     std::int64_t last_sync = 0;          ///< a micro-step, for these
-    bool logs_walls_alone = false;       ///< of what is logged
-    double velocity_unit = 1;            ///< of the velocities in these
+    bool logs_walls_alone = false;       ///< the log leaves out pairs
+    double velocity_unit = 1;            ///< unit of the velocities in these
     std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
     Extent extent{};                     ///< the box, for runs of the whole box
 };
@@ -91,7 +91,7 @@ struct LoggedEvent {
                          ///< otherwise an obstacle
     double impulse = 0;
     double gained_x = 0, gained_y = 0; ///< change of velocity, per micro-step
-    double vx = 0, vy = 0;             ///< of the first disc, afterwards
+    double vx = 0, vy = 0;             ///< velocity of the first disc, afterwards
 };
 
 /// The state of a disc at the end of a window. It leaves out what a window does not change, and so
@@ -135,7 +135,7 @@ struct BlockOutcome {
     std::vector<LoggedEvent> log;
     std::vector<PairEvent> pairs;
     std::uint64_t n_events = 0; ///< number of events whose first disc is own
-    StressSums stress{1};       ///< of these events
+    StressSums stress{1};       ///< sums over these events
     double work = 0;            ///< done by moving images in these events
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, or 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc

@@ -176,7 +176,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void report_disc(std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
                      double& end_squared);
 
-    // Of discs of several sizes (block_levels.cpp):
+    // These are for discs of several sizes (block_levels.cpp).
     void list_levels(const CellBlock& own, int halo);
     void list_levels_of_all();
     void lay_levels(const Extent& extent, const Periods& across, std::size_t n_at_home);
@@ -344,12 +344,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double bound_squared = 0;     ///< square of the speed bound
     float bound_lane_squared = 0; ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;          ///< see BlockOutcome
-    // Of discs of several sizes:
+    // These are for discs of several sizes.
     std::vector<LevelCells> levels;                 ///< smallest discs first
     std::vector<std::vector<LocalIndex>> in_levels; ///< what is listed, by level
-    std::vector<std::vector<std::uint32_t>> orders; ///< of a block: by slot, places in those lists
+    std::vector<std::vector<std::uint32_t>> orders; ///< by slot of a block: places in those lists
     std::vector<float> radii;                       ///< by slot, in cells
-    std::vector<float> margins;           ///< of sums of radii, by the levels of both discs
+    std::vector<float> margins;           ///< added to sums of radii, by levels of both discs
     std::vector<std::uint8_t> is_of_ring; ///< by slot: its owner reports what happens to it
 };
 

@@ -31,7 +31,7 @@ struct BlockNeeds {
 };
 
 struct BlockChoice {
-    double duration = 0; ///< of the window
+    double duration = 0; ///< length of the window in micro-steps
     double reach = 0;
     int halo = 3;          ///< in reaches
     double block_side = 0; ///< the engine rounds it to whole cells

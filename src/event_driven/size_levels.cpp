@@ -9,10 +9,10 @@ namespace carrom {
 namespace {
 
 // Costs in instructions, with vectors of eight (docs/log/performance.md).
-constexpr double cost_per_level = 80;  ///< of a search in a level
-constexpr double cost_per_column = 50; ///< of each column of cells that it searches
-constexpr double cost_per_partner = 4; ///< of each disc in these cells
-constexpr int n_octaves = 48;          ///< of radii that can have levels of their own
+constexpr double cost_per_level = 80;  ///< for a search in a level
+constexpr double cost_per_column = 50; ///< for each column of cells that it searches
+constexpr double cost_per_partner = 4; ///< for each disc in these cells
+constexpr int n_octaves = 48;          ///< octaves of radii that can have levels of their own
 
 /// How far a disc flies in a window, over the mean distance of discs.
 constexpr double flight = 0.5;

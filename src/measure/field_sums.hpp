@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// What is summed in each cell. The first eight are of discs, and the others of collisions: impulse
+/// The sums of each cell. The first eight are over discs, the others over collisions: impulse
 /// times distance, which over time and area is the collisions' part of the pressure tensor, and
 /// energy times distance, which is that of the flow of energy.
 enum FieldMoment : std::uint8_t {
@@ -70,7 +70,7 @@ public:
             const double scaled = of_contact[k] * contact_scales_[k];
             const double above = scaled < -0x1p62 ? -0x1p62 : scaled; // std::clamp branches
             units[k] = static_cast<std::int64_t>(above > 0x1p62 ? 0x1p62 : above);
-        } // of the hardest blows 2^62 units remain
+        } // the hardest blows are cut to 2^62 units
         return units;
     }
     void add_contact(std::size_t cell, const ContactUnits& units) {

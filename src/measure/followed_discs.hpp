@@ -33,7 +33,7 @@ public:
 
     /// From the present step on. **Collective.**
     void begin();
-    /// As they are now, those of this rank's run of ids. **Collective.**
+    /// Present states of the discs of this rank's run of ids. **Collective.**
     const FollowedStates& now();
     DiscId first_id() const { return first_id_; }
     std::uint64_t n_discs() const { return n_discs_; }

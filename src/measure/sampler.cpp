@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t format = 3;
 
-/// What a scene asks for that has no [output.measurements].
+/// A scene without [output.measurements] asks for this.
 const MeasurementOutput nothing;
 
 } // namespace

@@ -53,7 +53,7 @@ public:
 
     /// **Collective.**
     StoredSamples stored() const;
-    /// Tables of all samples; none before the first one. The same on every rank.
+    /// Tables of all samples; none before the first one. All ranks get the same.
     std::vector<MeasuredTable> tables() const;
     /// Tables that grow by a row at each sample, from row number `first` on; none if
     /// there are no such rows.

@@ -26,7 +26,7 @@ public:
 
     void add(std::size_t side, double term) { sums_[side].add(term); }
 
-    /// Of all ranks. **Collective.**
+    /// The sums over all ranks. **Collective.**
     std::array<double, 4> values(const Communicator& ranks) const {
         std::array<double, 4> all{};
         for (std::size_t side = 0; side < 4; ++side) all[side] = joined(side, ranks).value();
@@ -70,7 +70,7 @@ struct MeanAndError {
     double mean = 0;
     double error = 0; ///< one standard error; NaN where there are too few intervals
 };
-/// Of each column of `rows_over_time` but the two steps.
+/// Means of each column of `rows_over_time` but the two steps.
 std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
 
 /// Walls are there at all times and on at least two sides.

@@ -48,7 +48,7 @@ public:
 
     /// The number of vectors in each bin.
     std::vector<double> counts() const;
-    /// Of a number of each vector; NaN in a bin without any.
+    /// Each bin's mean of `numbers`, one for each vector; NaN in a bin without any.
     std::vector<double> means(std::span<const double> numbers) const;
     /// This rank's part of the modes of some discs, added over ranks. **Collective.**
     DensityModes modes(const MeasuredRun& run, std::span<const Disc> discs) const;

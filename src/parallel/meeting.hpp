@@ -41,8 +41,8 @@ private:
     std::unique_ptr<Messages> messages_;
 };
 
-/// The same ranks with messages of their own. Ranks that have left agree on their end there,
-/// because the others may still be in a call on the first communicator. **Collective.**
+/// A communicator of the same ranks with messages of its own. Ranks that have left agree on their
+/// end there, because the others may still be in a call on the first communicator. **Collective.**
 Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

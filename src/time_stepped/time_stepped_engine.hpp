@@ -98,7 +98,7 @@ private:
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
     std::vector<Disc> unhit_; ///< for the log: the first disc of each kept candidate, before it
-    std::vector<Disc> unhit_partners_; ///< the same for second discs, if pairs are noted
+    std::vector<Disc> unhit_partners_; ///< second discs before it, if pairs are noted
     std::vector<WindowState> states_;  ///< by disc
 
     // Candidates whose first disc is own.

@@ -102,7 +102,7 @@ void contact_predicate(benchmark::State& state) {
 }
 BENCHMARK(contact_predicate);
 
-/// How many pairs filter_column looks at, over all columns: those of the half stencil.
+/// How many pairs filter_column tests, over all columns: those of the half stencil.
 double tested_pairs(const CellGrid& grid) {
     double pairs = 0;
     const int reach = grid.geometry().n_reach;

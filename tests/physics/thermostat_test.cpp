@@ -74,7 +74,7 @@ TEST_CASE("physics: a gas that kicks heat has the temperature and the cumulant o
         const Speeds speeds = measured_speeds(simulation, 1600, 240, 120);
         fmt::print("e = {}: kT {:.4f} of {}, a2 {:.4f}, theory {:.4f}\n", e, speeds.temperature, kt,
                    speeds.a2, a2);
-        // Looks come just after a kick; between two kicks the mean is half a kick less.
+        // Samples come just after a kick; between two kicks the mean is half a kick less.
         CHECK(speeds.temperature - 8 * strength / 2 == Approx(kt).epsilon(0.02));
         CHECK(std::fabs(speeds.a2 - a2) < 4 / 600.0); // four standard errors of 360,000 speeds
     }

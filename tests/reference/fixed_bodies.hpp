@@ -29,7 +29,7 @@ public:
 
     bool are_none() const { return species_.empty(); }
     /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite
-    /// if there is none. Images of bodies are looked at as far as the disc gets until `until`.
+    /// if there is none. Images of bodies are searched as far as the disc gets until `until`.
     BodyMeeting first_meeting(const Disc& disc, double from, double until,
                               const BodyMeeting& left) const;
     /// Turns the velocity of a disc round that is at the body at `time`.

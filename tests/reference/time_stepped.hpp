@@ -2,7 +2,7 @@
 // The time-stepped method said plainly (docs/understanding/method.md, sections 1 to 4): what the
 // engine is held to, bit for bit.
 //
-// Every micro-step looks at all pairs, sorts all candidates by the total order and walks them. No
+// Every micro-step searches all pairs, sorts all candidates by the total order and walks them. No
 // cells, no windows, no filters, no strips, and none of the engine's arithmetic: the formulas are
 // written here a second time, from the page. Price: N^2/2 predicates a micro-step, some 5 ns each.
 #pragma once

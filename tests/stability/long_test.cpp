@@ -78,7 +78,7 @@ Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
     return outcome_of(second);
 }
 
-/// `most` collisions in `parts` parts; energy, and the hash after a restart, are looked at after
+/// `most` collisions in `parts` parts; energy, and the hash after a restart, are inspected after
 /// each.
 void many_collisions(Method method, std::size_t n, double most, int parts) {
     TestScene scene = gas(n, 0.3, 0.5, 803);

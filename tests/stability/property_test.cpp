@@ -140,7 +140,7 @@ long double energy_of(const State& state, const reference::Setting& setting) {
 }
 
 /// Energy never grows where nothing gives any, and stays where nothing takes any either. (With
-/// gravity the self-check looks at it.)
+/// gravity the self-check covers it.)
 bool energy_is_right(const TestScene& scene, const State& end) {
     const Effects& effects = scene.setting.effects;
     const auto has_side = [&effects](auto is_so) {

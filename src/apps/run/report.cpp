@@ -87,8 +87,8 @@ template <class Numbers> nlohmann::ordered_json by_name(const Numbers& numbers) 
     return all;
 }
 
-/// That of the centre of mass of the discs in the box. Where discs of several masses have left, the
-/// mass of the others is not known.
+/// The velocity of the centre of mass of the discs in the box. Where discs of several masses have
+/// left, the mass of the others is not known.
 nlohmann::ordered_json drift_velocity(const Scene& scene, const Totals& end) {
     const std::uint64_t n_departed = std::accumulate(end.departed.begin(), end.departed.end(),
                                                      std::uint64_t{0});

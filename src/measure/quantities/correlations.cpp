@@ -277,7 +277,7 @@ private:
     FollowedDiscs discs_;
     MultipleTau scheme_;
     double wavenumber_, overlap_;
-    std::vector<DiscId> ends_; ///< of the ids of each species
+    std::vector<DiscId> ends_; ///< the id after the last one of each species
     std::uint64_t n_samples_ = 0;
     std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
     std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks

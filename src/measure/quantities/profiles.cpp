@@ -26,7 +26,7 @@ namespace {
 
 constexpr QuantitySetting profile_columns{"profile_columns", 10}, profile_rows{"profile_rows", 10},
     profile_samples{"profile_samples", 10}, profile_species{"profile_species", 0};
-constexpr double most_rows = 1e6; ///< of a table
+constexpr double most_rows = 1e6; ///< a table has no more
 
 std::size_t n_cells_of(const MeasurementOutput& output) {
     return static_cast<std::size_t>(profile_columns.of(output) * profile_rows.of(output));
@@ -65,7 +65,7 @@ void warn_without_blocks(const SceneDraft& draft) {
         steps / output.every_steps + 1));
 }
 
-/// Of a block: the last sample, steps that collisions are of, and the mean edges of the box.
+/// A block's last sample, the steps whose collisions it counts, and the mean edges of the box.
 struct BlockHead {
     double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
@@ -158,8 +158,8 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Of a block that has ended: all species together, each of them if they are apart, and the
-    /// whole box.
+    /// Fields of a block that has ended: all species together, each of them if they are apart, and
+    /// the whole box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -275,14 +275,14 @@ private:
     std::uint64_t per_block_;
     std::size_t n_kinds_; ///< 1 unless species have tables of their own
     SpeciesTable species_;
-    std::vector<DiscId> ends_; ///< of the ids of each species
+    std::vector<DiscId> ends_; ///< the id after the last one of each species
     bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
-    std::uint64_t n_samples_ = 0; ///< of the block that has begun, as all that follows
+    std::uint64_t n_samples_ = 0; ///< this and what follows belong to the block that has begun
     BlockHead head_;              ///< edges are sums over the samples
-    FieldSums sums_;              ///< of this rank, one kind after another
-    std::vector<double> heads_;   ///< of blocks that have ended
-    std::vector<double> blocks_;  ///< of each of their fields: count and moments
+    FieldSums sums_;              ///< this rank's sums, one kind after another
+    std::vector<double> heads_;   ///< heads of blocks that have ended
+    std::vector<double> blocks_;  ///< count and moments of each of their fields
 };
 
 std::vector<double> Profiles::row_of(const BlockHead& head, const double* of, double area) const {

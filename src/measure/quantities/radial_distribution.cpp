@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    /// Those of all pairs come first where there are several kinds.
+    /// If there are several kinds of pairs, the curve of all pairs comes first.
     static std::size_t n_curves(const Scene& scene) {
         const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
         return n_kinds > 1 ? n_kinds + 1 : 1;

@@ -27,7 +27,7 @@ namespace carrom {
 
 namespace {
 
-/// What a moment is of: stress in two directions, its trace, and the heat current along x and y.
+/// The components of a moment: stress in two directions, its trace, and the heat current.
 enum Component : std::uint8_t { shear_xy, shear_normal, trace, heat_x, heat_y, n_components };
 
 /// Henderson's Z.
@@ -64,8 +64,8 @@ public:
                          after_p = energy(event.p_vx, event.p_vy);
             const double before_q = energy(event.q_vx + event.ix, event.q_vy + event.iy),
                          after_q = energy(event.q_vx, event.q_vy);
-            // What flights lose in the rest of the time, and what goes from one centre to the
-            // other.
+            // This is what flights lose in the rest of the time, and what goes from one centre to
+            // the other.
             const auto sum = [&](double pv, double qv, double i, double drift, double d) {
                 const double gained = after_p * (pv - drift) - before_p * (pv - i - drift) +
                                       after_q * (qv - drift) - before_q * (qv + i - drift);
@@ -142,7 +142,7 @@ private:
     /// Squares of shear (both directions), trace and heat (both axes), and the trace itself.
     static constexpr std::size_t n_values = 4;
 
-    /// As seen from the centre of mass, of a mass of 1.
+    /// Kinetic energy of a mass of 1, as seen from the centre of mass.
     double energy(double vx, double vy) const {
         const double x = vx - drift_[0], y = vy - drift_[1];
         return (x * x + y * y) / 2;
@@ -185,12 +185,12 @@ private:
     std::optional<PressureSampler> pressure_;
     double speed_ = 0;              ///< by which units are chosen
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
-    std::array<ExactSum, 2> heat_;  ///< of this rank since the last sample
-    std::int64_t last_step_ = 0;    ///< of the last sample
+    std::array<ExactSum, 2> heat_;  ///< this rank's current since the last sample
+    std::int64_t last_step_ = 0;    ///< step of the last sample
     std::uint64_t n_samples_ = 0;   ///< with the first one
     double temperature_ = 0;        ///< sum over the intervals
     double usual_trace_ = 0;        ///< about its mean change in an interval
-    Moments moments_{};             ///< of the last sample; 0 at the first one
+    Moments moments_{};             ///< moments of the last sample; 0 at the first one
     std::vector<Level> levels_;
     std::vector<VectorBlocks> lags_;
 };

@@ -173,7 +173,7 @@ TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching 
     }
 }
 
-// Each class has kT = <m v^2> / 2 per disc. Looks are several collisions apart; N discs' energy
+// Each class has kT = <m v^2> / 2 per disc. Samples are several collisions apart; N discs' energy
 // over one sample scatters by 1 / sqrt(N).
 TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energies") {
     const Communicator world = Communicator::world();

@@ -147,7 +147,7 @@ TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
 
 namespace {
 
-/// Gases and a rack, small ones: the reference looks at all pairs.
+/// Gases and a rack, small ones: the reference searches all pairs.
 std::vector<TestScene> few_discs() {
     std::vector<TestScene> scenes{gas(60, 0.1, 0.8, 531), gas(49, 0.5, 0.3, 532),
                                   break_shot(4, 0.5, 3, 0.1)};

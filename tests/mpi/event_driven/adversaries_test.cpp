@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes made to break windows that are replayed in blocks: signals that travel any distance in no
-// time, blows from where a block does not look, ties on every boundary, speeds that no bound
+// time, blows from where a block does not search, ties on every boundary, speeds that no bound
 // foresees. And the validation switched off, which must be seen to matter.
 #include <cmath>
 #include <string>

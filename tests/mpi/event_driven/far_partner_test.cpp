@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run may be wrong in its halo, and what is wrong there may be fast. Then a disc from beyond the
-// ring strikes an own disc in the block's middle, and neighbours do not look at either. The ring's
+// ring strikes an own disc in the block's middle, and neighbours do not inspect either. The ring's
 // histories show nothing (docs/understanding/method.md, section 9.3): partners are checked as well.
 #include <cmath>
 #include <cstdint>

@@ -119,7 +119,7 @@ bool are_equal(const std::vector<InputDisc>& a, const std::vector<InputDisc>& b)
 }
 
 /// A row of halo + 1 still discs that touch, the first one left of x = 6. A block that ends there
-/// and looks `halo` reaches further sees all of them. It does not see the disc that strikes the
+/// and searches `halo` reaches further sees all of them. It does not see the disc that strikes the
 /// last one half-way through the step.
 TestScene unseen_blow(int halo) {
     TestScene scene = empty_scene("unseen blow, halo " + std::to_string(halo), 16, 0.5, 1);
@@ -149,7 +149,7 @@ TestScene random_rows(std::uint64_t seed) {
     return shuffled(scene, seed);
 }
 
-/// A run of the engine that looks `halo` reaches around blocks of `side` reaches.
+/// A run of the engine that searches `halo` reaches around blocks of `side` reaches.
 EventDrivenResult by_engine(const TestScene& scene, int halo, double side) {
     Shape shape;
     shape.tuning.threads = omp_get_max_threads();

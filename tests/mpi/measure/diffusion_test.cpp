@@ -73,7 +73,7 @@ std::vector<Flying> all_flying(const Simulation& simulation, const Communicator&
     return all;
 }
 
-/// By hand: the run is looked at every step, in which no disc gets as far as half the box. Along
+/// By hand: the run is sampled every step, in which no disc gets as far as half the box. Along
 /// periodic axes all is seen from the centre of mass.
 struct ByHand {
     double period_x, period_y;

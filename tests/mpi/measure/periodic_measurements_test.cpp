@@ -89,7 +89,7 @@ double to_nearest_image(double d, double period) {
 
 namespace {
 
-/// By hand: the run is looked at every step, in which no disc gets as far as half the box.
+/// By hand: the run is sampled every step, in which no disc gets as far as half the box.
 struct ByHand {
     double period_x, period_y, largest_distance;
     std::vector<Seen> before{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with periodic sides have the bits of the plain statements of the methods, which look at all
+// Boxes with periodic sides have the bits of the plain statements of the methods, which search all
 // pairs of all images.
 #include <array>
 #include <cmath>

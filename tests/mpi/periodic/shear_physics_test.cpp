@@ -97,7 +97,7 @@ double enskog_viscosity(double packing) {
 } // namespace
 
 // In each of ten layers the mean of vx less the line scatters by sqrt(T / n) of a layer's n discs
-// and looks; four times that is allowed. Looks follow each other by several collisions.
+// and samples; four times that is allowed. Samples follow each other by several collisions.
 TEST_CASE("shear: the profile of velocities is a line") {
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;

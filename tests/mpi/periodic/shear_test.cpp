@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sheared sides: the bits of the plain statements of both methods, which look at all pairs of all
+// Sheared sides: the bits of the plain statements of both methods, which search all pairs of all
 // images as they move, and what mechanics says of a disc that meets one.
 #include <cmath>
 #include <vector>
