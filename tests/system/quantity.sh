@@ -8,12 +8,12 @@ patch=$CARROM_SOURCE_DIR/docs/examples/quantity.patch
 [ "$(sed -n '/^+++ .*CMakeLists/,/^---/p' "$patch" | grep -c '^[-+] ')" -eq 1 ] ||
     complain 'it changes other than one line of the list'
 begin_patch $# quantity 2
-get_python "$1" numpy
+get_python "$1" h5py
 shift
 build_copy_with "$change" "$@"
 
 "$CARROM_PROGRAM" keys >keys.md
-for word in '^| `energies` | Distribution of kinetic energies. | bins, largest_energy |' \
+for word in '^| `energies` | Distribution of kinetic energies. | `bins`, `largest_energy` |' \
     '^| `output.measurements.largest_energy` |.*without "energies" among' \
     '^| `output.measurements.bins` |.*"energies"'; do
     grep -q "$word" keys.md || complain "keys.md has no $word"
