@@ -173,14 +173,22 @@ def measurements(source: RunLike) -> list[Axes]:
     return axes
 
 
-def _panels(n: int) -> list[Axes]:
+def _height_of(fields: Fields) -> float:
+    """Return the height of a panel, in inches: flat for a flat map."""
+    if not fields.is_map:
+        return 3.4
+    x, y = fields.x[-1], fields.y[-1]
+    return float(np.clip(3.6 * np.ptp(y) / np.ptp(x) + 0.9, 1.6, 6))
+
+
+def _panels(n: int, height: float = 3.4) -> list[Axes]:
     """Return axes in two columns."""
     n_columns = min(2, n)
     n_rows = -(-n // n_columns)
     _, grid = plt.subplots(
         n_rows,
         n_columns,
-        figsize=(4.8 * n_columns, 3.4 * n_rows),
+        figsize=(4.8 * n_columns, height * n_rows),
         squeeze=False,
         layout="constrained",
     )
@@ -213,7 +221,7 @@ def profiles(
     fields = Fields(run.tables[name])
     if fields.n_blocks == 0:
         raise NoDataError(f"{run.name}: has no whole block of profiles yet")
-    axes = _panels(len(columns))
+    axes = _panels(len(columns), _height_of(fields))
     for ax, column in zip(axes, columns):
         draw_field(ax, fields, column, fields.block_of(step))
     return axes

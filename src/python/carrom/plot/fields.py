@@ -25,7 +25,7 @@ def draw_field(ax: Axes, fields: Fields, column: str, block: int) -> Any:
             fields.x[block], fields.y[block], values[block], shading="nearest", **style
         )
         ax.set(xlabel="x", ylabel="y", aspect="equal")
-        ax.figure.colorbar(mesh, ax=ax)
+        ax.figure.colorbar(mesh, cax=ax.inset_axes((1.02, 0, 0.03, 1)))  # as high as the map
         return mesh
     along, place = ("x", fields.x) if fields.shape[1] > 1 else ("y", fields.y)
     colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, max(block, 1)))

@@ -154,16 +154,21 @@ def _correlations(ax: Axes, run: Run, table: Table) -> None:
 
 
 def _transport(ax: Axes, run: Run, table: Table) -> None:
-    """Coefficients by lag, of Helfand's moments, each over the largest that it comes to."""
+    """Coefficients by lag, of Helfand's moments, each over its largest up to a 16th of all lags.
+
+    Late lags are noise.
+    """
+    steps = np.asarray(table["steps"])
+    early = steps <= steps.max(initial=0) / 16
     for name in ("shear", "bulk", "conductivity"):
         values, errors = np.asarray(table[name]), np.asarray(table[f"{name}_error"])
-        largest = float(np.nanmax(values))
-        if largest <= 0:
+        unit = float(values[early].max(initial=0))
+        if unit == 0:
             continue
-        ax.semilogx(table["steps"], values / largest, label=f"{name} / {largest:.3g}")
-        low, high = (values - errors) / largest, (values + errors) / largest
-        ax.fill_between(table["steps"], low, high, alpha=0.25)
-    ax.set(xlabel="steps", ylim=(0, None))
+        ax.semilogx(steps, values / unit, label=f"{name} / {unit:.3g}")
+        low, high = (values - errors) / unit, (values + errors) / unit
+        ax.fill_between(steps, low, high, alpha=0.25)
+    ax.set(xlabel="steps", ylim=(0, 1.8))
     ax.legend(fontsize="small")
 
 
