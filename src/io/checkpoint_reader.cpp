@@ -134,6 +134,8 @@ Contents contents_of(const std::string& path) {
 Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
+    } catch (const MachineError&) {
+        throw; // the file may be whole
     } catch (const FileError& error) {
         const std::string text = error.what();
         throw FileError(text.starts_with("is ") ? text : "is damaged: " + text);
@@ -176,6 +178,7 @@ public:
             inspect_in_child_first([&] { contents = inspected_contents(path_); });
         });
         broadcast(contents, communicator_);
+        on_all(communicator_, path_, ExitCode::bad_input, require_free_files);
         on_all(communicator_, path_, ExitCode::bad_input,
                [&] { file_ = h5::SharedFile(path_, h5::Access::read, communicator_); });
         on_all(communicator_, path_, ExitCode::bad_input, [&] {

@@ -22,6 +22,7 @@ namespace {
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
 constexpr unsigned patience_seconds = 50;  ///< for a process that waits without using the processor
 constexpr std::size_t longest_text = 4000; ///< a pipe takes this much at once
+constexpr int code_of_machine = 3;         ///< of a child that ends with a MachineError
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     rlimit limit{};
@@ -44,14 +45,20 @@ void take_limits() {
     ::alarm(patience_seconds);
 }
 
+[[noreturn]] void answer_and_exit(const FileError& error, int answers, int code) {
+    const std::string text = std::string(error.what()).substr(0, longest_text);
+    ::_exit(::write(answers, text.data(), text.size()) > 0 ? code : 2);
+}
+
 /// Writes the problem, if there is one, to `answers`.
 [[noreturn]] void inspect_and_exit(const std::function<void()>& inspect, int answers) {
     take_limits();
     try {
         inspect();
+    } catch (const MachineError& error) {
+        answer_and_exit(error, answers, code_of_machine);
     } catch (const FileError& error) {
-        const std::string text = std::string(error.what()).substr(0, longest_text);
-        ::_exit(::write(answers, text.data(), text.size()) > 0 ? 1 : 2);
+        answer_and_exit(error, answers, 1);
     } catch (...) {
         ::_exit(2);
     }
@@ -64,7 +71,10 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     int ends[2];
     if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that inspects it");
     const pid_t child = ::fork();
-    if (child == 0) inspect_and_exit(inspect, ends[1]);
+    if (child == 0) {
+        ::close(ends[0]); // leaves room for a file, if few may be open
+        inspect_and_exit(inspect, ends[1]);
+    }
     ::close(ends[1]);
     int status = 0;
     while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -72,8 +82,13 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     std::string answer(longest_text, 0);
     const ssize_t length = ::read(ends[0], answer.data(), answer.size());
     ::close(ends[0]);
-    if (child < 0) throw FileError("no process that inspects it can be started");
-    if (length > 0) throw FileError(answer.substr(0, static_cast<std::size_t>(length)));
+    if (child < 0) throw MachineError("no process that inspects it can be started");
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGALRM))
+        throw MachineError("the process that inspects it was killed, perhaps for want of memory, "
+                           "or waited for the disk too long; try again");
+    answer.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == code_of_machine) throw MachineError(answer);
+    if (!answer.empty()) throw FileError(answer);
     if (status != 0)
         throw FileError("is damaged: HDF5 crashes on it, or takes too much time or memory");
     inspect();

@@ -10,6 +10,7 @@ namespace carrom {
 
 /// Calls `inspect` in a child process, and then here. Throws FileError with what it throws,
 /// or if it does not end there within ten seconds of processor time and 4 GiB more memory.
+/// MachineError if the child cannot be started, is killed, or waits for 50 s.
 void inspect_in_child_first(const std::function<void()>& inspect);
 
 } // namespace carrom

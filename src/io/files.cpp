@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <random>
 #include <string_view>
+#include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -36,10 +38,40 @@ bool is_text_beside(std::string_view name) {
            numbers.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
+/// Whether this process may open some more files; else `errno` has the reason.
+bool has_free_files() {
+    constexpr int n_needed = 8;
+    std::vector<int> files;
+    int error = 0;
+    for (int k = 0; k < n_needed && error == 0; ++k) {
+        const int file = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+        file < 0 ? static_cast<void>(error = errno) : files.push_back(file);
+    }
+    for (const int file : files) ::close(file);
+    errno = error;
+    return error != EMFILE && error != ENFILE;
+}
+
 } // namespace
 
 void fail_with_errno(const std::string& what) {
-    throw FileError(what + ": " + std::strerror(errno));
+    const int error = errno;
+    const std::string text = what + ": " + std::strerror(error);
+    if (error == EMFILE || error == ENFILE || error == ENOMEM) throw MachineError(text);
+    throw FileError(text);
+}
+
+std::string described(const FileError& error, const std::string& path, ExitCode& code) {
+    const std::string text = path + ": " + error.what();
+    const bool are_too_many = !has_free_files();
+    if (!are_too_many && dynamic_cast<const MachineError*>(&error) == nullptr) return text;
+    if (code == ExitCode::bad_input) code = ExitCode::collective_failure;
+    if (!are_too_many) return text;
+    rlimit limit{};
+    ::getrlimit(RLIMIT_NOFILE, &limit);
+    return fmt::format("{}; this process may have only {} files open at once: raise that limit "
+                       "(ulimit -n 1024), then try again",
+                       text, limit.rlim_cur);
 }
 
 // Opens without waiting for the other end of a pipe, because only plain files are accepted.
@@ -92,6 +124,16 @@ void Descriptor::sync() const {
 
 void Descriptor::start_sync() const {
     ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint only; `sync` reports failures
+}
+
+bool leads_to(const std::string& path, int number) {
+    struct stat open{}, named{};
+    return ::fstat(number, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
+           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
+
+void require_free_files() {
+    if (!has_free_files()) fail_with_errno("cannot be opened");
 }
 
 void check_room(const std::string& folder, std::uint64_t bytes) {

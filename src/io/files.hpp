@@ -26,6 +26,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// A problem of this machine, such as too many open files. Nothing follows for the file, which
+/// may be whole, so another one must not be taken for it.
+class MachineError : public FileError {
+public:
+    using FileError::FileError;
+};
+
 /// Throws FileError with `what` and the system's words for `errno`.
 [[noreturn]] void fail_with_errno(const std::string& what);
 
@@ -51,6 +58,12 @@ public:
 private:
     int number_;
 };
+
+/// Whether the path leads to the open file `number`, not to another one that has taken its name.
+bool leads_to(const std::string& path, int number);
+/// Throws MachineError unless this process may open as many more files as HDF5 and MPI-IO need
+/// for one. They do not always say that this is why they have failed.
+void require_free_files();
 
 /// Throws if the file system reports less room than this.
 void check_room(const std::string& folder, std::uint64_t bytes);
@@ -92,10 +105,14 @@ void replace_file(const std::string& path, const std::string& text);
 void remove_unfinished(const std::string& folder);
 std::string folder_of(const std::string& path);
 
+/// The text of an error after `path`. If the machine is the cause, adds what helps to
+/// the text, and a `code` for bad input becomes that of a rank that failed.
+std::string described(const FileError& error, const std::string& path, ExitCode& code);
+
 /// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with
-/// `code` and that rank's text after `path`. **Collective.** With at most one collective call in
-/// `act`, no rank is left behind; should it happen all the same, the failed rank ends the run after
-/// half a minute (see `agree`).
+/// `code` and that rank's text after `path`; see `described`. **Collective.** With at most one
+/// collective call in `act`, no rank is left behind; should it happen all the same, the failed rank
+/// ends the run after half a minute (see `agree`).
 template <class Act>
 void on_all(const Communicator& communicator, const std::string& path, ExitCode code,
             const Act& act) {
@@ -103,7 +120,7 @@ void on_all(const Communicator& communicator, const std::string& path, ExitCode 
     try {
         act();
     } catch (const FileError& error) {
-        failure = path + ": " + error.what();
+        failure = described(error, path, code);
     }
     agree(communicator, failure.empty(), failure, code);
 }
