@@ -9,6 +9,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include "io/checked_dataset.hpp"
 #include "io/child_process.hpp"
 #include "io/h5md.hpp"
@@ -58,6 +60,8 @@ void SegmentedFile::begin() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
         check_room(folder_of(path_), least_room);
         index_.segments.clear();
+        open_.reset();
+        seal_.reset();
         n_rows_ = 0;
         commit_here();
     });
@@ -74,11 +78,11 @@ bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
     communicator_.broadcast(is_there);
     if (is_there == 0) {
         on_root(communicator_, path_, ExitCode::bad_input, [&] { refuse_segments(); });
-        begin();
+        on_root(communicator_, path_, ExitCode::output_failure,
+                [&] { check_room(folder_of(path_), least_room); });
         return false;
     }
     on_root(communicator_, path_, ExitCode::bad_input, [&] { take_over(step, last, check); });
-    commit();
     return true;
 }
 
@@ -102,6 +106,7 @@ void SegmentedFile::take_over(const std::string& step, std::int64_t last,
         n_rows = h5::count_up_to(file.id(), step, last);
     });
     index_ = index_of(path_, true);
+    seal_ = seal_of(path_);
     n_rows_ = 0;
     for (const FileSegment& segment : index_.segments) n_rows_ += segment.rows;
     cut(n_rows);
@@ -123,6 +128,7 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
 
 /// Drops the rows beyond. The last segment that is left is written to next.
 void SegmentedFile::cut(std::uint64_t n_rows) {
+    is_cut_ = n_rows < n_rows_;
     std::vector<FileSegment>& segments = index_.segments;
     while (!segments.empty() && n_rows_ - segments.back().rows >= n_rows) {
         n_rows_ -= segments.back().rows;
@@ -134,6 +140,12 @@ void SegmentedFile::cut(std::uint64_t n_rows) {
     hashers_ = hash_rows(segment_path(path_, segment.name), segment, index_.row_bytes);
     segment.numbers = sum_of(hashers_);
     n_rows_ = n_rows;
+    open_segment();
+}
+
+void SegmentedFile::open_segment() {
+    open_ = std::make_unique<Descriptor>(segment_path(path_, segments().back().name),
+                                         O_WRONLY | O_NOFOLLOW);
 }
 
 void SegmentedFile::make_segment() {
@@ -145,8 +157,8 @@ void SegmentedFile::make_segment() {
     segment.room = std::max<std::uint64_t>(1, wanted / bytes_per_row);
     const std::string path = segment_path(path_, segment.name);
     std::error_code error;
-    std::filesystem::create_directories(folder_of(path), error);
-    ::unlink(path.c_str()); // left by a run that was killed
+    std::filesystem::create_directory(folder_of(path), error); // the run's folder must be there
+    ::unlink(path.c_str());                                    // left by a run that was killed
     h5::create_file(path, [&](hid_t file) {
         for (const RecordedColumn& column : columns_) {
             const h5::Dataset dataset = h5::create_dataset(file, column.path, column.type,
@@ -158,12 +170,13 @@ void SegmentedFile::make_segment() {
     segment.structure = hash_of_structure(path, segment, index_.row_bytes);
     hashers_ = hashers_of_columns(columns_.size());
     index_.segments.push_back(std::move(segment));
+    open_segment();
 }
 
 std::uint64_t SegmentedFile::room() {
+    ensure(!is_cut_, "a recording that was cut back is committed before rows are added");
     if (segments().empty() || segments().back().rows == segments().back().room) {
         sync_segment();
-        open_.reset();
         make_segment();
     }
     return segments().back().room - segments().back().rows;
@@ -171,9 +184,6 @@ std::uint64_t SegmentedFile::room() {
 
 void SegmentedFile::write(std::size_t column, std::span<const std::byte> numbers) {
     const FileSegment& segment = segments().back();
-    if (!open_)
-        open_ = std::make_unique<Descriptor>(segment_path(path_, segment.name),
-                                             O_WRONLY | O_NOFOLLOW);
     open_->write(numbers, segment.places[column] + segment.rows * index_.row_bytes[column] +
                               written_[column]);
     hashers_[column].add(numbers);
@@ -192,7 +202,6 @@ void SegmentedFile::add(std::uint64_t n_rows) {
 
 void SegmentedFile::finish_addition() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        open_.reset();
         if (!failure_.empty()) throw FileError(std::exchange(failure_, {}));
     });
 }
@@ -229,12 +238,25 @@ void SegmentedFile::commit() {
 void SegmentedFile::sync_segment() const {
     if (segments().empty()) return;
     const std::string path = segment_path(path_, segments().back().name);
-    Descriptor(path, O_WRONLY | O_NOFOLLOW).sync();
+    if (!leads_to(path, open_->number()))
+        throw FileError(fmt::format("its part {} was moved, removed or replaced while the run "
+                                    "wrote there; bring it back, then go on by --resume",
+                                    segments().back().name));
+    open_->sync();
     Descriptor(folder_of(path), O_RDONLY | O_DIRECTORY).sync();
+}
+
+/// Somebody else's file in the place of the small one would be lost when that is renewed.
+void SegmentedFile::refuse_other_file() const {
+    std::error_code error;
+    if (seal_ && std::filesystem::exists(path_, error) && seal_of(path_) != seal_)
+        throw FileError("was replaced by another file while the run wrote there; move that away, "
+                        "then go on by --resume");
 }
 
 void SegmentedFile::commit_here() {
     sync_segment();
+    refuse_other_file();
     replace_file(path_, [this](const std::string& beside) {
         h5::create_file(beside, [this](hid_t file) {
             build_(file);
@@ -242,7 +264,9 @@ void SegmentedFile::commit_here() {
             write_index(file, index_);
         });
         seal_index(beside);
+        seal_ = seal_of(beside);
     });
+    is_cut_ = false;
     // Segments that the small file does not name belong to no recording.
     for (std::size_t k = segments().size() + 1;; ++k)
         if (::unlink(segment_path(path_, segment_name(path_, k)).c_str()) != 0) return;

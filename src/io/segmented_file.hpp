@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,9 +50,10 @@ public:
     void begin();
 
     /// Goes on with an existing file after `check` has accepted it, cut back to the
-    /// rows whose number in the column `step` is at most `last`. If there is none,
-    /// begins a new one and returns false. Reads all bytes, and throws code 2 if
-    /// columns differ or a byte is damaged. **Collective.**
+    /// rows whose number in the column `step` is at most `last`. Returns false if there is
+    /// none. Reads all bytes, and throws code 2 if columns differ or a byte is damaged.
+    /// Changes nothing on disk: the next commit does, and must come before rows are
+    /// added. **Collective.**
     bool go_on(const std::string& step, std::int64_t last,
                const std::function<void(hid_t file)>& check);
 
@@ -88,7 +90,9 @@ private:
     void make_segment();
     void check_columns(hid_t file, const Index& index) const;
     void cut(std::uint64_t n_rows);
+    void open_segment();
     void sync_segment() const;
+    void refuse_other_file() const;
     void commit_here();
     void write_virtual(hid_t file, const RecordedColumn& column) const;
 
@@ -98,9 +102,12 @@ private:
     const Communicator& communicator_;
     Index index_;
     std::uint64_t n_rows_ = 0;
+    bool is_cut_ = false;                ///< since the last commit
     ColumnHashers hashers_;              ///< for the last segment
     std::vector<std::uint64_t> written_; ///< by column: bytes since the last `add`
-    std::unique_ptr<Descriptor> open_;   ///< the last segment, during an addition
+    /// The last segment. It stays open, so that no file that takes its name is written to.
+    std::unique_ptr<Descriptor> open_;
+    std::optional<StateHash> seal_; ///< the end of the small file, once it is ours
     std::string failure_;
 };
 

@@ -35,13 +35,18 @@ std::vector<std::byte> read_end(const Descriptor& file, std::uint64_t begin) {
     return bytes;
 }
 
+/// The mark and the checksum; nothing if the file does not end as an index does.
+std::vector<std::byte> end_of_index(const Descriptor& file) {
+    if (file.size() < end_size) return {};
+    std::vector<std::byte> end = read_end(file, file.size() - end_size);
+    if (std::memcmp(end.data(), mark.data(), mark.size()) != 0) return {};
+    return end;
+}
+
 /// Returns the file's bytes if they end as an index does.
 std::vector<std::byte> bytes_of_index(const std::string& path) {
     const Descriptor file(path, O_RDONLY);
-    if (file.size() < end_size) return {};
-    const std::vector<std::byte> end = read_end(file, file.size() - end_size);
-    if (std::memcmp(end.data(), mark.data(), mark.size()) != 0) return {};
-    return read_end(file, 0);
+    return end_of_index(file).empty() ? std::vector<std::byte>{} : read_end(file, 0);
 }
 
 Index read_index(hid_t file, const std::string& path) {
@@ -127,6 +132,14 @@ void seal_index(const std::string& path) {
     std::memcpy(bytes.data() + size + mark.size(), &hash, sizeof hash);
     file.write(std::span(bytes).subspan(size), size);
     file.sync();
+}
+
+std::optional<StateHash> seal_of(const std::string& path) {
+    const std::vector<std::byte> end = end_of_index(Descriptor(path, O_RDONLY));
+    if (end.empty()) return std::nullopt;
+    StateHash hash;
+    std::memcpy(&hash, end.data() + mark.size(), sizeof hash);
+    return hash;
 }
 
 std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted) {

@@ -52,6 +52,9 @@ void write_index(hid_t file, const Index& index);
 /// Appends the mark and the checksum to a file that joins segments, and brings it to disk.
 void seal_index(const std::string& path);
 
+/// The checksum at the end of a file that joins segments; none of other files.
+std::optional<StateHash> seal_of(const std::string& path);
+
 /// The index of a file that joins segments; none if its last bytes show that it is no
 /// such file. Checks the file's own bytes and the structure of its segments, and all
 /// their rows if `are_rows_wanted`. Throws FileError, naming the segment.

@@ -221,6 +221,7 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
         steps_ = h5::read_column<std::int64_t>(file, h5md::step_path);
         recorded_before_ = steps_.empty() ? -1 : steps_.back();
     });
+    if (!is_there) steps_.clear();
     if (!is_there || !communicator_.is_root()) return -1;
     steps_.resize(file_->n_rows());
     return steps_.empty() ? -1 : steps_.back();

@@ -45,9 +45,10 @@ public:
     /// CollectiveError, code 4, and the file is as it was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with the file, cut back to frames up to `step`. Begins a new one if there
-    /// is none. Reads all of it, and throws code 2 if its layout differs or it is damaged.
-    /// Returns, on rank 0, the step of the last frame that is left, or -1. **Collective.**
+    /// Goes on with the file, cut back to frames up to `step`, or with a new one if there is
+    /// none. Reads all of it, and throws code 2 if its layout differs or it is damaged. Nothing
+    /// changes on disk before `commit`, which must come before frames are added. Returns, on
+    /// rank 0, the step of the last frame that is left, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
     /// The step of the last frame before `go_on` has cut the file back, on rank 0; -1 without one.
     std::int64_t recorded_before() const { return recorded_before_; }

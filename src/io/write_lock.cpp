@@ -10,10 +10,11 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
+
+#include "io/files.hpp"
 
 namespace carrom {
 
@@ -35,13 +36,6 @@ std::string first_bytes(int file) {
                  : "a process that has not yet said which";
 }
 
-/// Whether the name still leads to the open file, because a holder that ends removes it.
-bool is_still_there(int file, const std::string& path) {
-    struct stat open{}, named{};
-    return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
-           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
-}
-
 } // namespace
 
 WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
@@ -52,9 +46,11 @@ WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
 
 WriteLock::~WriteLock() {
     if (file_ < 0) return;
-    ::unlink(path_.c_str()); // before another run can have it
+    if (!is_lost()) ::unlink(path_.c_str()); // before another run can have it
     ::close(file_);
 }
+
+bool WriteLock::is_lost() const { return file_ >= 0 && !leads_to(path_, file_); }
 
 WriteLock::WriteLock(WriteLock&& other) noexcept
     : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
@@ -73,7 +69,7 @@ bool WriteLock::try_once() {
         ::close(file);
         return holder_.empty();
     }
-    if (!is_still_there(file, path_)) {
+    if (!leads_to(path_, file)) { // a holder that ends removes it
         ::close(file);
         return false;
     }

@@ -16,7 +16,7 @@ public:
     /// Takes the lock of `path`, on one rank. If another process has it and keeps it for two
     /// seconds, `holder` names the process; else it is empty, also if there are no locks.
     explicit WriteLock(std::string path);
-    /// Releases the lock, and removes the file.
+    /// Releases the lock, and removes the file unless another one has its name.
     ~WriteLock();
     WriteLock(WriteLock&& other) noexcept;
     WriteLock& operator=(WriteLock&&) = delete;
@@ -24,6 +24,9 @@ public:
     const std::string& holder() const { return holder_; }
     /// Why there can be no lock, for example because the name is a symbolic link; else empty.
     const std::string& problem() const { return problem_; }
+    /// Whether the lock is held and its name leads elsewhere: its folder, or it, was moved,
+    /// removed or replaced.
+    bool is_lost() const;
 
 private:
     bool try_once();

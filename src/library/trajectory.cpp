@@ -68,6 +68,7 @@ TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const 
         return first_difference(there, run.scene());
     });
     run.ranks().broadcast(state->last_step); // rank 0 has read the file
+    state->trajectory.commit();
     return TrajectoryWriter(std::move(state));
 }
 

@@ -59,17 +59,29 @@ void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
+/// Returns the problem, or empty.
+std::string GrowingFiles::add_rows(const MeasuredTable& rows) {
+    const std::string path = path_of(scene_, rows);
+    const std::string text = n_written_ == 0 ? csv_of(rows, scene_.name) : lines_of(rows.rows);
+    std::uint64_t& size = sizes_[path];
+    if (n_written_ == 0) {
+        size = text.size();
+        return write_whole_file(path, text);
+    }
+    if (!has_size(path, size))
+        return path + " was changed, removed or replaced while the run wrote there; move it away, "
+                      "then go on by --resume";
+    size += text.size();
+    const int error = append_whole(path, text);
+    return error == 0 ? "" : "cannot write " + path + ": " + std::strerror(error);
+}
+
 void GrowingFiles::add_rows_of(const Sampler& sampler) {
     std::size_t n_new = 0;
     std::string failure;
     for (const MeasuredTable& rows : sampler.rows_from(n_written_)) {
         n_new = rows.rows.size();
-        if (!ranks_.is_root() || !failure.empty()) continue;
-        const std::string path = path_of(scene_, rows);
-        if (n_written_ == 0)
-            failure = write_whole_file(path, csv_of(rows, scene_.name));
-        else if (const int error = append_whole(path, lines_of(rows.rows)); error != 0)
-            failure = "cannot write " + path + ": " + std::strerror(error);
+        if (ranks_.is_root() && failure.empty()) failure = add_rows(rows);
     }
     if (n_new == 0) return;
     agree(ranks_, failure.empty(), failure, ExitCode::output_failure);

@@ -3,6 +3,8 @@
 // read back with the same bits.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,13 +28,16 @@ public:
     GrowingFiles(const Scene& scene, const Communicator& ranks) : scene_(scene), ranks_(ranks) {}
 
     /// Rank 0 writes the rows that the files lack; the first time it makes new files.
-    /// Throws like `write_tables`. **Collective.**
+    /// Throws like `write_tables`, also if a file is not as this has left it. **Collective.**
     void add_rows_of(const Sampler& sampler);
 
 private:
+    std::string add_rows(const MeasuredTable& rows);
+
     const Scene& scene_;
     const Communicator& ranks_;
     std::size_t n_written_ = 0;
+    std::map<std::string, std::uint64_t> sizes_; ///< in bytes, by path, on rank 0
 };
 
 } // namespace carrom

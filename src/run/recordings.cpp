@@ -51,15 +51,22 @@ Recordings::Recordings(Run& run, const Messages& messages)
     if (run_.images() && run_.is_restart() && !run_.has_earlier_images() && run_.step() > 0)
         messages_.warn("{}: image counts from step {}; the checkpoint has no counts\n",
                        scene_.trajectory->file, run_.step());
-    if (run_.is_restart())
-        add_rows();
-    else
-        act();
+}
+
+void Recordings::begin() {
+    if (run_.is_restart()) {
+        if (trajectory_) trajectory_->commit();
+        if (log_) log_->commit();
+        return add_rows();
+    }
+    if (trajectory_) trajectory_->begin();
+    if (log_) log_->begin();
+    act();
 }
 
 void Recordings::open_trajectory() {
     trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
-    if (!run_.is_restart()) return trajectory_->begin();
+    if (!run_.is_restart()) return;
     report_missing_frames(trajectory_->go_on(run_.step()), run_.step());
     report_loss(scene_.trajectory->file, trajectory_->recorded_before());
 }
@@ -67,16 +74,15 @@ void Recordings::open_trajectory() {
 void Recordings::open_log() {
     const std::int64_t step = run_.step();
     log_.emplace(scene_.collisions->file, system_of(scene_), ranks_);
-    if (!run_.is_restart())
-        log_->begin();
-    else if (!log_->go_on(step) && step > 0)
+    run_.simulation().log_to(&collisions_);
+    if (!run_.is_restart()) return;
+    if (!log_->go_on(step) && step > 0)
         messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
                        scene_.collisions->file, step + 1);
     else if (const auto& gaps = log_->gaps(); !gaps.empty() && gaps.back() == step)
         messages_.warn("{}: has no collisions of steps {} to {}, and goes on with step {}\n",
                        scene_.collisions->file, gaps[gaps.size() - 2], step, step + 1);
     report_loss(scene_.collisions->file, log_->recorded_before());
-    run_.simulation().log_to(&collisions_);
 }
 
 /// Reports what a file had of steps that this run does not come to, so does not record again.
@@ -129,7 +135,7 @@ void Recordings::commit_now_and_then() {
     const double wait = std::max(seconds_between_commits, commit_seconds_ / largest_share);
     if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > wait)) return;
     seconds_uncommitted_ = 0;
-    commit();
+    run_.commit();
     commit_seconds_ = since_asked_.lap();
 }
 
@@ -150,7 +156,7 @@ void Recordings::commit() {
 }
 
 void Recordings::finish() {
-    commit();
+    run_.commit();
     if (trajectory_) trajectory_->describe();
 }
 

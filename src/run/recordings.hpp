@@ -28,10 +28,14 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
 
 class Recordings : public StepAction {
 public:
-    /// Opens the files: cut back to the present step in a restart, else new ones with the
-    /// present step as a first frame. From then on the simulation logs its collisions
-    /// here. All arguments must outlive this, and this the run's stepping. **Collective.**
+    /// A restart opens the files, checks them and writes nothing yet: it throws code 2 if it
+    /// cannot go on with them. From then on the simulation logs its collisions here. All
+    /// arguments must outlive this, and this the run's stepping. **Collective.**
     Recordings(Run& run, const Messages& messages);
+
+    /// Cuts the files back to the present step in a restart, else makes new ones with the
+    /// present step as a first frame. Comes before all steps. **Collective.**
+    void begin();
 
     std::int64_t next_due(std::int64_t step) const override;
     /// Records the present step. If recording fails every rank throws. **Collective.**
@@ -39,7 +43,7 @@ public:
     /// Makes the recordings so far permanent. **Collective.**
     void commit() override;
 
-    /// Commits at the end of the run. **Collective.**
+    /// Commits at the end of the run, as all actions do. **Collective.**
     void finish();
 
 private:

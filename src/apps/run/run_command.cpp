@@ -21,6 +21,7 @@
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "run/checkpoints.hpp"
+#include "run/files/folder_guard.hpp"
 #include "run/files/outputs.hpp"
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
@@ -125,13 +126,17 @@ private:
 
 /// Runs to the end of the scene with all outputs on the way, or to where the run is
 /// asked to stop: then it returns false. **Collective.**
-bool step_to_end(Run& run, const RunOptions& options, double& output_seconds) {
+bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double& output_seconds) {
     const Scene& scene = run.scene();
     Stopwatch watch;
-    ShownSteps shown(run, options);
-    Checkpoints checkpoints(run, scene.checkpoint);
     Recordings recordings(run, options.messages);
-    for (StepAction* action : std::initializer_list<StepAction*>{&shown, &recordings, &checkpoints})
+    Checkpoints checkpoints(run, scene.checkpoint);
+    // No file is replaced or removed before here, where nothing in the input can be wrong any more.
+    prepare_outputs(scene, !run.is_restart(), run.ranks());
+    ShownSteps shown(run, options);
+    recordings.begin();
+    for (StepAction* action :
+         std::initializer_list<StepAction*>{&guard, &shown, &recordings, &checkpoints})
         run.add(*action);
     bool is_done = checkpoints.act() || run.step() >= scene.steps;
     output_seconds += watch.lap();
@@ -192,8 +197,6 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     const Scene& scene = run.scene();
     Simulation& simulation = run.simulation();
     if (options.check) check_every_step(simulation, scene);
-    // What --overwrite removes stays if the new run has a mistake or too little memory.
-    prepare_outputs(scene, !run.is_restart(), ranks);
     RunResult result;
     result.threads = tuning.threads;
     result.first_step = simulation.step();
@@ -201,7 +204,14 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     if (result.first_step == 0) warn_of_close_pairs(scene, result.start, options.messages);
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
-    const bool is_done = step_to_end(run, options, output_seconds);
+    bool is_done = false;
+    FolderGuard guard(loaded.locks, scene, ranks);
+    try {
+        is_done = step_to_end(run, options, guard, output_seconds);
+    } catch (const CollectiveError& error) {
+        if (error.code() == ExitCode::output_failure) guard.commit(); // names a folder that is gone
+        throw;
+    }
     result.wall_seconds = run.seconds().steps;
     fill_end(result, run);
     PhaseSeconds phases = simulation.phase_seconds();

@@ -7,9 +7,20 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace carrom {
+
+namespace {
+
+/// Pipes carry on without a name, so they do not count.
+bool is_named_file(int file) {
+    struct stat status{};
+    return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink > 0;
+}
+
+} // namespace
 
 DataOutput::DataOutput(const std::string& path)
     : name_(path.empty() ? "standard output" : path), file_(STDOUT_FILENO),
@@ -18,6 +29,7 @@ DataOutput::DataOutput(const std::string& path)
     if (!is_ours_) return;
     file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file_ < 0) fail_with(errno);
+    is_named_file_ = is_named_file(file_);
 }
 
 DataOutput::~DataOutput() { close(); }
@@ -50,6 +62,8 @@ void DataOutput::flush() {
 }
 
 void DataOutput::close() {
+    if (file_ >= 0 && is_named_file_ && !is_named_file(file_) && failure_.empty())
+        failure_ = name_ + ": was removed while it was written";
     if (is_ours_ && file_ >= 0 && ::close(file_) != 0) fail_with(errno);
     file_ = -1;
 }

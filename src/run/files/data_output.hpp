@@ -30,8 +30,8 @@ public:
     void flush_if_full();
     void flush();
 
-    /// Some file systems report a full disk only when a file is closed. Nothing may be written
-    /// after this.
+    /// Some file systems report a full disk only when a file is closed. A file that was removed
+    /// meanwhile is a failure too. Nothing may be written after this.
     void close();
 
     /// The first failure, or empty. After a failure nothing more is written.
@@ -44,7 +44,7 @@ private:
 
     std::string name_;
     int file_;
-    bool is_ours_;
+    bool is_ours_, is_named_file_ = false;
     fmt::memory_buffer buffer_;
     std::string failure_;
 };

@@ -108,4 +108,10 @@ int append_whole(const std::string& path, const std::string& text, bool is_new) 
     return error;
 }
 
+bool has_size(const std::string& path, std::uint64_t size) {
+    std::error_code error;
+    const std::uintmax_t there = std::filesystem::file_size(path, error);
+    return !error && there == size;
+}
+
 } // namespace carrom

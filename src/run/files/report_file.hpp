@@ -4,6 +4,7 @@
 // Whether it can be written is checked before the run, not after a week.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/write_problem.hpp"
@@ -20,5 +21,8 @@ std::string write_whole_file(const std::string& path, const std::string& text);
 /// Appends text to a file, all of it or nothing. If it `is_new` the file must not
 /// exist yet. Returns 0 or an errno.
 int append_whole(const std::string& path, const std::string& text, bool is_new = false);
+
+/// Whether a file of this size in bytes is there.
+bool has_size(const std::string& path, std::uint64_t size);
 
 } // namespace carrom

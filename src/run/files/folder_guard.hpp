@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ends a run whose folder was moved, removed or replaced while the run wrote there.
+//
+// Files are opened by their paths, so the run would go on in whatever has taken the folder's name:
+// another run's folder, say, or an empty one under a mount that is gone. Its lock, which stays
+// open, shows this. Price: two calls of the system and a reduction for each stretch of steps, in
+// runs with a folder.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "io/write_lock.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/advance.hpp"
+
+namespace carrom {
+
+/// The first action of a run, so that no other one writes before it has looked.
+class FolderGuard : public StepAction {
+public:
+    /// `locks` are rank 0's. All arguments must outlive this.
+    FolderGuard(std::span<const WriteLock> locks, const Scene& scene, const Communicator& ranks)
+        : locks_(locks), scene_(scene), ranks_(ranks) {}
+
+    std::int64_t next_due(std::int64_t) const override {
+        return std::numeric_limits<std::int64_t>::max();
+    }
+    /// If the folder is not the run's own any more, every rank throws CollectiveError, code 4.
+    /// **Collective.**
+    bool act() override {
+        commit();
+        return true;
+    }
+    void commit() override;
+
+private:
+    std::span<const WriteLock> locks_;
+    const Scene& scene_;
+    const Communicator& ranks_;
+};
+
+} // namespace carrom
