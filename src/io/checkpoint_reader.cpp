@@ -178,7 +178,7 @@ public:
             inspect_in_child_first([&] { contents = inspected_contents(path_); });
         });
         broadcast(contents, communicator_);
-        on_all(communicator_, path_, ExitCode::bad_input, require_free_files);
+        on_all(communicator_, path_, ExitCode::bad_input, [] { require_free_files(); });
         on_all(communicator_, path_, ExitCode::bad_input,
                [&] { file_ = h5::SharedFile(path_, h5::Access::read, communicator_); });
         on_all(communicator_, path_, ExitCode::bad_input, [&] {

@@ -39,11 +39,11 @@ bool is_text_beside(std::string_view name) {
 }
 
 /// Whether this process may open some more files; else `errno` has the reason.
-bool has_free_files() {
-    constexpr int n_needed = 8;
+bool has_free_files(std::size_t n_parts = 0) {
+    constexpr std::size_t n_for_one = 8;
     std::vector<int> files;
     int error = 0;
-    for (int k = 0; k < n_needed && error == 0; ++k) {
+    while (files.size() < n_for_one + n_parts && error == 0) {
         const int file = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
         file < 0 ? static_cast<void>(error = errno) : files.push_back(file);
     }
@@ -61,17 +61,20 @@ void fail_with_errno(const std::string& what) {
     throw FileError(text);
 }
 
-std::string described(const FileError& error, const std::string& path, ExitCode& code) {
-    const std::string text = path + ": " + error.what();
-    const bool are_too_many = !has_free_files();
-    if (!are_too_many && dynamic_cast<const MachineError*>(&error) == nullptr) return text;
-    if (code == ExitCode::bad_input) code = ExitCode::collective_failure;
-    if (!are_too_many) return text;
+std::string with_remedy(const FileError& error) {
+    if (has_free_files()) return error.what();
     rlimit limit{};
     ::getrlimit(RLIMIT_NOFILE, &limit);
     return fmt::format("{}; this process may have only {} files open at once: raise that limit "
                        "(ulimit -n 1024), then try again",
-                       text, limit.rlim_cur);
+                       error.what(), limit.rlim_cur);
+}
+
+std::string described(const FileError& error, const std::string& path, ExitCode& code) {
+    const bool is_of_machine = dynamic_cast<const MachineError*>(&error) != nullptr ||
+                               !has_free_files();
+    if (is_of_machine && code == ExitCode::bad_input) code = ExitCode::collective_failure;
+    return path + ": " + with_remedy(error);
 }
 
 // Opens without waiting for the other end of a pipe, because only plain files are accepted.
@@ -132,8 +135,8 @@ bool leads_to(const std::string& path, int number) {
            open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-void require_free_files() {
-    if (!has_free_files()) fail_with_errno("cannot be opened");
+void require_free_files(std::size_t n_parts) {
+    if (!has_free_files(n_parts)) fail_with_errno("cannot be opened");
 }
 
 void check_room(const std::string& folder, std::uint64_t bytes) {

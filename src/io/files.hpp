@@ -62,8 +62,9 @@ private:
 /// Whether the path leads to the open file `number`, not to another one that has taken its name.
 bool leads_to(const std::string& path, int number);
 /// Throws MachineError unless this process may open as many more files as HDF5 and MPI-IO need
-/// for one. They do not always say that this is why they have failed.
-void require_free_files();
+/// for one with this many parts. They do not always say that this is why they have failed, and
+/// HDF5 gives fill values for parts that it cannot open.
+void require_free_files(std::size_t n_parts = 0);
 
 /// Throws if the file system reports less room than this.
 void check_room(const std::string& folder, std::uint64_t bytes);
@@ -105,8 +106,10 @@ void replace_file(const std::string& path, const std::string& text);
 void remove_unfinished(const std::string& folder);
 std::string folder_of(const std::string& path);
 
-/// The text of an error after `path`. If the machine is the cause, adds what helps to
-/// the text, and a `code` for bad input becomes that of a rank that failed.
+/// The text of an error, and what helps if too few files may be open.
+std::string with_remedy(const FileError& error);
+/// The text of an error after `path`, with its remedy. If the machine is the cause, a `code` for
+/// bad input becomes that of a rank that failed.
 std::string described(const FileError& error, const std::string& path, ExitCode& code);
 
 /// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with

@@ -134,7 +134,7 @@ template <class Act> void with_path(const std::string& path, const Act& act) {
     try {
         act();
     } catch (const FileError& error) {
-        throw InputError({{path, 0, error.what()}});
+        throw InputError({{path, 0, with_remedy(error)}});
     }
 }
 

@@ -150,6 +150,7 @@ std::optional<Index> read_checked_index(const std::string& path, bool are_rows_w
     if (std::memcmp(&wanted, bytes.data() + hashed, sizeof wanted) != 0)
         throw FileError("is damaged: its bytes do not have its checksum");
     Index index = read_index(h5::open_file(path, h5::Access::read).id(), path);
+    require_free_files(index.segments.size());
     for (const FileSegment& segment : index.segments) {
         try {
             const std::string part = segment_path(path, segment.name);

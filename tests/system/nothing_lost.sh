@@ -122,6 +122,14 @@ for ranks in 1 3; do
     done
     [ "$n_limited" -gt 0 ] || complain "no limit of open files was in the way on $ranks ranks"
 done
+# HDF5 gives fill values for segments that it cannot open.
+run 1 convert kept/collisions.h5 --to csv --output whole.csv
+for LIMIT in {4..14}; do
+    export LIMIT
+    rm -f limited.csv
+    run 1 convert kept/collisions.h5 --to csv --output limited.csv
+    [ "$code" -ne 0 ] || cmp whole.csv limited.csv || complain "wrong numbers, $LIMIT open files"
+done
 CARROM_PROGRAM=$program
 
 # Each kind of recording alone is enough, and a run of which only the start is there begins anew.
