@@ -25,6 +25,7 @@ FAULTS = {  # of a test: what it does, and how its output counts that
     "kill": ("kill -9 of a rank at a random moment", r"after (\d+) kills"),
     "kill_often": ("kill -9 of a rank at a random moment, more often", r"after (\d+) kills"),
     "nothing_lost": ("folders that cannot be listed, links, foreign files, gaps in a log", RUNS),
+    "lost_places": ("a folder or a file that is moved, removed or replaced during a run", RUNS),
     "shared_places": ("two runs in one folder, links in the place of files", RUNS),
     "checkpoint_failure": ("full disks, short writes, no threads for a checkpoint", RUNS),
     "output_failure": ("outputs that cannot be written", RUNS),

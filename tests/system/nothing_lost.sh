@@ -118,7 +118,8 @@ for ranks in 1 3; do
         grep -q 'raise that limit (ulimit -n' "$test_folder/err" || continue
         n_limited=$((n_limited + 1))
         expect_code 3 "a limit of $LIMIT open files on $ranks ranks"
-        sums_of part | grep -v report.json | cmp - before_limit || complain "files have changed: $LIMIT open files"
+        sums_of part | grep -v report.json | cmp - before_limit ||
+            complain "files have changed: $LIMIT open files"
     done
     [ "$n_limited" -gt 0 ] || complain "no limit of open files was in the way on $ranks ranks"
 done
