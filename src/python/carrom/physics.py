@@ -95,17 +95,27 @@ def _has_value(entry: Any) -> bool:
     return isinstance(entry, dict) and entry.get("value") is not None
 
 
+def _averages(run: Run) -> dict[str, Any]:
+    """All entries of the report that may be averages, by the names that `carrom replicas` takes."""
+    report = run.report
+    tensor = report.get("pressure_tensor") or {}
+    return {
+        **{name: report.get(name) for name in ("temperature", "pressure", "compressibility")},
+        **{f"pressure_{part}": tensor.get(part) for part in ("xx", "xy", "yy")},
+        **report["averages"],
+    }
+
+
 def quantities(run: Run) -> dict[str, Measured]:
     """Return all averages that the report of a run has, by the names that `average` takes.
 
     Raises:
         NoDataError: the run has no report yet
     """
-    averages = run.report["averages"]
     return {
-        name: _measured(run, averages[name], name)
-        for name in averages
-        if _has_value(averages[name])
+        name: _measured(run, entry, name)
+        for name, entry in _averages(run).items()
+        if _has_value(entry)
     }
 
 
@@ -115,7 +125,7 @@ def average(run: Run, name: str) -> Measured:
     Raises:
         NoDataError: the report has no such average of this scene (null)
     """
-    return _measured(run, run.report["averages"].get(name), name)
+    return _measured(run, _averages(run).get(name), name)
 
 
 def compressibility(run: Run) -> Measured:

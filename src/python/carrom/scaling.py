@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure a scene over ranks and threads: `python -m carrom.scaling SCENE --ranks 1 2 4`.
+"""Measure a scene over ranks and threads: `python3 -m carrom.scaling SCENE --ranks 1 2 4`.
 
 A row for each shape: seconds of stepping, speedup and efficiency against the shape with the fewest
 cores. `--from TABLE.csv` adds the last two columns to a table of job_scripts/strong_scaling.sbatch.
@@ -170,7 +170,7 @@ def _line(row: Row) -> str:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m carrom.scaling",
+        prog="python3 -m carrom.scaling",
         description="Measure a scene over ranks and threads, with speedup and efficiency.",
         epilog="Leave the machine alone meanwhile. The fastest of --repeat runs counts.",
     )

@@ -75,8 +75,12 @@ def test_quantities_are_those_of_the_report(run: carrom.Run) -> None:
         return isinstance(entry, dict) and entry["value"] is not None
 
     found = carrom.quantities(run)
-    averages = run.report["averages"]
+    report = run.report
+    tensor = {f"pressure_{part}": entry for part, entry in report["pressure_tensor"].items()}
+    names = ("temperature", "pressure", "compressibility")
+    averages = {name: report[name] for name in names} | tensor | report["averages"]
     assert set(found) == {name for name, entry in averages.items() if has_value(entry)}
+    assert {"temperature", "pressure", "pressure_xy", "mean_speed"} <= set(found)
     for name, (value, _) in found.items():
         assert value == averages[name]["value"]
         assert carrom.average(run, name).value == value

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`python -m carrom.plot` is `carrom-plot`."""
+"""`python3 -m carrom.plot` is `carrom-plot`."""
 
 import sys
 

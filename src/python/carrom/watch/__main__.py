@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`python -m carrom.watch FOLDER`."""
+"""`python3 -m carrom.watch FOLDER`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from carrom.watch.server import DEFAULT_PORT, serve
 
 EXAMPLES = """examples:
   carrom run inputs/gas.toml -o gas --set output.trajectory.every_steps=10 &
-  python -m carrom.watch gas
+  python3 -m carrom.watch gas
   ssh -L 8787:localhost:8787 CLUSTER        then open http://localhost:8787 here
 """
 
@@ -23,7 +23,7 @@ EXAMPLES = """examples:
 def options(words: list[str]) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(
-        prog="python -m carrom.watch",
+        prog="python3 -m carrom.watch",
         description="Watch a run in a browser, while it goes on or later.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,

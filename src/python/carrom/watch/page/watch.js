@@ -178,7 +178,7 @@ async function ask() {
   } catch (error) {
     element("status").textContent = element("status").className = "lost";
     element("message").textContent = error instanceof TypeError
-      ? "The server has ended. Start it again: python -m carrom.watch FOLDER" : error.message;
+      ? "The server has ended. Start it again: python3 -m carrom.watch FOLDER" : error.message;
   }
   setTimeout(ask, 1000 * pause);
 }
