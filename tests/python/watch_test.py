@@ -51,8 +51,10 @@ class ServerTest(unittest.TestCase):
                 )
 
     def test_walls_are_where_they_are_at_the_step(self):
-        sides = 'right = {kind = "moving", speed = -0.125}\nbottom = {kind = "oscillating", ' \
-                "amplitude = 2, period = 12, phase = -0.5}\n"
+        sides = (
+            'right = {kind = "moving", speed = -0.125}\nbottom = {kind = "oscillating", '
+            "amplitude = 2, period = 12, phase = -0.5}\n"
+        )
         text = SCENE.format(steps=60, every=5, pressure=10).replace("[discs]", sides + "[discs]")
         text = text.replace("[box]\nsize = 40\n", "[box]\nsize = [40, 30]\n")
         run("walls", text=text)
@@ -110,8 +112,9 @@ class ServerTest(unittest.TestCase):
             field = page.json("field?name=temperature")
             self.assertEqual(field["step"], newest[-1, 0])
             self.assertEqual(field["names"][:-1], names[3:])
-            np.testing.assert_array_equal(field["rows"], newest[:, names.index("temperature")]
-                                          .reshape(3, 4))
+            np.testing.assert_array_equal(
+                field["rows"], newest[:, names.index("temperature")].reshape(3, 4)
+            )
             with self.assertRaisesRegex(urllib.error.HTTPError, "404"):
                 page.json("field?name=colour")
 
