@@ -65,11 +65,27 @@ bool depends_on_wrong_value(const SceneDraft& draft, std::string_view text) {
     });
 }
 
+bool is_wrong(const SceneDraft& draft, std::string_view key) {
+    return draft.settings.has(key) && draft.settings.find(key)->is_wrong;
+}
+
+/// Whether another key of the table has a wrong value, on which the key's meaning may depend: in
+/// tables of sides, contacts and thermostats the kind says which keys have one.
+bool has_wrong_neighbour(const SceneDraft& draft, const Key& key) {
+    if (!find_key(std::string(key.table()) + ".kind")) return false;
+    const auto& all = draft.settings.all();
+    return std::any_of(all.begin(), all.end(), [&key](const Setting& one) {
+        const Key* other = find_key(one.key);
+        return one.is_wrong && other && other->table() == key.table();
+    });
+}
+
 /// A key without a meaning, a missing key, and two keys that exclude each other are problems.
 void check_needs(const SceneDraft& draft, const Key& key) {
     const Settings& settings = draft.settings;
     const auto is_there = [&settings](std::string_view other) { return settings.has(other); };
-    const bool is_known = !key.need || !depends_on_wrong_value(draft, key.need->text);
+    const bool is_known = !key.need || (!depends_on_wrong_value(draft, key.need->text) &&
+                                        !has_wrong_neighbour(draft, key));
     const bool has_meaning = key.has_meaning(draft.scene);
     const bool has_value = settings.is_right(key.name) || (is_there(key.name) && key.has_rows());
     if (has_value && is_known && !has_meaning)
@@ -88,6 +104,9 @@ void check_rules(const SceneDraft& draft) {
     for (const Rule& rule : rules()) {
         if (!rule.is_broken(draft.scene)) continue;
         if (depends_on_wrong_value(draft, rule.one) || depends_on_wrong_value(draft, rule.other))
+            continue;
+        if (std::any_of(rule.keys.begin(), rule.keys.end(),
+                        [&draft](std::string_view key) { return is_wrong(draft, key); }))
             continue;
         std::vector<std::string> sides;
         for (std::size_t side = 0; side < boundary_names.size(); ++side)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/checked_value.hpp"
 
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +12,14 @@
 namespace carrom {
 
 namespace {
+
+/// In small letters and without hyphens, so that Nose-Hoover and nosehoover are one word.
+std::string letters_of(std::string_view word) {
+    std::string letters;
+    for (const unsigned char c : word)
+        if (c != '-' && c != '_' && c != ' ') letters += static_cast<char>(std::tolower(c));
+    return letters;
+}
 
 constexpr std::size_t most_wrong_rows = 20; ///< these are listed; the rest are counted
 
@@ -132,7 +141,7 @@ private:
                 return refuse(
                     fmt::format("'{}': \"{}\" is now \"{}\"", key_.name, old_word, new_word));
         for (const auto& [other, here] : key_.advice)
-            if (other == *word)
+            if (letters_of(other) == letters_of(*word))
                 return refuse(fmt::format("'{}' must be {}, not {}; try: {}", key_.name,
                                           words_text(key_.words), in_quotes(*word), here));
         refuse(fmt::format("'{}' must be {}, not {}{}", key_.name, words_text(key_.words),

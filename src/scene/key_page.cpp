@@ -17,6 +17,7 @@ constexpr std::string_view opening = R"(# Keys of a scene
 
 A scene is a TOML file. An unknown key is an error, and so is a key that has no meaning in the
 scene. `--set key=value` sets any key on the command line and replaces what excludes it in the file.
+Where it sets a word, as a `kind`, it drops the keys of that table that have no meaning beside it.
 Lengths are in any unit, times in steps, masses in units of the disc's mass. A unit of 1 is a pure
 number. [What goes with what](conflicts.md) lists what excludes each other.
 )";

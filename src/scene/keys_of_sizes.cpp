@@ -42,7 +42,12 @@ Key size_key(std::string_view name, std::string_view unit, std::string_view help
 std::vector<Key> keys_of_sizes() {
     using Sizes = SizeDistribution;
     return {
-        size_key("distribution", "", "The distribution of the radii.", &Sizes::kind),
+        size_key("distribution", "", "The distribution of the radii.", &Sizes::kind)
+            .advises({{"gaussian", "\"normal\""},
+                      {"log-normal", "\"lognormal\""},
+                      {"flat", "\"uniform\""},
+                      {"bimodal", "discs.species, in place of discs.count and discs.radius"},
+                      {"bidisperse", "discs.species, in place of discs.count and discs.radius"}}),
         size_key("mean", "length", "The mean radius; or give 'discs.packing'.", &Sizes::mean)
             .by_default("from 'discs.packing'")
             .within({smallest_length, largest_size})

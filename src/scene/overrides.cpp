@@ -2,6 +2,8 @@
 #include "scene/overrides.hpp"
 
 #include <algorithm>
+#include <initializer_list>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -29,6 +31,40 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given) 
     std::erase_if(settings.all(), [&chosen](const Setting& one) {
         const Key* other = find_key(one.key);
         return other && other->need && other->need->is_of_generator && !other->has_meaning(chosen);
+    });
+}
+
+/// Puts the right ones of these settings into scenes, but for lists, which are long, and for tables
+/// that a scene may lack.
+void take_right_values(const std::vector<Setting>& all, std::initializer_list<Scene*> scenes) {
+    for (const Setting& one : all) {
+        const Key* key = find_key(one.key);
+        if (!key || one.is_wrong || key->has_rows() || find_table(key->table())->is_optional())
+            continue;
+        Setting setting = one;
+        Problems ignored; // they are reported elsewhere
+        check_value(*key, setting, ignored);
+        if (setting.is_wrong) continue;
+        for (Scene* scene : scenes) key->set(*scene, setting.value);
+    }
+}
+
+/// Removes keys of the input that lose their meaning by a word of the command line in their table,
+/// as the strength of kicks does by kind = "langevin".
+void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
+    const auto has_word_for = [&given](const Key& other) {
+        return std::any_of(given.all().begin(), given.all().end(), [&other](const Setting& one) {
+            const Key* key = find_key(one.key);
+            return key && key->kind == Kind::choice && key->table() == other.table();
+        });
+    };
+    Scene before, after;
+    take_right_values(settings.all(), {&before, &after});
+    take_right_values(given.all(), {&after});
+    std::erase_if(settings.all(), [&](const Setting& one) {
+        const Key* key = find_key(one.key);
+        return key && !given.has(one.key) && has_word_for(*key) && key->has_meaning(before) &&
+               !key->has_meaning(after);
     });
 }
 
@@ -65,6 +101,7 @@ void remove_rivals(Settings& settings, const Settings& given) {
     }
     remove_other_forms(settings, given);
     remove_keys_of_other_generators(settings, given);
+    remove_keys_of_other_kinds(settings, given);
 }
 
 void add_table(Settings& given, Problems& problems, const Place& place, const std::string& table,

@@ -20,6 +20,10 @@ TEST_CASE("Words of other programs are errors that name what there is") {
     for (const auto& [setting, advice] : {
              std::pair{"effects.thermostat.kind=nose-hoover", "try: \"langevin\" or \"andersen\""},
              {"effects.thermostat.kind=gaussian", "try: \"rescale\""},
+             {"effects.thermostat.kind=Nose-Hoover", "try: \"langevin\" or \"andersen\""},
+             {"effects.thermostat.kind=v_rescale", "try: \"rescale\""},
+             {"discs.radius.distribution=Gaussian", "try: \"normal\""},
+             {"discs.radius.distribution=bidisperse", "try: discs.species"},
              {"effects.contact.kind=inelastic", "try: \"restitution\""},
              {"effects.contact.kind=granular", "try: \"restitution\" or \"rough\""},
              {"effects.contact.kind=hertz", "discs are hard, and contacts take no time"},
@@ -31,6 +35,57 @@ TEST_CASE("Words of other programs are errors that name what there is") {
         const std::string text = setting;
         CHECK(mentions(problems_of([&] { read_scene(scene, "s.toml", {text}); }), advice));
     }
+}
+
+TEST_CASE("A wrong word has no other errors that only follow from it") {
+    const std::string scene = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = "
+                              "10\n";
+    for (const auto& [setting, number] : {
+             std::pair{"effects.contact={kind = \"inelastic\", contact_time = 0.01}",
+                       "effects.contact.kind"},
+             {"box.left={tangential_restitution = 2, velocity = 0.1}",
+              "box.left.tangential_restitution"},
+             {"box={bottom = {kind = \"sheared\"}, top = {kind = \"lees-edwards\"}, "
+              "left = {kind = \"periodic\"}, right = {kind = \"periodic\"}}",
+              "box.top.kind"},
+         }) {
+        INFO(setting);
+        const std::string text = setting;
+        const auto found = problems_of([&] { read_scene(scene, "s.toml", {text}); });
+        CHECK(found.size() == 1);
+        CHECK(mentions(found, number));
+    }
+}
+
+TEST_CASE("A word of the command line drops what the scene's other word needed") {
+    const std::string scene =
+        "[box]\nsize = 100\nbottom = {kind = \"thermal\", temperature = 1, velocity = 0.1}\n"
+        "[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n"
+        "[effects]\ncontact = {kind = \"restitution\", restitution = 0.9, contact_time = 0.01}\n"
+        "thermostat = {kind = \"kicks\", strength = 0.1, seed = 5}\n";
+    const Thermostat other =
+        read_scene(scene, "s.toml",
+                   {"effects.thermostat={kind = \"langevin\", rate = 0.01, temperature = 1}"})
+            .effects.thermostat;
+    CHECK(other.kind == ThermostatKind::langevin);
+    CHECK(other.seed == 5); // it has a meaning, so it stays
+    const Effects plain = read_scene(scene, "s.toml",
+                                     {"box.bottom.kind=wall", "effects.contact.kind=elastic",
+                                      "effects.thermostat.kind=none"})
+                              .effects;
+    CHECK(plain.boundaries[2].kind == BoundaryKind::wall);
+    CHECK(!plain.are_any());
+    // What had no meaning in the scene itself is still an error, and so is what is given beside it.
+    std::string wrong = scene;
+    wrong.replace(wrong.find("seed = 5"), 8, "rate = 5");
+    CHECK(mentions(
+        problems_of([&] { read_scene(wrong, "s.toml", {"effects.thermostat.kind=none"}); }),
+        "'effects.thermostat.rate' has no meaning"));
+    CHECK(mentions(problems_of([&] {
+                       read_scene(scene, "s.toml",
+                                  {"box.bottom.kind=wall", "box.bottom.temperature=2"});
+                   }),
+                   "'box.bottom.temperature' has no meaning"));
 }
 
 TEST_CASE("A table on the command line is that of a scene") {
@@ -68,7 +123,7 @@ TEST_CASE("A flow that does not keep its temperature has a warning") {
     std::string scene = "[box]\nsize = 100\n";
     for (const std::string side : {"left", "right"}) scene += side + ".kind = \"periodic\"\n";
     for (const std::string side : {"bottom", "top"}) scene += side + ".kind = \"sheared\"\n";
-    scene += "[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n[effects.shear]\nrate = 0.1\n";
+    scene += "[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 100\n[effects.shear]\nrate = 0.1\n";
     const auto warnings = [&scene](std::vector<std::string> overrides) {
         std::string all;
         for (const std::string& text : read_scene(scene, "s.toml", overrides).warnings)
@@ -87,4 +142,10 @@ TEST_CASE("A flow that does not keep its temperature has a warning") {
     CHECK(has(warnings({start, rescale, "effects.thermostat.temperature=0.02"}),
               "the thermostat keeps its own"));
     CHECK(warnings({start, rescale, "effects.thermostat.temperature=0.01"}).empty());
+    // 50 discs of radius 1 in a box of 100 collide 0.035 sqrt(kT) times in a step.
+    CHECK(warnings({rescale, "effects.thermostat.temperature=3"}).empty());
+    CHECK(
+        has(warnings({rescale, "effects.thermostat.temperature=4"}), "collides 4.5 times or more"));
+    CHECK(has(warnings({rescale, "effects.thermostat.temperature=4", "time.steps=10"}),
+              "never acts: it would every 64 steps"));
 }
