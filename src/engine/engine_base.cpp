@@ -5,7 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
 #include "engine/dynamics_of_scene.hpp"
+#include "engine/long_flights.hpp"
 #include "engine/state_sums.hpp"
 #include "engine/window_choice.hpp"
 
@@ -101,6 +105,28 @@ template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double lea
     discs_.sort_cells(geometry, time_, tuning_.threads);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
     discs_.fetch_halo(time_, reach, nullptr);
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::refuse_long_flights(double speed) const {
+    if constexpr (Dynamics::is_periodic) {
+        constexpr double most = 15000; // core/image.hpp counts to 16000
+        const std::int64_t left = last_micro_step_ - last_sync();
+        const auto interval = static_cast<double>(left > 0 ? std::min(sync_every_, left)
+                                                           : sync_every_);
+        double lengths = most_lengths(discs_.periods(), speed, speed, interval);
+        if (lengths > most && Dynamics::has_moving_images) // flows are far faster along x
+            lengths = most_lengths(discs_.periods(), speed, communicator_.max(fastest_up(own())),
+                                   interval);
+        if (lengths <= most) return;
+        throw CollectiveError(fmt::format(
+            "at step {:.9g} the fastest disc flies {:.3g} times through the periodic box from one "
+            "sync to the next; this version counts to {:g}: set time.sync_every to less, or let "
+            "discs become less fast",
+            (static_cast<double>(last_sync()) + time_) / static_cast<double>(micro_steps_), lengths,
+            most));
+    } else {
+        static_cast<void>(speed);
+    }
 }
 
 /// Stops early, at the end of a step at which a sync is due, because stops cost nothing there.

@@ -67,6 +67,11 @@ protected:
     /// Takes departed discs out of the arrays, where they stay until then. **Collective.**
     void set_departed_aside();
 
+    /// Ends the run if discs have become so fast that they fly through a periodic box more often
+    /// than their images can be counted. `speed` is the largest one, equal on all ranks.
+    /// **Collective.**
+    void refuse_long_flights(double speed) const;
+
     Population population() const { return discs_.population(); }
     /// The present walls in the coordinates of states.
     Extent extent() const;

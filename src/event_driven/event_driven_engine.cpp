@@ -101,6 +101,7 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     window.begin = time_;
     window.holds_begin = time_ == 0;
     window.speed_bound = speed_bound_until(target);
+    this->refuse_long_flights(window.speed_bound);
     const BlockNeeds needs = block_needs(window.speed_bound);
     const double left = target - time_;
     double longest = left;

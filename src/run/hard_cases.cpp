@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "engine/long_flights.hpp"
 
 namespace carrom {
 
@@ -24,11 +25,13 @@ double largest_speed(const Simulation& simulation, const Communicator& ranks) {
 /// the fastest disc twice as fast.
 constexpr double most_crossings = 8000;
 
-void refuse_long_flights(const Scene& scene, double speed) {
+void refuse_long_flights(const Scene& scene, double speed, double up) {
     if (!scene.effects.are_periodic()) return;
     const double interval = static_cast<double>(
         std::min(scene.sync_every, scene.steps * scene.micro_steps));
-    const double crossings = speed * interval / scene.effects.periods(scene.box).shortest();
+    Periods periods = scene.effects.periods(scene.box);
+    periods.speed /= static_cast<double>(scene.micro_steps);
+    const double crossings = most_lengths(periods, speed, up, interval);
     if (crossings <= most_crossings) return;
     throw InputError({{scene.name, 0,
                        fmt::format("the fastest disc flies {:.3g} times through the box with "
@@ -62,7 +65,8 @@ void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const C
                        const Messages& messages) {
     const double speed = largest_speed(simulation, ranks);
     refuse_blurred_places(scene, speed);
-    refuse_long_flights(scene, speed);
+    const bool is_flow = scene.effects.are_sheared(); // along x, far from what collisions turn up
+    refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(simulation.discs())) : speed);
     const double blur = blurred_flight(scene, speed);
     // The width of the band before walls: from there on bounces and overlaps show the blur.
     if (blur <= 1e-8 * scene.radius) return;

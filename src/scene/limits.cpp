@@ -51,14 +51,15 @@ std::string speed_problem(double speed, const Scene& scene) {
                        speed, most);
 }
 
-std::string units_warning(double fastest, const Scene& scene) {
+std::string units_warning(double fastest, double later, const Scene& scene) {
     constexpr double most_diameters = 1000;
-    const double diameters = fastest / (2 * scene.radius);
+    const double diameters = std::max(fastest, later) / (2 * scene.radius);
     if (!(diameters > most_diameters)) return {};
-    return fmt::format(
-        "the fastest disc flies {:.3g} diameters in a step, which may take very long; "
-        "speeds are lengths per step: try some of about a diameter, {:g}",
-        diameters, 2 * scene.radius);
+    return fmt::format("{} {:.3g} diameters in a step, which may take very long; "
+                       "speeds are lengths per step: try some of about a diameter, {:g}",
+                       fastest >= later ? "the fastest disc flies"
+                                        : "walls or effects make discs fly",
+                       diameters, 2 * scene.radius);
 }
 
 std::string column_problem(DiscColumn column, double number) {

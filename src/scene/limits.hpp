@@ -42,8 +42,9 @@ std::string velocity_problem(double component);
 /// The problem of a speed in this scene, with its box and method, or empty. The box may be 0.
 std::string speed_problem(double speed, const Scene& scene);
 
-/// A warning about discs so fast that their unit may be mistaken, or empty.
-std::string units_warning(double fastest, const Scene& scene);
+/// A warning about discs so fast that their unit may be mistaken, or empty. `fastest` is the
+/// largest speed at the start, `later` one that walls and effects give to discs.
+std::string units_warning(double fastest, double later, const Scene& scene);
 
 /// The problem of a disc's radius, mass or number in another column, or empty.
 std::string column_problem(DiscColumn column, double number);

@@ -46,8 +46,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_to(std::int6
     while (n_micro_done_ < target) run_window(static_cast<int>(target - n_micro_done_));
 }
 
-/// Runs one window of at most `n_left` micro-steps, to its end or to where discs
-/// become too fast for it.
+/// Runs one window of at most `n_left` micro-steps, or until discs are too fast for it.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_left) {
     const Window window = redistribute(n_left);
     {
@@ -163,6 +162,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
     const PhaseClock::Scope scope(phases_, Phase::wait);
     travel_speed_ = communicator_.max(largest_speed_);
     largest_speed_ = refreshed_speed_ > 0 ? std::exchange(refreshed_speed_, 0) : travel_speed_;
+    this->refuse_long_flights(std::max(travel_speed_, largest_speed_));
 }
 
 /// If images move, a disc that comes to another row of boxes has another speed there

@@ -24,6 +24,7 @@
 #include "run/files/run_folder.hpp"
 #include "run/start/restart.hpp"
 #include "run/start/scene_source.hpp"
+#include "scene/effects/effect.hpp"
 #include "scene/limits.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
@@ -170,7 +171,10 @@ void warn_of_units(const RunOptions& options, const Scene& scene,
     if (scene.lines_before_discs > 0) return;
     double fastest = 0;
     for (const InputDisc& disc : discs) fastest = std::max(fastest, std::hypot(disc.vx, disc.vy));
-    const std::string warning = units_warning(ranks.max(fastest), scene);
+    double later = std::max(largest_wall_speed(scene.effects), usual_speed_of_effects(scene));
+    for (const Boundary& side : scene.effects.boundaries)
+        later = std::max({later, std::fabs(side.speed), std::sqrt(side.temperature)});
+    const std::string warning = units_warning(ranks.max(fastest), later, scene);
     if (!warning.empty()) options.messages.warn("{}: warning: {}\n", scene.name, warning);
 }
 

@@ -11,12 +11,14 @@
 //             dv = -rate v dt + sqrt(2 rate kT / m) dW, the process of Ornstein and Uhlenbeck.
 //   rescale   velocities relative to the centre of mass, and spins, are multiplied by the factor
 //             that makes their energy kT for each disc, and kT / 2 more where discs have spins.
+//             Discs that all fly alike, as a single one does, have nothing to be multiplied.
 // Spins count with the moment of inertia in place of the mass. Between sheared sides all velocities
 // are those about the flow.
 //
 // The operations are + - * / and sqrt, so the bits are the same on every machine.
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -187,8 +189,9 @@ public:
             const double turning = at.spins.empty() ? 0 : body.radius * at.spins[i];
             parts[0].add(0.5 * body.mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
         });
-        const double now = energy[0].value();
-        if (!(now > 0)) return;
+        const double now = energy[0].value(), blur = 0x1p-48 * largest;
+        // Discs that all fly alike differ from their mean by roundings, which must not become heat.
+        if (!(now > sums[2].value() * blur * blur)) return;
         const double wanted = n * setting_.temperature * (at.spins.empty() ? 1 : 1.5);
         const double factor = std::sqrt(wanted / now);
         at.in_parts([&](std::size_t begin, std::size_t end) {
@@ -212,6 +215,25 @@ Need kinds(std::string text, Kinds kinds) {
             }};
 }
 
+std::vector<std::pair<std::string_view, std::string_view>> words_of_other_programs() {
+    constexpr std::string_view canonical = "\"langevin\" or \"andersen\", which have the same "
+                                           "equilibrium",
+                               scaled = "\"rescale\"";
+    return {{"nosehoover", canonical},
+            {"nvt", canonical},
+            {"csvr", canonical},
+            {"bussi", canonical},
+            {"berendsen", scaled},
+            {"gaussian", scaled},
+            {"isokinetic", scaled},
+            {"velocityrescaling", scaled},
+            {"vrescale", scaled},
+            {"whitenoise", "\"kicks\""},
+            {"stochastic", "\"kicks\" or \"langevin\""},
+            {"dpd", "\"kicks\", which keep the total momentum"},
+            {"brownian", "\"langevin\""}};
+}
+
 std::vector<Key> keys_of_thermostat() {
     using Kind = ThermostatKind;
     return {
@@ -220,17 +242,7 @@ std::vector<Key> keys_of_thermostat() {
             "ones. Langevin: friction and noise. Rescale: all are multiplied. Between sheared "
             "sides velocities about the flow are meant.",
             [](auto& s) -> auto& { return s.effects.thermostat.kind; })
-            .advises({{"nose-hoover", "\"langevin\" or \"andersen\", which have the same "
-                                      "equilibrium"},
-                      {"nosehoover", "\"langevin\" or \"andersen\", which have the same "
-                                     "equilibrium"},
-                      {"berendsen", "\"rescale\""},
-                      {"gaussian", "\"rescale\""},
-                      {"isokinetic", "\"rescale\""},
-                      {"white-noise", "\"kicks\""},
-                      {"stochastic", "\"kicks\" or \"langevin\""},
-                      {"brownian", "\"langevin\""},
-                      {"velocity-rescaling", "\"rescale\""}}),
+            .advises(words_of_other_programs()),
         key("effects.thermostat.strength", "length^2/step^3",
             "xi^2 of the noise: free discs gain xi^2 of the mean square of each component in a "
             "step.",
@@ -285,11 +297,51 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
+/// The kT that a thermostat brings a gas to; that of kicks if discs are thin and lose energy.
+double temperature_in_the_end(const Scene& scene) {
+    const Thermostat& t = scene.effects.thermostat;
+    if (t.has_temperature()) return t.temperature;
+    const double e = scene.effects.contact.restitution,
+                 density = static_cast<double>(scene.n_discs) / scene.box.area(),
+                 loss = (1 - e * e) * density * 2 * scene.radius * std::sqrt(std::numbers::pi);
+    return loss > 0 ? std::pow(t.strength / loss, 2.0 / 3) : 0;
+}
+
+/// A flow, or discs that lose energy, must not come far from their temperature between two acts.
+void warn_of_rare_acts(const SceneDraft& draft) {
+    Scene& scene = draft.scene;
+    if (!scene.effects.thermostat.is_any() || scene.steps == 0) return;
+    const double interval = steps_between_syncs(scene);
+    if (interval > static_cast<double>(scene.steps)) {
+        scene.warnings.push_back(
+            fmt::format("the thermostat never acts: it would every {:g} steps (time.sync_every), "
+                        "and the run has {}",
+                        interval, scene.steps));
+        return;
+    }
+    constexpr double most = 4;
+    const double density = static_cast<double>(scene.n_discs) / scene.box.area(),
+                 often = 2 * std::sqrt(std::numbers::pi * temperature_in_the_end(scene)) * density *
+                         2 * scene.radius; // of a thin gas; dense ones collide more often
+    const bool changes = scene.effects.are_sheared() || are_pairs_lossy(scene.effects);
+    if (changes && often * interval > most)
+        scene.warnings.push_back(fmt::format(
+            "a disc collides {:.1f} times or more from one act of the thermostat to the next, so "
+            "its temperature changes in between; try: time.sync_every = {:.0f}",
+            often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
+}
+
+/// Velocities that a thermostat gives must be such as discs may have.
 void check_room_of_thermostat(const SceneDraft& draft) {
-    const double speed = std::sqrt(draft.scene.effects.thermostat.temperature);
-    if (const std::string text = speed_problem(speed, draft.scene); !text.empty())
-        draft.refuse({"effects.thermostat.temperature"},
-                     "'effects.thermostat.temperature': " + text);
+    const Thermostat& t = draft.scene.effects.thermostat;
+    const double of_kick = std::sqrt(t.strength * steps_between_syncs(draft.scene));
+    for (const auto& [key, speed] :
+         {std::pair("effects.thermostat.temperature", std::sqrt(t.temperature)),
+          {"effects.thermostat.strength", of_kick}}) {
+        const std::string text = speed_problem(speed, draft.scene);
+        if (!text.empty()) draft.refuse({key}, fmt::format("'{}': {}", key, text));
+    }
+    warn_of_rare_acts(draft);
 }
 
 std::string summary_of_thermostat(const Effects& effects) {

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 
 #include "check/check_failure.hpp"
+#include "core/errors.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -120,6 +121,46 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
         totals = kicked.totals();
         CHECK(totals.momentum_x == Approx(momentum_x).margin(1e-12));
         CHECK(totals.momentum_y == Approx(momentum_y).margin(1e-12));
+    }
+}
+
+// Their mean velocity is a rounding off theirs: that rounding must not be multiplied to a heat.
+TEST_CASE("effects: discs that all fly alike stay so when velocities are rescaled") {
+    const Communicator world = Communicator::world();
+    for (const double mass : {0.1, 0.3, 0.37, 7.7}) {
+        for (const DiscId n : {DiscId{1}, DiscId{3}}) {
+            TestScene scene = empty_scene("a swarm", 40, 1, 20);
+            for (DiscId id = 0; id < n; ++id)
+                add_disc(scene, 5 + 10 * static_cast<double>(id), 20, 0.3, 0.1);
+            scene.setting.sync_every = 2;
+            scene.setting.effects.boundaries.fill(periodic);
+            scene.setting.effects.species = {{n, 1, mass}};
+            scene.setting.effects.thermostat = thermostats()[3];
+            Simulation simulation = simulation_of(scene, Method::event_driven, world);
+            advance_to(simulation, 20);
+            INFO("mass " << mass << ", discs " << n);
+            CHECK(simulation.totals().kinetic_energy ==
+                  Approx(static_cast<double>(n) * mass * 0.05).epsilon(1e-12));
+        }
+    }
+}
+
+TEST_CASE("effects: discs that become too fast to be counted end the run with a sentence") {
+    const Communicator world = Communicator::world();
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        TestScene scene = gas(20, 0.01, 0.1, 647);
+        scene.setting.sync_every = 2;
+        scene.setting.effects.boundaries.fill(periodic);
+        scene.setting.effects.thermostat = {ThermostatKind::kicks, 1e14, 0, 0, 7};
+        scene.steps = 10;
+        std::string text;
+        try {
+            run(scene, method, world);
+        } catch (const CollectiveError& error) {
+            text = error.what();
+        }
+        INFO(text);
+        CHECK(text.find("at step 2 the fastest disc flies") != std::string::npos);
     }
 }
 

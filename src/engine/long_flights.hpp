@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far discs fly from sync to sync in a box with periodic sides. Images are counted in 15 bits
+// (core/image.hpp), so a scene in which they fly further is an error at its start, and ends where
+// discs become too fast later.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/disc.hpp"
+#include "core/image.hpp"
+
+namespace carrom {
+
+/// How many boxes away from home a disc may be after `time` without a wrap, if it is no faster than
+/// `speed`, and than `up` along y. The rows of boxes that it comes to may move, too.
+inline double most_lengths(const Periods& periods, double speed, double up, double time) {
+    const double rows = periods.y == 0 ? 0 : up * time / periods.y;
+    const double along_x = speed + (rows + 1) * std::fabs(periods.speed);
+    return std::max(rows, periods.x == 0 ? 0 : along_x * time / periods.x);
+}
+
+/// The largest speed along y of some discs.
+inline double fastest_up(std::span<const Disc> discs) {
+    double fastest = 0;
+    for (const Disc& disc : discs) fastest = std::max(fastest, std::fabs(disc.vy));
+    return fastest;
+}
+
+} // namespace carrom
