@@ -11,7 +11,7 @@
 #   FOLDER      where all is kept; default: build/emulated/PROCESSOR
 #   RANKS       ranks of each run; default 1, because emulated ranks do not share memory everywhere
 #   THREADS     threads of each rank; default 2
-#   SCENES      files of inputs/ that run, as in 'gas.toml tiny.in'; default: all, which takes hours
+#   SCENES      files of inputs/ that run, as in 'gas.toml tiny.in'; default: all
 #   FINGERPRINT `no` leaves out the random scenes, which take hours under emulation
 #   QEMU_CPU    another model of the processor: cortex-a72 is an aarch64 with NEON and without SVE
 #   TABLE       the file for the table of hashes; default FOLDER/hashes.csv
