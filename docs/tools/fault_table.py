@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Write the fault table of docs/understanding/hard-cases.md from what tests have done.
 
-    ctest --test-dir build -C long -L faults --output-junit faults.xml
+    ctest --test-dir build -C long -L faults --output-junit faults.xml \\
+        --test-output-size-passed 1000000
     python3 docs/tools/fault_table.py build build/faults.xml docs/understanding/hard-cases.md
 
 Only tests that the XML file names get a row, with the outcome that it gives them. Trials are

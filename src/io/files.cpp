@@ -78,8 +78,9 @@ std::string described(const FileError& error, const std::string& path, ExitCode&
 }
 
 // Opens without waiting for the other end of a pipe, because only plain files are accepted.
-Descriptor::Descriptor(const std::string& path, int flags)
-    : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
+Descriptor::Descriptor(const std::string& path, int flags) {
+    if (path.find('\0') != std::string::npos) throw FileError("is no file's name");
+    number_ = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666);
     if (number_ < 0) fail_with_errno("cannot be opened");
     struct stat status{};
     if ((flags & O_DIRECTORY) != 0 || (::fstat(number_, &status) == 0 && S_ISREG(status.st_mode)))

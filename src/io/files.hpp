@@ -56,7 +56,7 @@ public:
     void start_sync() const;
 
 private:
-    int number_;
+    int number_ = -1;
 };
 
 /// Whether the path leads to the open file `number`, not to another one that has taken its name.

@@ -146,6 +146,7 @@ void SegmentedFile::cut(std::uint64_t n_rows) {
 void SegmentedFile::open_segment() {
     open_ = std::make_unique<Descriptor>(segment_path(path_, segments().back().name),
                                          O_WRONLY | O_NOFOLLOW);
+    open_size_ = open_->size();
 }
 
 void SegmentedFile::make_segment() {
@@ -238,9 +239,9 @@ void SegmentedFile::commit() {
 void SegmentedFile::sync_segment() const {
     if (segments().empty()) return;
     const std::string path = segment_path(path_, segments().back().name);
-    if (!leads_to(path, open_->number()))
-        throw FileError(fmt::format("its part {} was moved, removed or replaced while the run "
-                                    "wrote there; bring it back, then go on by --resume",
+    if (!leads_to(path, open_->number()) || open_->size() != open_size_)
+        throw FileError(fmt::format("its part {} was moved, removed, replaced or cut short while "
+                                    "the run wrote there; bring it back, then go on by --resume",
                                     segments().back().name));
     open_->sync();
     Descriptor(folder_of(path), O_RDONLY | O_DIRECTORY).sync();

@@ -107,6 +107,7 @@ private:
     std::vector<std::uint64_t> written_; ///< by column: bytes since the last `add`
     /// The last segment. It stays open, so that no file that takes its name is written to.
     std::unique_ptr<Descriptor> open_;
+    std::uint64_t open_size_ = 0;   ///< in bytes, all its room, which does not change
     std::optional<StateHash> seal_; ///< the end of the small file, once it is ours
     std::string failure_;
 };

@@ -161,6 +161,8 @@ void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
             {"keep_checkpoints", 0, fmt::format("{} = {}; {}", key, number, accepted)});
     };
     if (live().checkpoints) problems.push_back({"keep_checkpoints", 0, "has been called before"});
+    if (schedule.folder.find('\0') != std::string::npos)
+        problems.push_back({"keep_checkpoints", 0, "no folder has a NUL in its name"});
     if (schedule.folder.empty()) problems.push_back({"keep_checkpoints", 0, "names no folder"});
     if (schedule.every_steps < 0) refuse("every_steps", schedule.every_steps, "0 or more steps");
     if (!(schedule.every_minutes >= 0))

@@ -35,9 +35,14 @@ constexpr double longest_stretch = 1e15; // steps
 Checkpoints::Checkpoints(Run& run, std::optional<CheckpointOutput> wanted)
     : run_(run), ranks_(run.ranks()), wanted_(std::move(wanted)), last_agreed_(run.step()) {
     if (!wanted_ || !run.is_restart()) return;
-    last_written_ = run.step();
     kept_ = earlier_checkpoints(wanted_->folder, run.scene(), run.step(), ranks_);
-    kept_.push_back(checkpoint_path(wanted_->folder, run.step()));
+    const std::string first = checkpoint_path(wanted_->folder, run.step());
+    std::error_code ignored;
+    // A run that has gone on from another folder has none of its first step here.
+    if (ranks_.any(ranks_.is_root() && std::filesystem::exists(first, ignored))) {
+        last_written_ = run.step();
+        kept_.push_back(first);
+    }
     if (!ranks_.is_root()) return;
     remove_unfinished(wanted_->folder); // left by a run that was killed
 }

@@ -29,8 +29,8 @@ namespace carrom {
 class Checkpoints : public StepAction {
 public:
     /// Stores the state of `run` in the folder of `wanted`. Without `wanted` it only
-    /// sees requests to stop. A run that has gone on from a checkpoint has one of its
-    /// first step. `run` must outlive this. **Collective.**
+    /// sees requests to stop. A run that has gone on from a checkpoint of that folder has one
+    /// of its first step. `run` must outlive this. **Collective.**
     Checkpoints(Run& run, std::optional<CheckpointOutput> wanted);
     ~Checkpoints() {
         if (removal_.valid()) removal_.wait();

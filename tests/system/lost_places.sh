@@ -76,6 +76,11 @@ for ranks in 1 3; do
         expect_told "$name" "$name is replaced, $ranks ranks"
         cmp mine "kept/$name" || complain "$name of somebody was written to, $ranks ranks"
     done
+
+    begin "$ranks"
+    : >kept/trajectory/0001.h5
+    ends 'trajectory/0001.h5 was moved, removed, replaced or cut short while the run wrote there' \
+        "a segment that is emptied, $ranks ranks"
 done
 begin 1 --set output.text=every_step --output lines.txt
 rm lines.txt

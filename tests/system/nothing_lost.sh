@@ -222,6 +222,15 @@ for k in 1 2; do
     expect_code 0 "tables that a run has written, $k"
 done
 
+# A run that goes on from another folder has a checkpoint in its own, even at its first step.
+for ranks in 1 3; do
+    rm -rf branch
+    run "$ranks" run --restart kept -o branch --steps 20 --quiet
+    expect_code 0 "a branch that ends where it begins, on $ranks ranks"
+    run "$ranks" run -o branch --resume --steps 24 --quiet
+    expect_code 0 "going on with a branch that ended where it began, on $ranks ranks"
+done
+
 # A run that ends before the recordings that it goes on with drops what is beyond, and says so.
 rm -rf part
 cp -r kept part

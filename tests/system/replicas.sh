@@ -57,6 +57,21 @@ expect_code 0 'one is missing, one is new'
     complain 'a replica that was made again is another'
 [ "$(wc -l <all1/replicas.csv)" -eq 7 ] || complain 'not six replicas'
 
+# A damaged report is made anew from the replica's checkpoint, or is an error that names it.
+cp all1/0001/report.json whole_report.json
+for damage in 's/"first_step": [0-9]*/"first_step": "x"/' 's/"steps": [0-9]*/"steps": null/' '5q'; do
+    sed "$damage" whole_report.json >all1/0001/report.json
+    run 2 replicas "${scene[@]}" --count 6 -o all1 --quiet
+    expect_code 0 "a damaged report: $damage"
+    [ "$(json_value all1/0001/report.json state_hash)" = \
+        "$(json_value whole_report.json state_hash)" ] || complain "another replica: $damage"
+done
+sed 's/"state_hash": "[^"]*"/"state_hash": 5/' whole_report.json >all1/0001/report.json
+run 2 replicas "${scene[@]}" --count 6 -o all1 --quiet
+expect_code 2 'a report without a state hash'
+expect_told 'all1/0001/report.json: is no whole report' 'a report without a state hash'
+cp whole_report.json all1/0001/report.json
+
 run 3 replicas "${scene[@]}" --count 6 -o all1 --set discs.packing=0.3
 expect_code 2 'another scene in the same folder'
 run 3 replicas "${scene[@]}" --count 0 -o none --set discs.colour=red

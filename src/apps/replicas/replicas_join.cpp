@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,7 +67,9 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
 Json read_report(const std::string& folder) {
     std::ifstream file(report_of_run(folder));
     Json report = Json::parse(file, nullptr, false);
-    if (!report.is_object())
+    const bool is_whole = report.is_object() && report.contains("state_hash") &&
+                          report["state_hash"].is_string();
+    if (!is_whole)
         throw InputError({{report_of_run(folder), 0, "is no whole report; remove it and go on"}});
     return report;
 }
@@ -84,7 +87,7 @@ std::string lines_of_replicas(const std::vector<Replica>& replicas,
         text += fmt::format(",{}", quantity.name);
     for (std::size_t k = 0; k < reports.size(); ++k) {
         text += fmt::format("\n{},{},{}", k, replicas[k].seed,
-                            reports[k].value("state_hash", std::string()));
+                            reports[k]["state_hash"].get<std::string>());
         for (const AveragedColumn& quantity : averaged_columns)
             text += ',' + field(value_in(reports[k], quantity));
     }
@@ -136,6 +139,7 @@ private:
             const bool has_it = report.contains("measurements") &&
                                 report["measurements"].contains(name_) &&
                                 table_of(report).contains(column) &&
+                                table_of(report)[column].is_array() &&
                                 table_of(report)[column].size() == n_rows;
             is_whole_ = is_whole_ && has_it;
         }
@@ -165,9 +169,17 @@ private:
 std::optional<std::int64_t> last_step_reported(const std::string& folder) {
     std::ifstream file(report_of_run(folder));
     const Json report = Json::parse(file, nullptr, false);
-    if (!report.is_object() || !report.contains("first_step") || !report.contains("steps"))
-        return std::nullopt;
-    return report["first_step"].get<std::int64_t>() + report["steps"].get<std::int64_t>();
+    // A damaged report is none: the replica goes on from its checkpoint and writes a new one.
+    std::int64_t last = 0;
+    for (const char* key : {"first_step", "steps"}) {
+        if (!report.is_object() || !report.contains(key) || !report[key].is_number_integer())
+            return std::nullopt;
+        const auto number = report[key].get<std::int64_t>();
+        if (number < 0 || number > std::numeric_limits<std::int64_t>::max() - last)
+            return std::nullopt;
+        last += number;
+    }
+    return last;
 }
 
 std::string join_replicas(const std::vector<Replica>& replicas, const std::string& folder) {

@@ -111,6 +111,10 @@ TEST_CASE("checkpoints are written on a schedule, and the newest of a folder is 
         [&] { other.keep_checkpoints({.folder = "", .every_steps = -1, .keep = 0}); });
     for (const char* wrong : {"folder", "every_steps = -1", "keep = 0"})
         CHECK(problems.find(wrong) != std::string::npos);
+    const std::string cut = folder.file("cut") + std::string("\0off", 4);
+    CHECK(problems_of([&] { other.keep_checkpoints({.folder = cut}); }).find("NUL") !=
+          std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.file("cut")));
     if (session.is_root()) std::ofstream(folder.file("plain")) << "a file";
     MPI_Barrier(MPI_COMM_WORLD);
     CHECK(code_of([&] { other.keep_checkpoints({.folder = folder.file("plain") + "/inside"}); }) ==
