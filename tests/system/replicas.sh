@@ -59,7 +59,8 @@ expect_code 0 'one is missing, one is new'
 
 # A damaged report is made anew from the replica's checkpoint, or is an error that names it.
 cp all1/0001/report.json whole_report.json
-for damage in 's/"first_step": [0-9]*/"first_step": "x"/' 's/"steps": [0-9]*/"steps": null/' '5q'; do
+for damage in 's/"first_step": [0-9]*/"first_step": "x"/' 's/"steps": [0-9]*/"steps": null/' \
+    '5q'; do
     sed "$damage" whole_report.json >all1/0001/report.json
     run 2 replicas "${scene[@]}" --count 6 -o all1 --quiet
     expect_code 0 "a damaged report: $damage"
