@@ -81,7 +81,7 @@ def instructions(program, kind, name="", every=1):
             with open(f"{folder}/scene.toml", "a", encoding="utf-8") as file:
                 file.write(SETTINGS_OF[name])
         command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-                   "--collect-atstart=no", "--toggle-collect=carrom::Simulation::advance_towards*",
+                   "--collect-atstart=no", "--toggle-collect=carrom::EngineBase*::advance_towards*",
                    "--toggle-collect=carrom::Sampler::act*", program, "run",
                    f"{folder}/scene.toml", "--quiet", "--threads", "1", "-o", f"{folder}/run"]
         result = subprocess.run(command, check=True, capture_output=True, text=True, timeout=600,
