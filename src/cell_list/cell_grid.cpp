@@ -23,9 +23,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Resizes without much spare memory. Windows of many lengths have cells of many
 /// sizes, so the memory of the smallest cells is not kept for all, and a few more
 /// cells than last time do not take twice the memory. The old numbers may be lost.
-template <class T> void resize_close(std::vector<T>& numbers, std::size_t size) {
+template <class Numbers> void resize_close(Numbers& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
-        std::vector<T>().swap(numbers);
+        Numbers().swap(numbers);
         numbers.reserve(size + size / 8);
     }
     numbers.resize(size);
@@ -139,7 +139,7 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, dou
     anchor_ = time;
     has_flights_ = false;
     sort(own, n_threads, companions);
-    std::vector<float>().swap(lanes_); // only the sorter used them
+    RawVector<float>().swap(lanes_); // only the sorter used them
 }
 
 void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
@@ -150,17 +150,27 @@ void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& compan
     halo_order_.clear();
     n_own_ = own.size();
     lane_length_ = n_own_ + filter_padding;
-    resize_close(lanes_, (has_flights_ ? 4 : 2) * lane_length_);
     resize_close(cell_start_, static_cast<std::size_t>(geometry_.n_columns) * rows() + 1);
+    // Several threads count in the memory behind the second lane. It is there at once, because to
+    // grow later means to copy the lanes.
+    const std::size_t n_counts = n_threads > 1 ? cell_start_.size() + cell_start_.size() / 8 : 0;
+    resize_close(lanes_, std::max<std::size_t>(has_flights_ ? 4 * lane_length_ : 0,
+                                               2 * lane_length_ + n_counts));
     with_places(periods_, [&](const auto& places) { sort(places, own, n_threads, companions); });
 }
 
-void CellGrid::sort_columns(SideColumns& columns, Lent order) const {
+void CellGrid::sort_columns(SideColumns& columns, Lent order, int n_threads) const {
     columns.for_each([&](SideColumn column) {
         std::vector<double>& values = columns[column];
         ensure(values.size() == n_own_, "a side column is as long as the own discs");
-        const std::vector<double> before = values;
-        for (std::size_t i = 0; i < n_own_; ++i) values[i] = before[order[i]];
+        RawVector<double> before(n_own_);
+#pragma omp parallel num_threads(n_threads)
+        {
+#pragma omp for schedule(static)
+            for (std::size_t i = 0; i < n_own_; ++i) before[i] = values[i];
+#pragma omp for schedule(static)
+            for (std::size_t i = 0; i < n_own_; ++i) values[i] = before[order[i]];
+        }
     });
 }
 
@@ -178,7 +188,7 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
                    static_cast<std::uint32_t>(cell.row);
         },
         static_cast<std::size_t>(geometry_.n_columns), n_threads, cell_start_, memory);
-    if (companions.columns) sort_columns(*companions.columns, memory.order());
+    if (companions.columns) sort_columns(*companions.columns, memory.order(), n_threads);
     const auto place_flight = [&](std::size_t i) {
         if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]);
     };
@@ -252,7 +262,7 @@ void CellGrid::set_apart(double speed) {
     const auto longest = static_cast<float>(flight * flight);
     std::vector<float> kept; // four numbers for each disc
     float longest_squared = 0;
-    const auto take_apart = [&](std::vector<float>& lanes, std::size_t length, std::size_t n_slots,
+    const auto take_apart = [&](auto& lanes, std::size_t length, std::size_t n_slots,
                                 const auto& index_of) {
         if (n_slots == 0) return;
         float *x = lanes.data(), *y = x + length, *vx = y + length, *vy = vx + length;

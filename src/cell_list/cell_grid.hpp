@@ -19,6 +19,7 @@
 #include "core/disc.hpp"
 #include "core/extent.hpp"
 #include "core/image.hpp"
+#include "core/raw_vector.hpp"
 #include "core/side_columns.hpp"
 
 namespace carrom {
@@ -203,12 +204,12 @@ public:
 private:
     static constexpr std::uint32_t no_halo = ~std::uint32_t{0};
 
-    static FlightLanes lanes_of(const std::vector<float>& lanes, std::size_t length) {
+    template <class Lanes> static FlightLanes lanes_of(const Lanes& lanes, std::size_t length) {
         const float* x = lanes.data();
         return {x, x + length, x + 2 * length, x + 3 * length};
     }
-    SlotRange run_from(const std::vector<std::uint32_t>& starts, std::size_t base, int first_row,
-                       int last_row) const {
+    template <class Starts>
+    SlotRange run_from(const Starts& starts, std::size_t base, int first_row, int last_row) const {
         const int low = first_row < 0 ? 0 : first_row;
         const int high = last_row >= geometry_.n_rows ? geometry_.n_rows - 1 : last_row;
         return {starts[base + static_cast<std::size_t>(low)],
@@ -230,7 +231,7 @@ private:
     template <class Places>
     void sort(const Places& places, std::span<Disc> own, int n_threads,
               const Companions& companions);
-    void sort_columns(SideColumns& columns, Lent order) const;
+    void sort_columns(SideColumns& columns, Lent order, int n_threads) const;
     template <class Places> Cell cell_at(const Places& places, const Disc& disc) const;
     template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
     template <class Places>
@@ -242,9 +243,9 @@ private:
     double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;
     std::size_t n_own_ = 0;
-    std::vector<std::uint32_t> cell_start_; ///< by cell, with an end
-    std::size_t lane_length_ = 0;           ///< own discs and padding for whole vectors
-    std::vector<float>
+    RawVector<std::uint32_t> cell_start_; ///< by cell, with an end
+    std::size_t lane_length_ = 0;         ///< own discs and padding for whole vectors
+    RawVector<float>
         lanes_; ///< x, y, vx, vy by own disc, one array after the other; the sorter borrows it
     DiscSorter sorter_;
 

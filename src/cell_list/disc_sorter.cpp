@@ -92,7 +92,7 @@ void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit&
 }
 
 /// Turns the sorters' counts into the places of their next discs.
-void DiscSorter::turn_into_places(std::vector<std::uint32_t>& cell_start, Lent all_counts) {
+void DiscSorter::turn_into_places(RawVector<std::uint32_t>& cell_start, Lent all_counts) {
     const std::size_t n_cells = cell_start.size() - 1;
     const auto n_shares = static_cast<std::size_t>(n_threads_);
     std::vector<std::uint32_t> starts(n_shares + 1, 0); // the first cells of the shares
@@ -157,15 +157,16 @@ void DiscSorter::set_travellers_aside(std::span<const Disc> discs, SortMemory me
 }
 
 void DiscSorter::rearrange(std::initializer_list<std::span<Disc>> arrays, SortMemory memory) {
-    std::vector<std::uint32_t> order(n_discs_);
-    std::memcpy(order.data(), memory.lanes.data() + memory.lane_length,
-                n_discs_ * sizeof(std::uint32_t));
+    RawVector<std::uint32_t> order(n_discs_);
+    const Lent old_order = memory.order();
+#pragma omp parallel for num_threads(n_threads_) schedule(static)
+    for (std::size_t i = 0; i < n_discs_; ++i) order[i] = old_order[i];
     // A quarter of each state at a time goes through the lanes, so that no second array of states
     // is needed.
     constexpr std::size_t quarter = sizeof(Disc) / 4;
     static_assert(quarter == 4 * sizeof(float));
     if (memory.lanes.size() < 4 * memory.lane_length) {
-        std::vector<float>().swap(memory.lanes); // so that the old lanes do not exist beside them
+        RawVector<float>().swap(memory.lanes); // so that the old lanes do not exist beside them
         memory.lanes.resize(4 * memory.lane_length);
     }
     auto* lent = reinterpret_cast<std::byte*>(memory.lanes.data());

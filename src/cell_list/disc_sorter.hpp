@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/disc.hpp"
+#include "core/raw_vector.hpp"
 
 namespace carrom {
 
@@ -36,7 +37,7 @@ private:
 /// The memory that sorting borrows: lanes of `lane_length` numbers. The first lane
 /// holds each disc's cell, the second the order, and the rest holds counts.
 struct SortMemory {
-    std::vector<float>& lanes;
+    RawVector<float>& lanes;
     std::size_t lane_length = 0;
 
     Lent cells() const { return Lent(lanes.data()); }
@@ -51,7 +52,7 @@ public:
     /// and the end, to `cell_start`. `n_columns` is the number of stretches of cells.
     template <class CellOf>
     void find_order(std::span<const Disc> discs, const CellOf& find_cell, std::size_t n_columns,
-                    int n_threads, std::vector<std::uint32_t>& cell_start, SortMemory memory) {
+                    int n_threads, RawVector<std::uint32_t>& cell_start, SortMemory memory) {
         begin(discs.size(), n_columns, n_threads);
         if (n_threads == 1)
             order_alone(discs, find_cell, cell_start, memory);
@@ -91,13 +92,13 @@ private:
     void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);
     template <class CellOf>
     void order_alone(std::span<const Disc> discs, const CellOf& find_cell,
-                     std::vector<std::uint32_t>& cell_start, SortMemory memory);
+                     RawVector<std::uint32_t>& cell_start, SortMemory memory);
     template <class CellOf>
     void order_together(std::span<const Disc> discs, const CellOf& find_cell,
-                        std::vector<std::uint32_t>& cell_start, SortMemory memory);
+                        RawVector<std::uint32_t>& cell_start, SortMemory memory);
     template <class CellOf>
     void find_cells(std::span<const Disc> discs, const CellOf& find_cell, SortMemory memory);
-    void turn_into_places(std::vector<std::uint32_t>& cell_start, Lent all_counts);
+    void turn_into_places(RawVector<std::uint32_t>& cell_start, Lent all_counts);
     void share_out(std::size_t n_discs, std::size_t n_sorters);
     bool make_room_for_counts(std::size_t n_cells, SortMemory memory);
     template <class Visit>

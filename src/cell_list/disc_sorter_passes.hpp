@@ -20,7 +20,7 @@ inline void ask_ahead(const Disc& disc) {
 /// Counting sort by one thread. It reads states in the order in which they lie in memory.
 template <class CellOf>
 void DiscSorter::order_alone(std::span<const Disc> discs, const CellOf& find_cell,
-                             std::vector<std::uint32_t>& cell_start, SortMemory memory) {
+                             RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     Lent cell_of = memory.cells(), order = memory.order();
     std::fill(cell_start.begin(), cell_start.end(), 0u);
     std::uint32_t* next = cell_start.data() +
@@ -71,7 +71,7 @@ void DiscSorter::find_cells(std::span<const Disc> discs, const CellOf& find_cell
 /// so all counts together are hardly more than the cells.
 template <class CellOf>
 void DiscSorter::order_together(std::span<const Disc> discs, const CellOf& find_cell,
-                                std::vector<std::uint32_t>& cell_start, SortMemory memory) {
+                                RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     find_cells(discs, find_cell, memory);
     are_in_disorder_ = !make_room_for_counts(cell_start.size() - 1, memory);
     const Lent cell_of = memory.cells(), all_counts = memory.counts();

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vector of numbers that does not fill new elements with zeros. The thread that resizes would
+// write them all, while the others wait, and their memory would be near that thread's processor.
+// So the threads that use the elements write them first.
+#pragma once
+
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace carrom {
+
+template <class T> struct RawAllocator : std::allocator<T> {
+    static_assert(std::is_arithmetic_v<T>);
+
+    template <class U> struct rebind {
+        using other = RawAllocator<U>;
+    };
+    template <class U> void construct(U* place) { ::new (static_cast<void*>(place)) U; }
+    template <class U, class... Arguments> void construct(U* place, Arguments&&... arguments) {
+        ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+    }
+};
+
+/// `resize(n)` leaves new elements undefined, `resize(n, value)` sets them.
+template <class T> using RawVector = std::vector<T, RawAllocator<T>>;
+
+} // namespace carrom
