@@ -77,6 +77,24 @@ void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const C
         scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
 }
 
+std::string warning_of_narrow_strips(const Scene& scene, int n_ranks, int n_threads) {
+    // A strip of 15 mean distances of discs has as many discs in its halos
+    // (docs/how-to/cluster.md). A few ranks are rather a test, or all that a small machine has.
+    constexpr double least_width = 15;
+    constexpr int few_ranks = 8;
+    const double spacings = std::sqrt(static_cast<double>(scene.n_discs) * scene.box.longest() /
+                                      scene.box.shortest());
+    const double most_ranks = std::max(1.0, std::floor(spacings / least_width));
+    if (scene.method != Method::event_driven || n_ranks < few_ranks || n_ranks <= most_ranks)
+        return "";
+    const double n_cores = static_cast<double>(n_ranks) * n_threads;
+    const double threads = std::ceil(n_cores / most_ranks);
+    return fmt::format("{} ranks cut {} discs into narrow strips, so more than half of the work is "
+                       "done twice; try: {:.0f} ranks with --threads {:.0f}",
+                       n_ranks, scene.n_discs, std::max(1.0, std::floor(n_cores / threads)),
+                       threads);
+}
+
 void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages) {
     const auto pairs = [](std::uint64_t count) {
         return count == 1 ? std::string("1 pair") : fmt::format("{} pairs", count);

@@ -3,6 +3,8 @@
 // lose discs (docs/understanding/hard-cases.md).
 #pragma once
 
+#include <string>
+
 #include "parallel/communicator.hpp"
 #include "run/messages.hpp"
 #include "scene/scene.hpp"
@@ -19,5 +21,10 @@ void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const C
 /// Warns of discs at the scene's start whose fate rounding or the order of ids decides: they
 /// overlap (in the time-stepped method), touch several others, or slide along each other.
 void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages);
+
+/// Returns a warning if the ranks' strips are so narrow that more discs lie in halos than in
+/// strips, and an empty text otherwise. The time-stepped method gets none, because its halos are
+/// not as deep.
+std::string warning_of_narrow_strips(const Scene& scene, int n_ranks, int n_threads);
 
 } // namespace carrom
