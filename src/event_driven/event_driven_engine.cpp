@@ -117,11 +117,17 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     return window;
 }
 
+/// The largest speed at the window's start. After a window, its validation has found that for all
+/// ranks. **Collective.**
+template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() const {
+    return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
+}
+
 /// The largest speed goes up and down, so the last window's bound is kept for a while. Speeds in
 /// the falling frame grow, also those of discs at rest on a floor.
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
-    const double now = communicator_.max(largest_speed_) * block_tuning_.speed_allowance;
+    const double now = largest_of_all() * block_tuning_.speed_allowance;
     const double soon = std::min(time_ + 2 * last_duration_, target);
     return std::max(now, 0.99 * travel_speed_) +
            (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
@@ -133,7 +139,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() {
     const double growth = dynamics_.growth_at(time_);
     const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
     if (!(per_micro_step > 0)) return;
-    const double fastest = communicator_.max(largest_speed_);
+    const double fastest = largest_of_all();
     if (time_ == 0 || n_windows_ == 0)
         first_speed_ = std::max(fastest, dynamics_.diameter() * per_micro_step);
     if (fastest <= jam_heating * first_speed_) return;
@@ -165,7 +171,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
     if (n_windows_ > 0)
-        collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) /
+        collision_rate_ = static_cast<double>(reduced_.sums[4]) /
                           (std::max(n, 1.0) * last_duration_);
     else if (const double largest = communicator_.max(largest_speed_); largest > 0)
         collision_rate_ = guessed_collision_rate(
@@ -349,10 +355,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
         for (std::size_t i = 0; i < outcome.hit.size(); ++i)
             discs_.columns().copy(outcome.hit[i], outcome.columns, i);
     }
-    n_events_ = 0;
     largest_speed_ = 0;
     for (const Block& block : blocks_) {
-        n_events_ += block.outcome.n_events;
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
         if (this->stress_) *this->stress_ += block.outcome.stress;
         if (this->is_followed()) log_events(block.outcome);
@@ -360,10 +364,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     }
     for (Block& block : blocks_) block.has_run = false;
     last_duration_ = window_.duration();
+    is_largest_known_ = true;
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
+    is_largest_known_ = false; // a sync may change speeds
     jumped_ += dynamics_.jump_at(discs_.strips().axis(), time_);
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }

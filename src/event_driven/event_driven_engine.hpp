@@ -23,6 +23,7 @@
 #include "engine/engine_base.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
+#include "parallel/joint_reduction.hpp"
 
 namespace carrom {
 
@@ -68,6 +69,7 @@ private:
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
     double speed_bound_until(double target) const;
+    double largest_of_all() const;
     void refuse_jam();
     void shorten();
     void redistribute();
@@ -106,8 +108,12 @@ private:
                           ///< its blocks; equal on all ranks
     double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
     Caution caution_;
-    std::uint64_t n_events_ = 0; ///< on this rank in the last window
-    RollbackCounts counts_;      ///< its counts of blocks are of this rank alone
+    /// What validation has found for the last window on all ranks: how many ranks had a disc that
+    /// was too fast, blocks to run again, cascades, requests to stop, events; and the largest speed
+    /// at its end. One message carries all, because in each all ranks wait for the slowest.
+    JointReduction reduced_;
+    bool is_largest_known_ = false; ///< `reduced_` has the largest speed of all ranks
+    RollbackCounts counts_;         ///< its counts of blocks are of this rank alone
 
     BlockChoice choice_;
     BlockWindow window_;

@@ -31,16 +31,25 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
         n_marked += block.is_marked;
         n_cascades += block.outcome.is_cascade;
     }
-    std::uint64_t updates[] = {is_too_fast ? 1u : 0u, n_marked, n_cascades,
-                               is_stop_overdue() ? 1u : 0u};
+    reduced_ = {};
+    std::uint64_t n_events = 0;
+    for (const Block& block : blocks_) {
+        n_events += block.outcome.n_events;
+        reduced_.largest = std::max(reduced_.largest, block.outcome.largest_speed_at_end);
+    }
+    reduced_.sums = {is_too_fast ? 1u : 0u, n_marked, n_cascades, is_stop_overdue() ? 1u : 0u,
+                     n_events};
     if (communicator_.size() > 1) {
         const PhaseClock::Scope wait(phases_, Phase::wait);
-        communicator_.sum(updates);
+        reduce(reduced_, communicator_);
     }
-    if (updates[3] > 0) throw StopRequested("stopped on request inside a step");
-    if (updates[0] > 0) return Verdict::too_fast;
-    if (updates[2] > 0) fail_on_cascade();
-    if (!block_tuning_.is_validated || updates[1] + updates[2] == 0) return Verdict::exact;
+    const auto& [n_too_fast, n_marked_of_all, n_cascades_of_all, n_stops, n_events_of_all] =
+        reduced_.sums;
+    if (n_stops > 0) throw StopRequested("stopped on request inside a step");
+    if (n_too_fast > 0) return Verdict::too_fast;
+    if (n_cascades_of_all > 0) fail_on_cascade();
+    if (!block_tuning_.is_validated || n_marked_of_all + n_cascades_of_all == 0)
+        return Verdict::exact;
     const PhaseClock::Scope exchange(phases_, Phase::exchange);
     std::vector<LocalIndex> reported;
     discs_.report_to_owners(foreign, reported);

@@ -2,14 +2,31 @@
 // Reductions, broadcasts and gathers against what each rank can work out alone.
 #include "parallel/communicator.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "catch.hpp"
 
 #include "core/exact_sum.hpp"
+#include "parallel/joint_reduction.hpp"
 
 using carrom::Communicator;
+
+TEST_CASE("sums and a largest value are reduced together") {
+    const Communicator world = Communicator::world();
+    const auto n = static_cast<std::uint64_t>(world.size()),
+               rank = static_cast<std::uint64_t>(world.rank());
+    carrom::JointReduction values;
+    values.sums = {1, rank, 0, std::uint64_t{1} << 60, rank * rank};
+    values.largest = world.rank() == world.size() / 2 ? 2.5 : 0.5;
+    const std::uint64_t n_before = world.traffic().collectives;
+    reduce(values, world);
+    CHECK(world.traffic().collectives == n_before + 1);
+    CHECK(values.sums == std::array<std::uint64_t, 5>{n, n * (n - 1) / 2, 0, n << 60,
+                                                      (n - 1) * n * (2 * n - 1) / 6});
+    CHECK(values.largest == 2.5);
+}
 
 TEST_CASE("reductions give every rank the value over all ranks") {
     const Communicator world = Communicator::world();
