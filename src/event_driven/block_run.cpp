@@ -235,6 +235,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
         cascade_begin = event.time;
         cascade = 0;
     }
+    ++outcome->n_carried;
     if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
     const bool is_corner = event.q == x_wall && dynamics.y_wall_time(discs[event.p]) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy

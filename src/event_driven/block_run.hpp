@@ -24,6 +24,7 @@
 #include "dynamics/all_dynamics.hpp"
 #include "engine/pair_event.hpp"
 #include "engine/stress_sums.hpp"
+#include "event_driven/block_cuts.hpp"
 #include "event_driven/box_layout.hpp"
 #include "event_driven/size_levels.hpp"
 
@@ -45,12 +46,6 @@ struct BlockWindow {
 /// The largest distance that two discs can have at the start of a window in which they meet.
 /// `n_reach` cells must cover it.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
-
-/// Cells [first, end) of a grid's frame.
-struct CellBlock {
-    int first_column = 0, end_column = 0;
-    int first_row = 0, end_row = 0;
-};
 
 /// The data that all blocks of a rank share.
 struct BlockGround {
@@ -134,10 +129,12 @@ struct BlockOutcome {
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::vector<PairEvent> pairs;
-    std::uint64_t n_events = 0; ///< number of events whose first disc is own
-    StressSums stress{1};       ///< sums over these events
-    double work = 0;            ///< done by moving images in these events
-    double too_fast = 0;        ///< the largest speed of an own disc that got too far, or 0
+    std::uint64_t n_events = 0;  ///< number of events whose first disc is own
+    std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
+    std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
+    StressSums stress{1};        ///< sums over these events
+    double work = 0;             ///< done by moving images in these events
+    double too_fast = 0;         ///< the largest speed of an own disc that got too far, or 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
                             ///< has met, or 0
     double largest_speed_at_end = 0;

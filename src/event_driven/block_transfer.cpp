@@ -20,7 +20,7 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->ring.clear();
     outcome->log.clear();
     outcome->pairs.clear();
-    outcome->n_events = 0;
+    outcome->n_events = outcome->n_carried = outcome->n_seen = 0;
     outcome->work = 0;
     outcome->stress = ground.no_stress;
     outcome->is_cascade = false;
@@ -30,6 +30,7 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
 /// Copies the listed discs into the block's slots, cell by cell.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     const std::size_t n = indices.size();
+    outcome->n_seen = n;
     discs.resize(n);
     if (!has_sizes)
         runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);

@@ -20,6 +20,12 @@ constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tr
 /// Discs in a block with its halo. They need not all stay in the cache, because most of them are
 /// compared only once.
 constexpr double discs_in_cache = 24000;
+/// For each thread and window: what it waits at barriers and for messages (an estimate).
+constexpr double cost_per_window = 50000;
+constexpr int most_blocks_per_thread = 8;
+/// A block's work differs by this share from what its cells and discs foretell, for the worst of
+/// many. A run that is repeated with twice the halo takes this many times as long.
+constexpr double unforeseen = 0.1, repeated_run = 1.6;
 constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision rate is estimated
 /// Ratio of diameter to reach below which two reaches of halo are enough: if discs fly far compared
 /// with their size, few chains of collisions lead further than that in a window.
@@ -33,15 +39,58 @@ constexpr int most_more = 2;   ///< reaches
 constexpr int long_calm = 200; ///< windows without a repeated run before a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
-/// The mean distance of discs.
+/// The mean distance of discs where they are.
 double spacing_of(const BlockNeeds& needs) {
-    const double n = needs.n_discs + 1;
+    const double n = needs.n_discs * needs.crowding + 1;
     return needs.box.is_square() ? needs.box.x / std::sqrt(n)
                                  : std::sqrt(needs.box.x / n) * std::sqrt(needs.box.y);
 }
 
 BlockWindow window_of(const BlockNeeds& needs, double duration) {
     return {needs.time, needs.time + duration, false, needs.speed_bound};
+}
+
+/// The discs of a run with its halo divided by its own discs.
+double share_seen(const BlockNeeds& needs, const BlockChoice& choice) {
+    if (needs.is_one_block) return 1;
+    const double halo = choice.halo * choice.reach;
+    const auto along = [&](double length, bool goes_round) {
+        const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
+        return (goes_round ? seen : std::min(seen, length)) / own;
+    };
+    return along(needs.box.x, needs.goes_round_x) * along(needs.box.y, needs.goes_round_y);
+}
+
+/// The time until the last thread is ready divided by the mean time that threads work.
+double share_waited(const BlockNeeds& needs, const BlockChoice& choice) {
+    if (needs.n_threads == 0 || needs.is_one_block) return 1;
+    const double blocks_per_thread = std::max(1.0,
+                                              needs.n_discs / (needs.n_threads * choice.own_discs));
+    return 1 + (unforeseen + repeated_run * needs.rounds) / blocks_per_thread;
+}
+
+/// Takes blocks of so many own discs where these are as dense as around most discs.
+void take_blocks_of(double own_discs, const BlockNeeds& needs, BlockChoice& choice) {
+    const double area = own_discs * spacing_of(needs) * spacing_of(needs);
+    choice.own_discs = own_discs;
+    choice.block_side = std::max(std::sqrt(area), area / needs.box.shortest());
+}
+
+/// Makes blocks so small that each thread gets one or some. Many have more halo, and a few let
+/// threads wait longer for the last one.
+void share_out(const BlockNeeds& needs, BlockChoice& choice) {
+    const double largest = choice.own_discs;
+    BlockChoice best = choice;
+    double least = std::numeric_limits<double>::infinity();
+    for (int per_thread = 1; per_thread <= most_blocks_per_thread; ++per_thread) {
+        take_blocks_of(std::min(largest, needs.n_discs / (per_thread * needs.n_threads) + 1), needs,
+                       choice);
+        const double cost = share_seen(needs, choice) * share_waited(needs, choice);
+        if (cost >= least) continue;
+        least = cost;
+        best = choice;
+    }
+    choice = best;
 }
 
 BlockChoice choice_of(const BlockNeeds& needs, double duration) {
@@ -58,26 +107,23 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     const double longest = needs.box.longest();
     choice.block_side = needs.is_one_block ? longest
                                            : std::min(std::max(side, 1.5 * margin), longest);
+    const double height = std::min(choice.block_side, needs.box.shortest());
+    choice.own_discs = std::max(1.0, choice.block_side / spacing * (height / spacing));
+    if (needs.n_threads > 0 && !needs.is_one_block) share_out(needs, choice);
     return choice;
 }
 
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
-    const double halo = choice.halo * choice.reach;
-    // Along one axis, the discs of a run with its halo divided by its own discs.
-    const auto share_along = [&](double length, bool goes_round) {
-        const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
-        return (goes_round ? seen : std::min(seen, length)) / own;
-    };
-    const double share = needs.is_one_block ? 1
-                                            : share_along(needs.box.x, needs.goes_round_x) *
-                                                  share_along(needs.box.y, needs.goes_round_y);
+    const double share = share_seen(needs, choice) * share_waited(needs, choice);
     const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.equivalent_radius));
-    const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
+    const double partners = needs.n_discs * needs.crowding *
+                            (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);
     const double events = needs.collision_rate * choice.duration;
     const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 +
                               events * (cost_per_event + 2 * cost_per_partner * partners);
-    return (cost_per_disc + share * run_blocks) / choice.duration;
+    const double wait = cost_per_window * needs.n_threads / (needs.n_discs + 1);
+    return (cost_per_disc + wait + share * run_blocks) / choice.duration;
 }
 
 } // namespace
@@ -100,8 +146,8 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
     return best;
 }
 
-void Caution::learn(double repeated, double hits) {
-    lately_ = memory * lately_ + (1 - memory) * repeated;
+void Caution::learn(double repeated, double hits, double waited) {
+    lately_ = memory * lately_ + (1 - memory) * std::max(repeated, waited);
     const bool is_mostly = repeated > mostly_repeated && more_halo_ == most_more;
     most_hits_ = is_mostly ? std::max(least_hits, shorter * hits) : longer * most_hits_;
     n_calm_ = repeated > 0 ? 0 : n_calm_ + 1;
@@ -115,7 +161,7 @@ void Caution::learn(double repeated, double hits) {
 }
 
 double guessed_collision_rate(const BlockNeeds& needs, double mean_speed) {
-    const double number_density = needs.n_discs / needs.box.area();
+    const double number_density = needs.n_discs * needs.crowding / needs.box.area();
     const double packing = std::min(densest_gas, number_density * std::numbers::pi *
                                                      needs.equivalent_radius *
                                                      needs.equivalent_radius);

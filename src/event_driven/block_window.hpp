@@ -27,6 +27,9 @@ struct BlockNeeds {
     int more_halo = 0;         ///< reaches that Caution adds to the halo
     bool goes_round_x = false, goes_round_y = false; ///< the halo does not end with the box, but
                                                      ///< goes on with images of the discs
+    double crowding = 1;  ///< how many times denser it is around a disc than in the mean of the box
+    double n_threads = 0; ///< of all ranks together; 0 if each rank has one thread
+    double rounds = 0;    ///< of blocks that run again, for each window, as of late
     double equivalent_radius = 0; ///< radius of equal discs that have as many others near them
 };
 
@@ -35,6 +38,7 @@ struct BlockChoice {
     double reach = 0;
     int halo = 3;          ///< in reaches
     double block_side = 0; ///< the engine rounds it to whole cells
+    double own_discs = 1;  ///< of a block, not those of its halo
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.
@@ -47,15 +51,16 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
 class Caution {
 public:
     /// Takes in a window with `hits` collisions per disc. `repeated` is the number of its block
-    /// runs that were repeated, divided by the number of its blocks.
-    void learn(double repeated, double hits);
+    /// runs that were repeated, divided by the number of its blocks. `waited` is the time that
+    /// threads without such a block waited, divided by that of all runs.
+    void learn(double repeated, double hits, double waited = 0);
     int more_halo() const { return more_halo_; }
     /// The largest number of collisions per disc that a window should have.
     double most_hits() const { return most_hits_; }
 
 private:
     int more_halo_ = 0, n_calm_ = 0;
-    double lately_ = 0; ///< mean of `repeated` in which older windows count less and less
+    double lately_ = 0; ///< mean of what repeated runs cost; older windows count less and less
     double most_hits_ = std::numeric_limits<double>::infinity();
 };
 

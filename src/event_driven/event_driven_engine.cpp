@@ -20,17 +20,11 @@ namespace carrom {
 
 namespace {
 
-/// Each thread gets at least this many blocks, so that no thread waits long for the others.
-constexpr double blocks_per_thread = 4;
 /// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
 /// as fast from a thin gas to the densest liquid.
 constexpr double jam_heating = 64;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
-
-int cells_along(double length, double width) {
-    return static_cast<int>(std::clamp(std::ceil(length / width * (1 - 1e-9)), 1.0, 1e9));
-}
 
 } // namespace
 
@@ -45,12 +39,15 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
                                  block_tuning.parts_sizes)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
+    const auto threads = static_cast<double>(communicator_.max(std::int64_t{tuning_.threads}));
+    if (threads > 1) n_threads_of_all_ = threads * communicator_.size();
     this->distribute();
     // A later state is checked only if its dynamics part overlapping discs, because in other
     // dynamics the run itself may have made discs overlap.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_, scene.name);
+    learn_crowding();
     discs_.forget_images();
     phases_ = {};
 }
@@ -77,7 +74,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
         counts_.windows_redone += is_first;
         if (verdict == Verdict::too_fast) shorten();
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
-        if (verdict == Verdict::repeat) repeated_ += share_marked();
+        if (verdict == Verdict::repeat) note_rollback();
     }
     commit();
     travel_speed_ = window_.speed_bound;
@@ -157,7 +154,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     const bool is_few = tuning_.threads == 1 ||
                         n < 2 * static_cast<double>(tuning_.discs_per_thread);
     is_alone_ = communicator_.size() == 1 && is_few && n <= most_discs_alone &&
-                !block_tuning_.halo && !block_tuning_.block_side;
+                !block_tuning_.halo && !block_tuning_.block_side && !block_tuning_.cuts_by_work;
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
@@ -170,6 +167,8 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.is_one_block = is_alone_;
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
+    if (n_windows_ > 0) take_crowding(reduced_.sums[5]);
+    needs.crowding = is_alone_ ? 1 : mean_crowding_; // a run of the whole box measures none
     if (n_windows_ > 0)
         collision_rate_ = static_cast<double>(reduced_.sums[4]) /
                           (std::max(n, 1.0) * last_duration_);
@@ -177,9 +176,12 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
         collision_rate_ = guessed_collision_rate(
             needs, survey_speeds(discs_.own(), largest, communicator_).mean());
     needs.collision_rate = collision_rate_;
-    caution_.learn(repeated_, collision_rate_ * last_duration_);
+    needs.n_threads = n_threads_of_all_;
+    needs.rounds = rounds_lately_;
+    caution_.learn(repeated_, collision_rate_ * last_duration_, waited_);
     needs.more_halo = caution_.more_halo();
-    repeated_ = 0;
+    rounds_lately_ += 0.1 * (n_rounds_ - rounds_lately_);
+    repeated_ = waited_ = n_rounds_ = 0;
     return needs;
 }
 
@@ -221,89 +223,6 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     make_blocks();
 }
 
-/// Own columns end where the strip does: a block's halo counts from its last column, the rank's
-/// from the strip.
-template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
-    const Extent box = extent();
-    const Axis axis = discs_.strips().axis();
-    const auto [low, across_low] = turned(axis, box.x_low, box.y_low);
-    const auto [high, across_high] = turned(axis, box.x_high, box.y_high);
-    const double from = std::max(low, discs_.strips().low(communicator_.rank()));
-    const double to = std::min(high, discs_.strips().high(communicator_.rank()));
-    const double least_width = least_cell_width(reach, dynamics_.box().shortest(),
-                                                std::max(to - from, 0.0), discs_.n_own());
-    const double n_whole = std::max(1.0, std::floor((to - from) / least_width));
-    GridGeometry geometry;
-    geometry.axis = axis;
-    geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
-    geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
-    const int n_halo = halo_depth_ * geometry.n_reach;
-    const bool goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
-    const auto n_beside = [&](double beside) { // columns of other strips, or of images
-        if (discs_.periods().along(axis) != 0) return n_halo;
-        return communicator_.size() > 1 ? std::min(n_halo, cells_along(beside, geometry.cell_width))
-                                        : 0;
-    };
-    own_cells_.first_column = n_beside(from - low);
-    own_cells_.end_column = own_cells_.first_column + cells_along(to - from, geometry.cell_width);
-    geometry.n_columns = own_cells_.end_column + n_beside(high - to);
-    own_cells_.first_row = goes_round_across ? n_halo : 0;
-    own_cells_.end_row = own_cells_.first_row +
-                         cells_along(across_high - across_low, geometry.cell_width);
-    geometry.n_rows = own_cells_.end_row + own_cells_.first_row;
-    geometry.low = from - own_cells_.first_column * geometry.cell_width;
-    geometry.across_low = across_low - own_cells_.first_row * geometry.cell_width;
-    return geometry;
-}
-
-/// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
-template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
-    const double cell_width = discs_.grid().geometry().cell_width, side = block_side();
-    const auto cells_each = [](int n_cells, int n_parts) {
-        return (n_cells + n_parts - 1) / n_parts;
-    };
-    const auto cells_of_block = [&](int n_cells) {
-        const double n_parts = std::ceil(n_cells * cell_width / side * (1 - 1e-9));
-        return cells_each(n_cells, std::clamp(static_cast<int>(n_parts), 1, n_cells));
-    };
-    const int n_columns = own_cells_.end_column - own_cells_.first_column,
-              n_rows = own_cells_.end_row - own_cells_.first_row;
-    block_columns_ = cells_of_block(n_columns);
-    block_rows_ = cells_of_block(n_rows);
-    const int n_block_columns = cells_each(n_columns, block_columns_);
-    n_block_rows_ = cells_each(n_rows, block_rows_);
-    const auto n_blocks = static_cast<std::size_t>(n_block_columns) *
-                          static_cast<std::size_t>(n_block_rows_);
-    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != n_blocks;
-    blocks_.resize(n_blocks);
-    std::size_t next = 0;
-    for (int k = 0; k < n_block_columns; ++k) {
-        for (int j = 0; j < n_block_rows_; ++j) {
-            Block& block = blocks_[next++];
-            block.cells.first_column = own_cells_.first_column + k * block_columns_;
-            block.cells.end_column = std::min(block.cells.first_column + block_columns_,
-                                              own_cells_.end_column);
-            block.cells.first_row = own_cells_.first_row + j * block_rows_;
-            block.cells.end_row = std::min(block.cells.first_row + block_rows_, own_cells_.end_row);
-            block.is_marked = 1;
-            if (is_new) block.halo = choice_.halo;
-        }
-    }
-}
-
-/// The length that a block's sides should have, in the unit of the scene.
-template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const {
-    const GridGeometry& geometry = discs_.grid().geometry();
-    const double width = (own_cells_.end_column - own_cells_.first_column) * geometry.cell_width,
-                 height = (own_cells_.end_row - own_cells_.first_row) * geometry.cell_width;
-    const double n_blocks = blocks_per_thread * tuning_.threads;
-    if (block_tuning_.block_side)
-        return *block_tuning_.block_side * geometry.cell_width * geometry.n_reach;
-    if (tuning_.threads == 1) return choice_.block_side;
-    return std::min(choice_.block_side, std::max(std::sqrt(width * height / n_blocks),
-                                                 std::max(width, height) / n_blocks));
-}
-
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
     const BlockGround ground{discs_.all(),
@@ -324,10 +243,13 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              levels_,
                              extent()};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
-    for (Block& block : blocks_) {
+    std::vector<std::size_t> noted;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        Block& block = blocks_[k];
         if (block.is_marked == 0) continue;
         ++(block.has_run ? counts_.blocks_redone : counts_.blocks);
         block.has_run = true;
+        if (block_tuning_.notes_work) noted.push_back(k);
     }
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
@@ -341,6 +263,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                           histories_, block.outcome);
         block.is_marked = 0;
     }
+    if (!block_tuning_.notes_work) return;
+    std::vector<BlockWork>& round = rounds_.emplace_back();
+    for (const std::size_t k : noted)
+        round.push_back({blocks_[k].outcome.n_carried, blocks_[k].outcome.n_seen});
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
@@ -369,7 +295,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
-    is_largest_known_ = false; // a sync may change speeds
+    is_largest_known_ = false; // noise and thermostats change speeds
     jumped_ += dynamics_.jump_at(discs_.strips().axis(), time_);
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }

@@ -18,9 +18,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/engine_base.hpp"
+#include "event_driven/block_cuts.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
 #include "parallel/joint_reduction.hpp"
@@ -34,6 +36,14 @@ struct BlockTuning {
     double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
     bool is_validated = true;         ///< false gives wrong results
     bool parts_sizes = false;         ///< each octave of radii has a level of cells
+    std::optional<bool> cuts_by_work; ///< unset: with several threads, and where discs crowd
+    bool notes_work = false;          ///< `take_work()` has something to return
+};
+
+/// What the run of a block has done, for studies of how threads share a window.
+struct BlockWork {
+    std::uint64_t n_carried = 0; ///< collisions carried out, those of the halo included
+    std::uint64_t n_seen = 0;    ///< discs, those of the halo included
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
@@ -43,6 +53,10 @@ public:
                       const Tuning& tuning, const BlockTuning& block_tuning = {});
 
     RollbackCounts rollback_counts() const override;
+
+    /// What the runs of this rank's blocks have done since the last call, round by round: a window
+    /// has one round, and another one for each rollback.
+    std::vector<std::vector<BlockWork>> take_work() { return std::exchange(rounds_, {}); }
 
 private:
     using Base = EngineBase<Dynamics>;
@@ -75,7 +89,11 @@ private:
     void redistribute();
     GridGeometry lay_cells(double reach);
     void make_blocks();
-    double block_side() const;
+    void cut_evenly();
+    void cut_by_work(double n_pairs);
+    void learn_crowding();
+    double measure_crowding(const CellBlock& cells);
+    void take_crowding(std::uint64_t of_all);
     void run_blocks();
     void commit();
     void log_events(const BlockOutcome& outcome);
@@ -86,7 +104,7 @@ private:
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
     int halo_depth_for(const Block& block) const;
-    double share_marked() const;
+    void note_rollback();
     bool sees_all(const Block& block) const;
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
@@ -106,14 +124,22 @@ private:
     double last_duration_ = 1;  ///< duration of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
                           ///< its blocks; equal on all ranks
-    double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
-    Caution caution_;
-    /// What validation has found for the last window on all ranks: how many ranks had a disc that
-    /// was too fast, blocks to run again, cascades, requests to stop, events; and the largest speed
-    /// at its end. One message carries all, because in each all ranks wait for the slowest.
+    double waited_ = 0;   ///< how long threads waited for these runs, in times of all runs
+    double n_rounds_ = 0; ///< of repeated runs in the last window
+    double rounds_lately_ = 0.2; ///< mean of `n_rounds_` in which older windows count less
+    double first_speed_ = 0;     ///< speed of growing discs when this interval or the engine began
+    /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
+    /// over own discs. Even gases have less than 1 for each, because discs keep others away.
+    double crowding_ = 0;
+    double mean_crowding_ = 1;    ///< over all discs, or 1 if it is near 1; equal on all ranks
+    double n_threads_of_all_ = 0; ///< threads of all ranks, or 0 if each has one
+    /// What validation has reduced for the window: how many ranks found a disc too fast, blocks to
+    /// run again, cascades, requests to stop, events, crowding; and the largest speed at its end.
     JointReduction reduced_;
-    bool is_largest_known_ = false; ///< `reduced_` has the largest speed of all ranks
-    RollbackCounts counts_;         ///< its counts of blocks are of this rank alone
+    static constexpr double crowding_unit = 1024; ///< sums of whole numbers have no order
+    bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
+    Caution caution_;
+    RollbackCounts counts_; ///< its counts of blocks are of this rank alone
 
     BlockChoice choice_;
     BlockWindow window_;
@@ -121,9 +147,9 @@ private:
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int halo_depth_ = 0;    ///< reaches that the rank's halo covers
     CellBlock own_cells_{0, 1, 0, 1};
-    int block_columns_ = 1, block_rows_ = 1; ///< size of a block in cells
-    int n_block_rows_ = 1;
+    BlockCuts cuts_; ///< of the own cells into blocks
     std::vector<Block> blocks_;
+    std::vector<std::vector<BlockWork>> rounds_;
     std::vector<std::uint64_t> histories_;       ///< for each disc, own discs before the halo
     std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };

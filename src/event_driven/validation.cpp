@@ -37,19 +37,21 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
         n_events += block.outcome.n_events;
         reduced_.largest = std::max(reduced_.largest, block.outcome.largest_speed_at_end);
     }
-    reduced_.sums = {is_too_fast ? 1u : 0u, n_marked, n_cascades, is_stop_overdue() ? 1u : 0u,
-                     n_events};
+    reduced_.sums = {is_too_fast ? 1u : 0u,
+                     n_marked,
+                     n_cascades,
+                     is_stop_overdue() ? 1u : 0u,
+                     n_events,
+                     static_cast<std::uint64_t>(crowding_unit * crowding_)};
     if (communicator_.size() > 1) {
         const PhaseClock::Scope wait(phases_, Phase::wait);
         reduce(reduced_, communicator_);
     }
-    const auto& [n_too_fast, n_marked_of_all, n_cascades_of_all, n_stops, n_events_of_all] =
-        reduced_.sums;
-    if (n_stops > 0) throw StopRequested("stopped on request inside a step");
-    if (n_too_fast > 0) return Verdict::too_fast;
-    if (n_cascades_of_all > 0) fail_on_cascade();
-    if (!block_tuning_.is_validated || n_marked_of_all + n_cascades_of_all == 0)
-        return Verdict::exact;
+    const auto& sums = reduced_.sums;
+    if (sums[3] > 0) throw StopRequested("stopped on request inside a step");
+    if (sums[0] > 0) return Verdict::too_fast;
+    if (sums[2] > 0) fail_on_cascade();
+    if (!block_tuning_.is_validated || sums[1] + sums[2] == 0) return Verdict::exact;
     const PhaseClock::Scope exchange(phases_, Phase::exchange);
     std::vector<LocalIndex> reported;
     discs_.report_to_owners(foreign, reported);
@@ -101,21 +103,23 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
     const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
-    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1) -
-                       own_cells_.first_column;
-    const int row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1) -
-                    own_cells_.first_row;
-    const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
-    std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked)
+    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1),
+              row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1);
+    std::atomic_ref(blocks_[cuts_.block_of(column, row)].is_marked)
         .store(1, std::memory_order_relaxed);
 }
 
-/// Returns the share of all ranks' blocks that have to run. **Collective.**
-template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
+/// Notes what it costs to run the marked blocks again. All threads wait for the slowest of them,
+/// whose halo is twice as deep. **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
+    constexpr double deeper = 1.6; // the time of such a run divided by that of a first run
     std::uint64_t n[] = {0, blocks_.size()};
     for (const Block& block : blocks_) n[0] += block.is_marked;
     communicator_.sum(n);
-    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
+    const auto n_blocks = static_cast<double>(std::max<std::uint64_t>(1, n[1]));
+    repeated_ += static_cast<double>(n[0]) / n_blocks;
+    waited_ += deeper * n_threads_of_all_ / n_blocks;
+    n_rounds_ += 1;
 }
 
 /// Doubles the halo of all marked blocks that do not have the whole box yet. Returns true if the
@@ -246,7 +250,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate();         \
     template bool EventDrivenEngine<Dynamics>::widen_marked();                                     \
-    template double EventDrivenEngine<Dynamics>::share_marked() const;                             \
+    template void EventDrivenEngine<Dynamics>::note_rollback();                                    \
     template bool EventDrivenEngine<Dynamics>::sees_all(const Block&) const;
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

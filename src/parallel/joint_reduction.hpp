@@ -11,7 +11,7 @@
 namespace carrom {
 
 struct JointReduction {
-    std::array<std::uint64_t, 5> sums{}; ///< wrap
+    std::array<std::uint64_t, 6> sums{}; ///< wrap
     double largest = 0;                  ///< not NaN; -0 may become +0
 };
 

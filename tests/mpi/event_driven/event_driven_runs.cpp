@@ -93,6 +93,7 @@ Shape shape_number(std::size_t number, double diameter_time) {
     if (const auto& window = windows[number % std::size(windows)])
         shape.tuning.window = *window * diameter_time;
     shape.exact.block_side = boundaries[number % std::size(boundaries)];
+    if (number % 10 == 0) shape.exact.cuts_by_work = true;
     shape.exact.halo = 2 + static_cast<int>(number / 2 % 3);
     shape.exact.speed_allowance = number % 7 == 3 ? 1.001 : 1.2;
     shape.tuning.rebalance_above = rebalances[number / 3 % std::size(rebalances)];

@@ -18,12 +18,12 @@ TEST_CASE("sums and a largest value are reduced together") {
     const auto n = static_cast<std::uint64_t>(world.size()),
                rank = static_cast<std::uint64_t>(world.rank());
     carrom::JointReduction values;
-    values.sums = {1, rank, 0, std::uint64_t{1} << 60, rank * rank};
+    values.sums = {1, rank, 0, std::uint64_t{1} << 60, 5, rank * rank};
     values.largest = world.rank() == world.size() / 2 ? 2.5 : 0.5;
     const std::uint64_t n_before = world.traffic().collectives;
     reduce(values, world);
     CHECK(world.traffic().collectives == n_before + 1);
-    CHECK(values.sums == std::array<std::uint64_t, 5>{n, n * (n - 1) / 2, 0, n << 60,
+    CHECK(values.sums == std::array<std::uint64_t, 6>{n, n * (n - 1) / 2, 0, n << 60, 5 * n,
                                                       (n - 1) * n * (2 * n - 1) / 6});
     CHECK(values.largest == 2.5);
 }

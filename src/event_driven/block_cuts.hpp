@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the cells of a strip are cut into blocks. One thread takes blocks of equal areas. Several
+// threads take blocks of about equal work, because the block with most work decides how long all
+// others wait. The cuts affect the run's time, not its bits.
+//
+// The cells are halved again and again across their longer side, so that blocks stay as square as
+// they can be: a square has the least halo. The work of a block includes that of its halo. Price:
+// two passes over the cells, shared by the threads, and four bytes a cell while the cuts are made.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/raw_vector.hpp"
+
+namespace carrom {
+
+/// A rectangle of cells of a grid's frame: columns and rows [first, end).
+struct CellBlock {
+    int first_column = 0, end_column = 0;
+    int first_row = 0, end_row = 0;
+
+    int n_columns() const { return end_column - first_column; }
+    int n_rows() const { return end_row - first_row; }
+    double area() const { return static_cast<double>(n_columns()) * n_rows(); }
+    CellBlock widened(int by) const {
+        return {first_column - by, end_column + by, first_row - by, end_row + by};
+    }
+    CellBlock within(const CellBlock& other) const {
+        return {std::max(first_column, other.first_column), std::min(end_column, other.end_column),
+                std::max(first_row, other.first_row), std::min(end_row, other.end_row)};
+    }
+};
+
+/// Sums the work of the cells in any rectangle by four reads.
+class CellSums {
+public:
+    /// `work_of(column, row)` is a whole number; those of all `cells` add up to less than 2^32.
+    template <class WorkOf> void fill(const CellBlock& cells, int n_threads, const WorkOf& work_of);
+    std::uint64_t in(const CellBlock& part) const;
+    /// The smallest rectangle that holds all work of `part`.
+    CellBlock occupied(CellBlock part) const;
+
+private:
+    std::size_t place(int column, int row) const {
+        return static_cast<std::size_t>(column - cells_.first_column) *
+                   static_cast<std::size_t>(cells_.n_rows() + 1) +
+               static_cast<std::size_t>(row - cells_.first_row);
+    }
+
+    CellBlock cells_;
+    RawVector<std::uint32_t> sums_; ///< by cell: the work of all cells left of it and below it
+};
+
+struct CutNeeds {
+    std::size_t n_blocks = 1;
+    int halo = 1;    ///< cells that a block sees around its own
+    CellBlock frame; ///< all cells that hold discs, also those of other ranks and images
+};
+
+class BlockCuts {
+public:
+    /// Cuts `cells` into blocks of `block_columns` by `block_rows` cells.
+    void cut_evenly(const CellBlock& cells, int block_columns, int block_rows);
+    /// Cuts `cells` into blocks of about equal work, or into less blocks if there are no more
+    /// cells. `sums` has been filled for the same cells.
+    void cut_by_work(const CellBlock& cells, const CutNeeds& needs, const CellSums& sums);
+
+    /// Blocks that touch follow each other, as far as possible.
+    const std::vector<CellBlock>& blocks() const { return blocks_; }
+    /// The block that holds a cell of the strip.
+    std::size_t block_of(int column, int row) const;
+
+private:
+    /// A rectangle that is a block, or is cut in two.
+    struct Node {
+        bool is_block = true, is_cut_by_column = false;
+        int cut = 0;                      ///< where the upper part begins
+        std::size_t lower = 0, upper = 0; ///< nodes; `lower` is the block's number if it is one
+    };
+    struct Cut {
+        bool is_by_column = false;
+        int at = 0;
+        std::size_t middle = 0; ///< the lower part is meant for the blocks before this one
+    };
+    /// Decides where to cut a rectangle that is meant for the blocks [first, end). Returns false to
+    /// make it a block.
+    using Decision =
+        std::function<bool(const CellBlock& part, std::size_t first, std::size_t end, Cut& cut)>;
+
+    void cut(const CellBlock& cells, std::size_t n_blocks, const Decision& decide);
+    std::size_t add(const CellBlock& part, std::size_t first, std::size_t end,
+                    const Decision& decide);
+
+    std::vector<CellBlock> blocks_;
+    std::vector<std::size_t> numbers_; ///< by block: the first of the blocks that it is meant for
+    std::vector<Node> nodes_;          ///< the first one is all cells
+    std::vector<double> shares_; ///< own work of the blocks cut by work, compared with each other
+};
+
+template <class WorkOf>
+void CellSums::fill(const CellBlock& cells, int n_threads, const WorkOf& work_of) {
+    cells_ = cells;
+    sums_.resize(place(cells.end_column, cells.end_row) + 1);
+    constexpr int rows_each = 64; // of a stretch that a thread takes through all columns
+    const int n_stretches = cells.n_rows() / rows_each + 1;
+#pragma omp parallel num_threads(n_threads)
+    {
+#pragma omp for schedule(static)
+        for (int column = cells.first_column; column < cells.end_column; ++column) {
+            std::uint32_t* next = &sums_[place(column + 1, cells.first_row)];
+            *next = 0;
+            for (int row = cells.first_row; row < cells.end_row; ++row, ++next)
+                next[1] = next[0] + work_of(column, row);
+        }
+#pragma omp for schedule(static)
+        for (int k = 0; k < n_stretches; ++k) {
+            const int first = cells.first_row + k * rows_each;
+            const int n = first + rows_each <= cells.end_row ? rows_each
+                                                             : cells.end_row + 1 - first;
+            for (int row = 0; row < n; ++row)
+                sums_[place(cells.first_column, first) + static_cast<std::size_t>(row)] = 0;
+            for (int column = cells.first_column; column < cells.end_column; ++column) {
+                const std::uint32_t* from = &sums_[place(column, first)];
+                std::uint32_t* to = &sums_[place(column + 1, first)];
+                for (int row = 0; row < n; ++row) to[row] += from[row];
+            }
+        }
+    }
+}
+
+} // namespace carrom

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the event-driven engine lays cells over its strip and cuts them into blocks.
+#include <algorithm>
+#include <cmath>
+
+#include "event_driven/event_driven_engine.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Blocks are cut by work if the fullest one has this many times the discs of the mean one. Below
+/// it such cuts gain less than they cost, and blocks of few discs differ as much by chance.
+constexpr double uneven = 1.5;
+/// Where discs crowd, there are at most this many times as many cells as in an even gas, because
+/// empty cells take memory too.
+constexpr double most_cells = 4;
+/// What a disc that a run sees costs, in units of a collision.
+constexpr double work_of_disc = 0.14;
+constexpr double most_units = 0x1p31; ///< so that sums of whole units fit 32 bits
+
+/// Cells and windows by the mean density cost as little while discs are hardly denser than that.
+constexpr double least_crowding = 2, most_crowding = 400;
+
+/// The number of pairs of discs in one cell, each counted twice.
+double pairs_in_cells(const CellGrid& grid, const CellBlock& cells, int n_threads) {
+    std::uint64_t n_pairs = 0;
+#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : n_pairs)
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        for (int row = cells.first_row; row < cells.end_row; ++row) {
+            const SlotRange cell = grid.run(column, row, row);
+            const std::uint64_t n = cell.end - cell.begin;
+            n_pairs += n * n - n;
+        }
+    }
+    return static_cast<double>(n_pairs);
+}
+
+/// Whether the block with most discs has far more of them than the mean.
+bool are_uneven(const CellGrid& grid, const std::vector<CellBlock>& blocks, int n_threads) {
+    std::uint64_t most = 0, all = 0;
+    const auto n_blocks = static_cast<std::int64_t>(blocks.size());
+#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : all)                \
+    reduction(max : most)
+    for (std::int64_t k = 0; k < n_blocks; ++k) {
+        const CellBlock& block = blocks[static_cast<std::size_t>(k)];
+        std::uint64_t n = 0;
+        for (int column = block.first_column; column < block.end_column; ++column) {
+            const SlotRange run = grid.run(column, block.first_row, block.end_row - 1);
+            n += run.end - run.begin;
+        }
+        most = std::max(most, n);
+        all += n;
+    }
+    return static_cast<double>(most) * static_cast<double>(n_blocks) >
+           uneven * static_cast<double>(all);
+}
+
+int cells_along(double length, double width) {
+    return static_cast<int>(std::clamp(std::ceil(length / width * (1 - 1e-9)), 1.0, 1e9));
+}
+
+} // namespace
+
+/// Own columns end where the strip does: a block's halo counts from its last column, the rank's
+/// from the strip.
+template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
+    const Extent box = extent();
+    const Axis axis = discs_.strips().axis();
+    const auto [low, across_low] = turned(axis, box.x_low, box.y_low);
+    const auto [high, across_high] = turned(axis, box.x_high, box.y_high);
+    const double from = std::max(low, discs_.strips().low(communicator_.rank()));
+    const double to = std::min(high, discs_.strips().high(communicator_.rank()));
+    const auto n_for_cells = static_cast<std::uint64_t>(static_cast<double>(discs_.n_own()) *
+                                                        std::min(mean_crowding_, most_cells));
+    const double least_width = least_cell_width(reach, dynamics_.box().shortest(),
+                                                std::max(to - from, 0.0), n_for_cells);
+    const double n_whole = std::max(1.0, std::floor((to - from) / least_width));
+    GridGeometry geometry;
+    geometry.axis = axis;
+    geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
+    geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
+    const int n_halo = halo_depth_ * geometry.n_reach;
+    const bool goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
+    const auto n_beside = [&](double beside) { // columns of other strips, or of images
+        if (discs_.periods().along(axis) != 0) return n_halo;
+        return communicator_.size() > 1 ? std::min(n_halo, cells_along(beside, geometry.cell_width))
+                                        : 0;
+    };
+    own_cells_.first_column = n_beside(from - low);
+    own_cells_.end_column = own_cells_.first_column + cells_along(to - from, geometry.cell_width);
+    geometry.n_columns = own_cells_.end_column + n_beside(high - to);
+    own_cells_.first_row = goes_round_across ? n_halo : 0;
+    own_cells_.end_row = own_cells_.first_row +
+                         cells_along(across_high - across_low, geometry.cell_width);
+    geometry.n_rows = own_cells_.end_row + own_cells_.first_row;
+    geometry.low = from - own_cells_.first_column * geometry.cell_width;
+    geometry.across_low = across_low - own_cells_.first_row * geometry.cell_width;
+    return geometry;
+}
+
+/// Cuts the own cells into blocks. A block that exists already keeps its halo.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
+    const double n_pairs = measure_crowding(own_cells_);
+    const bool is_set = block_tuning_.block_side || block_tuning_.cuts_by_work.has_value();
+    const bool has_threads = tuning_.threads > 1 && !is_set;
+    if (!has_threads) cut_evenly();
+    if (block_tuning_.cuts_by_work.value_or(
+            has_threads || (!is_set && are_uneven(discs_.grid(), cuts_.blocks(), tuning_.threads))))
+        cut_by_work(n_pairs);
+    const std::vector<CellBlock>& blocks = cuts_.blocks();
+    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != blocks.size();
+    blocks_.resize(blocks.size());
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        blocks_[k].cells = blocks[k];
+        blocks_[k].is_marked = 1;
+        if (is_new) blocks_[k].halo = choice_.halo;
+    }
+}
+
+template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_evenly() {
+    const GridGeometry& geometry = discs_.grid().geometry();
+    const double side = block_tuning_.block_side
+                            ? *block_tuning_.block_side * geometry.cell_width * geometry.n_reach
+                            : choice_.block_side;
+    const auto cells_of_block = [&](int n_cells) {
+        const double n_parts = std::ceil(n_cells * geometry.cell_width / side * (1 - 1e-9));
+        const int n = std::clamp(static_cast<int>(n_parts), 1, n_cells);
+        return (n_cells + n - 1) / n;
+    };
+    cuts_.cut_evenly(own_cells_, cells_of_block(own_cells_.n_columns()),
+                     cells_of_block(own_cells_.n_rows()));
+}
+
+/// A disc costs more the denser it is around it, because it collides more often there.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) {
+    const CellGrid& grid = discs_.grid();
+    const GridGeometry& geometry = grid.geometry();
+    const auto n_own = static_cast<double>(discs_.n_own());
+    CutNeeds needs;
+    needs.halo = choice_.halo * geometry.n_reach;
+    needs.frame = {0, geometry.n_columns, 0, geometry.n_rows};
+    const double n_blocks = std::ceil(0.99 * n_own / (choice_.own_discs * tuning_.threads));
+    needs.n_blocks = static_cast<std::size_t>(std::max(1.0, n_blocks) * tuning_.threads);
+    const double events = collision_rate_ * window_.duration() * n_own;
+    const double unit = most_units / (work_of_disc * n_own + events + 1);
+    const double per_disc = unit * work_of_disc, per_pair = unit * events / std::max(n_pairs, 1.0);
+    CellSums sums;
+    sums.fill(own_cells_, tuning_.threads, [&](int column, int row) {
+        const SlotRange cell = grid.run(column, row, row);
+        const auto n = static_cast<double>(cell.end - cell.begin);
+        return static_cast<std::uint32_t>(n * (per_disc + (n - 1) * per_pair));
+    });
+    cuts_.cut_by_work(own_cells_, needs, sums);
+}
+
+/// Learns the crowding before the first window, from cells that need not be those of a window.
+/// **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::learn_crowding() {
+    const GridGeometry& geometry = discs_.grid().geometry();
+    measure_crowding({0, geometry.n_columns, 0, geometry.n_rows});
+    take_crowding(communicator_.sum(static_cast<std::uint64_t>(crowding_unit * crowding_)));
+}
+
+/// Returns the number of pairs in the cells, each counted twice.
+template <class Dynamics>
+double EventDrivenEngine<Dynamics>::measure_crowding(const CellBlock& cells) {
+    const double n_pairs = pairs_in_cells(discs_.grid(), cells, tuning_.threads);
+    const double width = discs_.grid().geometry().cell_width;
+    const auto n = static_cast<double>(std::max<std::uint64_t>(1, discs_.n_total()));
+    crowding_ = std::min(n_pairs / (width * width) * dynamics_.box().area() / n,
+                         most_crowding * static_cast<double>(discs_.n_own()));
+    return n_pairs;
+}
+
+template <class Dynamics> void EventDrivenEngine<Dynamics>::take_crowding(std::uint64_t of_all) {
+    const double crowding = static_cast<double>(of_all) /
+                            (crowding_unit * std::max(1.0, static_cast<double>(discs_.n_total())));
+    mean_crowding_ = crowding > least_crowding ? std::min(crowding, most_crowding) : 1;
+}
+
+// These members are called from event_driven_engine.cpp, where the class itself is compiled.
+#define CARROM_DEFINE(Dynamics)                                                                    \
+    template GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double);                          \
+    template void EventDrivenEngine<Dynamics>::make_blocks();                                      \
+    template void EventDrivenEngine<Dynamics>::learn_crowding();                                   \
+    template void EventDrivenEngine<Dynamics>::take_crowding(std::uint64_t);
+CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
+#undef CARROM_DEFINE
+
+} // namespace carrom
