@@ -50,8 +50,8 @@ bool are_stopped(const Scene& s, std::size_t low) {
 
 std::vector<Rule> rules_of_gravity() {
     constexpr std::string_view why =
-        "discs would fall for ever; take drag, thermal sides, sides with a tangential_restitution "
-        "above -1, or obstacles with a restitution below 1";
+        "discs would fall for ever; take drag, a thermostat of kind \"langevin\", thermal sides, "
+        "sides with a tangential_restitution above -1, or obstacles with a restitution below 1";
     return {
         rule("gravity", "time.method = \"time-stepped\"",
              "discs fly straight there; take time.method = \"event-driven\"",
@@ -60,12 +60,14 @@ std::vector<Rule> rules_of_gravity() {
         rule("gravity along x", "periodic sides left and right where nothing stops discs", why,
              {"effects.gravity.x"},
              [](const Scene& s) {
-                 return s.effects.gravity.x != 0 && s.effects.is_periodic_x() && !are_stopped(s, 2);
+                 return s.effects.gravity.x != 0 && s.effects.is_periodic_x() &&
+                        !s.effects.are_sheared() && !are_stopped(s, 2);
              }),
         rule("gravity along y", "periodic sides bottom and top where nothing stops discs", why,
              {"effects.gravity.y"},
              [](const Scene& s) {
-                 return s.effects.gravity.y != 0 && s.effects.is_periodic_y() && !are_stopped(s, 0);
+                 return s.effects.gravity.y != 0 && s.effects.is_periodic_y() &&
+                        !s.effects.are_sheared() && !are_stopped(s, 0);
              }),
         rule("gravity along periodic sides", "sheared sides",
              "nothing stops discs in a flow without walls",

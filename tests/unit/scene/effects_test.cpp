@@ -265,6 +265,12 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
         texts.insert(texts.end(), more);
         return problems_with(texts);
     };
+    const std::string in_flow = problems_with(
+        {"box={left = {kind = \"periodic\"}, right = {kind = \"periodic\"}, "
+         "bottom = {kind = \"sheared\"}, top = {kind = \"sheared\"}}",
+         "effects.shear.rate=0.1", "effects.gravity.y=-0.01"});
+    CHECK(has(in_flow, "nothing stops discs in a flow without walls"));
+    CHECK_FALSE(has(in_flow, "would fall for ever")); // what is to be taken there is no help here
     CHECK(has(problems_with({"box.left.kind=periodic"}),
               "box.left.kind and box.right.kind must both be \"periodic\", or neither"));
     CHECK(has(problems_with({"box.top.kind=periodic"}),
