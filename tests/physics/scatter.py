@@ -11,8 +11,8 @@ third of the seeds have no error.
 
 The scatter of n runs is itself uncertain by 1 / sqrt(2 (n - 1)): 13 % for 32 seeds. The claim for
 independent blocks is 5 % too large on average. So one of 20 right errors would be below 0.75 with
-32 seeds. With the study's 128 seeds that is one of some 3000. `--seeds 32` is for packing 0.7, where
-a seed takes 45 core-seconds.
+32 seeds. With the study's 128 seeds that is one of some 3000. `--seeds 32` is for packing 0.7,
+where a seed takes 45 core-seconds.
 
 Runs end before an average is known that well only if they are much longer than the memory of the
 discs. So steps grow with the packing.
