@@ -201,6 +201,7 @@ int main(int argc, char** argv) {
         [&](const std::string& file) {
             Trajectory trajectory(file, sample_layout(false), world);
             trajectory.go_on(10);
+            trajectory.commit();
             trajectory.append(20, std::vector<Disc>(12), 6);
             trajectory.commit();
         });
@@ -209,6 +210,7 @@ int main(int argc, char** argv) {
         [&](const std::string& file) {
             CollisionLog log(file, sample_layout(false).system, world);
             log.go_on(3);
+            log.commit();
             log.append(std::vector<LoggedCollision>(5), 6);
             log.commit();
         });

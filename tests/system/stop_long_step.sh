@@ -63,7 +63,7 @@ expect_told 'stopped on request inside a step after 0 of 10' 'a fast gas'
 expect_told 'is of step 0; carrom run -o kept --resume goes on' 'a fast gas'
 given_up 3 USR1 4 "${gas[@]}" "${fast[@]}"
 expect_told 'the last state that is kept is of step 0' 'a fast gas on ranks'
-given_up 1 TERM 4 "${gas[@]}" --set time.method=time-stepped --set time.micro_steps=65536
+given_up 1 TERM 4 "${gas[@]}" --set time.method=time-stepped --set time.micro_steps=1048576
 expect_told 'the last state that is kept is of step 0' 'a step of many micro-steps'
 
 given_up 1 TERM 10 "${heap[@]}"
