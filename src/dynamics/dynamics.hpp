@@ -60,6 +60,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.clock_at(time) } -> std::same_as<double>; // at micro-steps since the sync
     { d.micro_steps_at(time) } -> std::same_as<double>;
     { d.frame_at(time) } -> std::same_as<Frame>;
+    { d.has_own_frame() } -> std::same_as<bool>;
     { d.extent_at(time) } -> std::same_as<Extent>;     // where the walls are
     { d.jump_at(axis, time) } -> std::same_as<double>; // how far the frame moves at a sync
     { d.flight_integral_at(time) } -> std::same_as<FlightIntegral>; // see StressSums

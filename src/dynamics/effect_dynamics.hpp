@@ -53,6 +53,7 @@ public:
     double clock_at(double micro_steps) const { return fall_.clock_at(micro_steps); }
     double micro_steps_at(double clock) const { return fall_.micro_steps_at(clock); }
     Frame frame_at(double time) const { return fall_.at(time); }
+    bool has_own_frame() const { return fall_.is_any(); }
     double slowing_at(double time) const { return fall_.slowing_at(time); }
     FlightIntegral flight_integral_at(double time) const { return fall_.flight_integral_at(time); }
     double pair_weight_at(double time) const { return fall_.pair_weight_at(time); }

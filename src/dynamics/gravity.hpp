@@ -59,6 +59,8 @@ public:
     double clock_at(double micro_steps) const;
     double micro_steps_at(double clock) const;
 
+    bool is_any() const { return gravity_.is_any() || drag_ != 0; }
+
     /// How far a disc that is pulled with `g` has fallen, and its speed of falling per g.
     double fallen(double g, double time) const {
         if (drag_ == 0 || g == 0) return (0.5 * g * time) * time;
@@ -81,7 +83,7 @@ public:
 
     /// The frame's origin and velocity in the box.
     Frame at(double time) const {
-        if (gravity_.is_any() || drag_ != 0) return moving_at(time);
+        if (is_any()) return moving_at(time);
         Frame at_rest; // often asked for, and known at once
         at_rest.clock = time;
         return at_rest;

@@ -75,6 +75,8 @@ public:
     static constexpr double clock_at(double micro_steps) { return micro_steps; }
     static constexpr double micro_steps_at(double clock) { return clock; }
     static Frame frame_at(double /*time*/) { return {}; }
+    /// Whether frame or clock differ from the box's at any time.
+    static constexpr bool has_own_frame() { return false; }
     static constexpr double slowing_at(double /*time*/) { return 1; }
     static FlightIntegral flight_integral_at(double time) { return {time, 0, 0, 0, 0}; }
     static constexpr double pair_weight_at(double time) { return time; }

@@ -3,6 +3,7 @@
 // events only where somebody follows them, so that other runs pay nothing.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,26 @@ public:
     virtual void take(std::span<const Event> events) = 0;
 };
 
+/// Events that wait for their followers. Room is kept and written over, because clearing it for
+/// each event first, as a vector does, would take a third of the work of noting it.
+template <class Event> class NotedEvents {
+public:
+    bool has_room() const { return n_ < n_rooms_; }
+    void grow() {
+        n_rooms_ = 2 * n_rooms_ + 16;
+        room_.resize(n_rooms_);
+    }
+    /// The room of one more event, which must be there. It holds old values, so all of it must be
+    /// written.
+    Event& add() { return room_[n_++]; }
+    void clear() { n_ = 0; }
+    std::span<const Event> all() const { return std::span(room_).first(n_); }
+
+private:
+    std::vector<Event> room_;
+    std::size_t n_ = 0, n_rooms_ = 0; ///< to ask the vector for its size takes a division
+};
+
 /// The followers of events of one kind. They are given events soon after these have happened, so
 /// that memory does not grow with their number.
 template <class Event> class Followers {
@@ -32,16 +53,20 @@ public:
     void give(std::span<const Event> events) const {
         for (EventFollower<Event>* follower : all_) follower->take(events);
     }
-    /// Room for an event that waits for `hand_over`, for engines that find events one by one.
-    Event& note() { return noted_.emplace_back(); }
+    /// Room for an event that waits for `hand_over`, for engines that find events one by one. All
+    /// of it must be written.
+    Event& note() {
+        if (!noted_.has_room()) noted_.grow();
+        return noted_.add();
+    }
     void hand_over() {
-        give(noted_);
+        give(noted_.all());
         noted_.clear();
     }
 
 private:
     std::vector<EventFollower<Event>*> all_;
-    std::vector<Event> noted_;
+    NotedEvents<Event> noted_;
 };
 
 } // namespace carrom

@@ -37,29 +37,45 @@ struct PairEvent {
 /// Each pair is an event of the rank that owns its first disc.
 using PairFollower = EventFollower<PairEvent>;
 
+/// Turns an event in the dynamics' own frame and clock into one in the box. Apart, because most
+/// dynamics need none of it.
+template <class Dynamics>
+[[gnu::noinline]] void show_in_box(PairEvent& event, const Dynamics& dynamics, double time,
+                                   double unit) {
+    const Frame frame = dynamics.frame_at(time);
+    event.time = dynamics.micro_steps_at(time);
+    event.x += frame.x;
+    event.y += frame.y;
+    for (double* impulse : {&event.ix, &event.iy}) *impulse *= frame.slowing;
+    for (double* v : {&event.p_vx, &event.q_vx}) *v = *v * frame.slowing + frame.vx * unit;
+    for (double* v : {&event.p_vy, &event.q_vy}) *v = *v * frame.slowing + frame.vy * unit;
+}
+
 /// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
 /// is the first disc at that time, before or after the collision, and `to` is the separation then.
 /// `unit` turns stored velocities into those per step. Filled in its place, which saves a copy.
 template <class Dynamics>
-void note_in(PairEvent& event, const Dynamics& dynamics, const Disc& place, const Separation& to,
-             const Disc& p, const Disc& q, double vx_before, double vy_before, double time,
-             double unit, std::int64_t last_sync) {
-    const Frame frame = dynamics.frame_at(time);
-    const double mass = dynamics.mass_of(p) * frame.slowing * unit;
+[[gnu::always_inline]] inline void note_in(PairEvent& event, const Dynamics& dynamics,
+                                           const Disc& place, const Separation& to, const Disc& p,
+                                           const Disc& q, double vx_before, double vy_before,
+                                           double time, double unit, std::int64_t last_sync) {
+    const double momentum = dynamics.mass_of(p) * unit;
     event.p = p.id;
     event.q = q.id;
     event.micro_step = last_sync;
-    event.time = dynamics.micro_steps_at(time);
-    event.x = place.x_at(time) + frame.x;
-    event.y = place.y_at(time) + frame.y;
+    event.time = time;
+    event.x = place.x_at(time);
+    event.y = place.y_at(time);
     event.dx = to.x;
     event.dy = to.y;
-    event.ix = mass * (p.vx - vx_before);
-    event.iy = mass * (p.vy - vy_before);
-    event.p_vx = (p.vx * frame.slowing + frame.vx) * unit;
-    event.p_vy = (p.vy * frame.slowing + frame.vy) * unit;
-    event.q_vx = (q.vx * frame.slowing + frame.vx) * unit;
-    event.q_vy = (q.vy * frame.slowing + frame.vy) * unit;
+    event.ix = momentum * (p.vx - vx_before);
+    event.iy = momentum * (p.vy - vy_before);
+    event.p_vx = p.vx * unit;
+    event.p_vy = p.vy * unit;
+    event.q_vx = q.vx * unit;
+    event.q_vy = q.vy * unit;
+    if (dynamics.has_own_frame()) [[unlikely]]
+        show_in_box(event, dynamics, time, unit);
 }
 
 } // namespace carrom

@@ -128,7 +128,7 @@ struct BlockOutcome {
     SideColumns columns;          ///< their new values
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
-    std::vector<PairEvent> pairs;
+    NotedEvents<PairEvent> pairs;
     std::uint64_t n_events = 0;  ///< number of events whose first disc is own
     std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo

@@ -289,9 +289,18 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     /// image.
     [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before,
                                      const Separation& to) {
+        if (!outcome->pairs.has_room()) [[unlikely]] // apart, so that no register is saved for it
+            return note_pair_in_more_room(event, before, to);
         const Disc &p = discs[event.p], &q = discs[event.q];
-        note_in(outcome->pairs.emplace_back(), dynamics, p, to, p, q, before.vx(), before.vy(),
-                event.time, ground.velocity_unit, ground.last_sync);
+        note_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
+                ground.velocity_unit, ground.last_sync);
+    }
+
+    [[gnu::noinline]] void note_pair_in_more_room(const Event& event,
+                                                  const PairStress<Dynamics>& before,
+                                                  const Separation& to) {
+        outcome->pairs.grow();
+        note_pair(event, before, to);
     }
 
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {

@@ -24,7 +24,7 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
                  event.is_wall ? Collision::wall : event.q, event.impulse * unit});
     }
     this->wall_followers_.hand_over();
-    this->pair_followers_.give(outcome.pairs);
+    this->pair_followers_.give(outcome.pairs.all());
 }
 
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.

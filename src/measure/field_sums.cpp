@@ -22,6 +22,7 @@ FieldSums::FieldSums(std::size_t n_cells, double speed, double length)
 void FieldSums::clear() {
     counts_.assign(counts_.size(), 0);
     sums_.clear();
+    gathered_.assign(counts_.size(), {});
     std::vector<ExactSum> of_cell;
     const auto add = [&of_cell](double usual, std::size_t n) {
         of_cell.insert(of_cell.end(), n, ExactSum(usual * headroom));
@@ -32,10 +33,34 @@ void FieldSums::clear() {
     add(speed_ * speed_ * speed_, 2);
     add(speed_ * length_, 3);
     add(speed_ * speed_ * length_, 2);
-    for (std::size_t k = 0; k < n_contact_moments; ++k)
-        contact_scales_[k] = of_cell[field_stress_xx + k].scale();
+    for (std::size_t k = 0; k < n_disc_moments; ++k) scales_[k] = of_cell[k].scale();
+    const double stress = -of_cell[field_stress_xx].scale(), heat = -of_cell[field_heat_x].scale();
+    normal_scales_ = Pair{stress, stress};
+    shear_scales_ = normal_scales_ / 2;
+    flow_scales_ = Pair{heat, heat} / 2;
+    usual_square_ = (usual_speeds * speed_) * (usual_speeds * speed_);
     for (std::size_t cell = 0; cell < counts_.size(); ++cell)
         sums_.insert(sums_.end(), of_cell.begin(), of_cell.end());
+}
+
+ContactUnits FieldSums::units_of(const ContactTerms& terms) {
+    const auto limited = [](double units) { return whole(std::clamp(units, -0x1p62, 0x1p62)); };
+    return {limited(terms.normal[0]), limited(terms.shear[0]), limited(terms.normal[1]),
+            limited(terms.flow[0]), limited(terms.flow[1])};
+}
+
+void FieldSums::hand_over(std::size_t cell) {
+    const Gathered& of = gathered_[cell];
+    add_contact(cell, ContactUnits{of.normal_x, of.shear, of.normal_y, of.flow_x, of.flow_y});
+    gathered_[cell] = {};
+}
+
+ExactSum FieldSums::sum_at(std::size_t cell, std::size_t moment) const {
+    ExactSum sum = sums_[n_field_moments * cell + moment];
+    const Gathered& of = gathered_[cell];
+    const std::array waiting = {of.normal_x, of.shear, of.normal_y, of.flow_x, of.flow_y};
+    if (moment >= n_disc_moments) sum.add_units(waiting[moment - n_disc_moments]);
+    return sum;
 }
 
 /// Each sum is four words of 32 bits, so that carries stay apart.
@@ -45,7 +70,7 @@ std::vector<std::uint64_t> FieldSums::joined_words(const Communicator& ranks) co
     for (std::size_t cell = 0; cell < size(); ++cell) {
         words.push_back(counts_[cell]);
         for (std::size_t k = 0; k < n_field_moments; ++k) {
-            const ExactSum& sum = sums_[n_field_moments * cell + k];
+            const ExactSum sum = sum_at(cell, k);
             for (const std::uint64_t word : {sum.low_word(), sum.high_word()}) {
                 words.push_back(word & 0xffffffff);
                 words.push_back(word >> 32);
@@ -76,7 +101,7 @@ void FieldSums::add(const FieldSums& other, std::size_t first) {
     for (std::size_t cell = 0; cell < size(); ++cell) {
         counts_[cell] += other.counts_[first + cell];
         for (std::size_t k = 0; k < n_field_moments; ++k)
-            sums_[n_field_moments * cell + k] += other.sums_[n_field_moments * (first + cell) + k];
+            sums_[n_field_moments * cell + k] += other.sum_at(first + cell, k);
     }
 }
 

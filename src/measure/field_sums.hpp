@@ -2,7 +2,7 @@
 // Sums over the cells of a grid, for fields such as density, flow and stress.
 //
 // All sums are exact, and ranks are joined only when somebody asks. So they have the same bits on
-// any number of ranks, and the sum over all cells is that of all discs to the last bit. Memory: 424
+// any number of ranks, and the sum over all cells is that of all discs to the last bit. Memory: 480
 // bytes for each cell on each rank.
 #pragma once
 
@@ -11,9 +11,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/exact_sum.hpp"
+#include "core/extent.hpp"
 #include "parallel/communicator.hpp"
 
 namespace carrom {
@@ -40,7 +42,27 @@ enum FieldMoment : std::uint8_t {
 
 /// Stress xx, xy, yy, and flow of energy along x and y.
 inline constexpr std::size_t n_contact_moments = 5;
+inline constexpr std::size_t n_disc_moments = n_field_moments - n_contact_moments;
 using ContactUnits = std::array<std::int64_t, n_contact_moments>;
+
+/// x and y of a vector, with which GCC and Clang compute at once.
+using Pair [[gnu::vector_size(16)]] = double;
+
+/// Stress xx and yy, stress xy twice, and flow of energy.
+struct ContactTerms {
+    Pair normal, shear, flow;
+};
+
+/// Cells in a length, and where the origin lies in widths of cells. The first cell is column 1 and
+/// row 1, so that no place in a cell is negative and rounding towards 0 finds the cell.
+struct PlacedGrid {
+    PlacedGrid(std::size_t n_x, std::size_t n_y, const Extent& box)
+        : per_length{static_cast<double>(n_x) / (box.x_high - box.x_low),
+                     static_cast<double>(n_y) / (box.y_high - box.y_low)},
+          origin(1 - Pair{box.x_low, box.y_low} * per_length) {}
+
+    Pair per_length, origin;
+};
 
 class FieldSums {
 public:
@@ -53,26 +75,42 @@ public:
     void add_disc(std::size_t cell, double mass, double vx, double vy) {
         ++counts_[cell];
         ExactSum* const sums = &sums_[n_field_moments * cell];
-        sums[field_mass].add(mass);
-        sums[field_momentum_x].add(mass * vx);
-        sums[field_momentum_y].add(mass * vy);
-        sums[field_flux_xx].add(mass * vx * vx);
-        sums[field_flux_xy].add(mass * vx * vy);
-        sums[field_flux_yy].add(mass * vy * vy);
-        const double energy = mass * (vx * vx + vy * vy) / 2;
-        sums[field_energy_x].add(energy * vx);
-        sums[field_energy_y].add(energy * vy);
+        const double px = mass * vx, py = mass * vy, xx = px * vx, yy = py * vy,
+                     energy = (xx + yy) / 2;
+        const std::array<double, n_disc_moments> terms = {mass,    px, py,          xx,
+                                                          px * vy, yy, energy * vx, energy * vy};
+        // One test is faster than one for each term.
+        const bool is_usual = vx * vx + vy * vy < usual_square_ && mass < usual_mass;
+        if (is_usual) [[likely]]
+            for (std::size_t k = 0; k < n_disc_moments; ++k)
+                sums[k].add_units(static_cast<std::int64_t>(terms[k] * scales_[k]));
+        else
+            for (std::size_t k = 0; k < n_disc_moments; ++k) sums[k].add(terms[k]);
     }
-    /// What a collision adds, in whole units of the sums, so that its parts add up to it.
-    ContactUnits in_units(const std::array<double, n_contact_moments>& of_contact) const {
-        ContactUnits units{};
-        for (std::size_t k = 0; k < n_contact_moments; ++k) {
-            const double scaled = of_contact[k] * contact_scales_[k];
-            const double above = scaled < -0x1p62 ? -0x1p62 : scaled; // std::clamp branches
-            units[k] = static_cast<std::int64_t>(above > 0x1p62 ? 0x1p62 : above);
-        } // the hardest blows are cut to 2^62 units
-        return units;
+    /// What a collision adds, in units of the sums. Minus half of impulse times `velocity` is the
+    /// energy that goes from p to q.
+    ContactTerms terms_of(Pair impulse_of_p, Pair from_p_to_q, Pair velocity) const {
+        const Pair twice = sum_of(impulse_of_p * velocity);
+        return {impulse_of_p * from_p_to_q * normal_scales_,
+                sum_of(impulse_of_p * turned(from_p_to_q)) * shear_scales_,
+                twice * from_p_to_q * flow_scales_};
     }
+    void add_contact(std::size_t cell, const ContactTerms& terms) {
+        const Pair squares = sum_of(terms.normal * terms.normal + terms.shear * terms.shear +
+                                    terms.flow * terms.flow);
+        if (!(squares[0] < most_gathered * most_gathered)) [[unlikely]]
+            return add_contact(cell, units_of(terms));
+        Gathered& gathered = gathered_[cell];
+        gathered.normal_x += whole(terms.normal[0]);
+        gathered.normal_y += whole(terms.normal[1]);
+        gathered.shear += whole(terms.shear[0]);
+        gathered.flow_x += whole(terms.flow[0]);
+        gathered.flow_y += whole(terms.flow[1]);
+        if (++gathered.n == most_terms) [[unlikely]]
+            hand_over(cell);
+    }
+    /// Whole units, whose parts add up to them. The hardest blows are cut to 2^62 units.
+    static ContactUnits units_of(const ContactTerms& terms);
     void add_contact(std::size_t cell, const ContactUnits& units) {
         for (std::size_t k = 0; k < n_contact_moments; ++k)
             sums_[n_field_moments * cell + field_stress_xx + k].add_units(units[k]);
@@ -87,16 +125,39 @@ public:
 
     std::uint64_t count(std::size_t cell) const { return counts_[cell]; }
     double value(std::size_t cell, FieldMoment moment) const {
-        return sums_[n_field_moments * cell + moment].value();
+        return sum_at(cell, moment).value();
     }
     /// All cells in one.
     FieldSums total() const;
 
 private:
+    /// A usual term has 50 bits. At 8 times the usual speed and this mass the largest term is 2^11
+    /// times as large.
+    static constexpr double usual_mass = 4, usual_speeds = 8;
+
+    static Pair turned(Pair pair) { return Pair{pair[1], pair[0]}; }
+    /// Both numbers of it are the sum.
+    static Pair sum_of(Pair pair) { return pair + turned(pair); }
+    static std::int64_t whole(double units) { return static_cast<std::int64_t>(units); }
+
+    /// Terms of collisions that wait in 64 bits, because sums in 128 bits take twice the work. So
+    /// many terms of that size have 62 bits together.
+    struct Gathered {
+        std::int64_t normal_x = 0, shear = 0, normal_y = 0, flow_x = 0, flow_y = 0, n = 0;
+    };
+    static constexpr double most_gathered = 0x1p53;
+    static constexpr std::int64_t most_terms = 512;
+    void hand_over(std::size_t cell);
+    ExactSum sum_at(std::size_t cell, std::size_t moment) const;
+
     double speed_, length_;
-    std::array<double, n_contact_moments> contact_scales_{};
+    std::array<double, n_disc_moments> scales_{}; ///< of the sums of discs
+    /// Those of collisions' sums, with the factors of -1 and 1/2 that terms have.
+    Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
+    double usual_square_ = 0; ///< terms of a disc with a lower squared speed have 62 bits
     std::vector<std::uint64_t> counts_;
-    std::vector<ExactSum> sums_;
+    std::vector<ExactSum> sums_;     ///< without what is gathered
+    std::vector<Gathered> gathered_; ///< of each cell
 };
 
 /// Calls `act(column, row, from, to)` for each part of the line from (u, v) to (u + du, v + dv), in

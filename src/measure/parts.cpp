@@ -58,7 +58,7 @@ double driven_speed(const Scene& scene) {
 }
 
 double usual_speed(const MeasuredRun& run) {
-    const double thermal = thermal_speed(run.scene, run.simulation.totals()),
+    const double thermal = thermal_speed(run.scene, run.simulation.energies()),
                  driven = driven_speed(run.scene);
     return thermal > 0 ? thermal : driven > 0 ? driven : 1;
 }

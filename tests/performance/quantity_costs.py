@@ -6,14 +6,15 @@ docs/performance/quantities.csv.
   tests/performance/quantity_costs.py CARROM [QUANTITY ...]
 
 A gas at a packing of 0.3 in a periodic box, or for quantities of walls between walls, runs on one
-thread with the event-driven method. Each disc collides once in a step on average. The shares are
-about those of a run of 1e5 discs, because the work for a disc and step does not depend on their
-number. Profiles have one cell here, so that as many collisions lie across its edge as lie across
-edges of the default grid among 1e5 discs. valgrind counts the instructions of steps and of samples,
-but not those of the start. `per_collision` is the share of the run's instructions where a sample is
-taken after each collision of a disc, and `per_ten`, the default, where it is taken after ten.
-`megabytes` is what the largest memory of a run of 1e5 discs grows by, with a sample after each of
-40 steps. It takes some minutes.
+thread with the event-driven method. Each disc collides once in a step on average. Shares are those
+of a run of 1e5 discs: the instructions of its steps are counted without quantities. What a quantity
+adds for each disc and step is counted with 1000 discs, because it does not depend on their number.
+There profiles have one cell, so that as many collisions lie across its edge as lie across edges of
+the default grid among 1e5 discs. valgrind counts the instructions of steps and of samples, but not
+those of the start. `per_collision` is the share where a sample is taken after each collision of a
+disc, and `per_ten`, the default, where it is taken after ten. There are so many samples that
+correlations have most of their lags. `megabytes` is what the largest memory of a run of 1e5 discs
+grows by, with a sample after each of 40 steps. It takes some ten minutes.
 """
 import math
 import os
@@ -24,7 +25,8 @@ import tempfile
 
 from instructions import SETTINGS
 
-DISCS, STEPS, MANY = 1000, 40, 100_000
+FEW, MANY = 1000, 100_000
+PLAIN_STEPS, SAMPLES = 10, 40
 SCENE = """[box]
 size = {size}
 left.kind = "periodic"
@@ -50,10 +52,10 @@ QUANTITIES = ("wall_pressure", "wall_exchange", "velocities", "density", "displa
               "correlations", "transport")
 
 
-def write_scene(path, discs, kind, name, every):
+def write_scene(path, discs, steps, kind, name, every):
     """A gas of a radius of 1 that measures a quantity, or nothing."""
     scene = SCENE.format(size=math.sqrt(discs * math.pi / 0.3), discs=discs, kind=kind,
-                         speed=2 * math.sqrt(math.pi / 8) / 1.063, steps=STEPS)
+                         speed=2 * math.sqrt(math.pi / 8) / 1.063, steps=steps)
     if name:
         scene += MEASURED.format(name=name, every=every)
     with open(path, "w", encoding="utf-8") as file:
@@ -63,7 +65,7 @@ def write_scene(path, discs, kind, name, every):
 def megabytes(program, kind, name=""):
     """The largest memory of a run of many discs."""
     with tempfile.TemporaryDirectory() as folder:
-        write_scene(f"{folder}/scene.toml", MANY, kind, name, 1)
+        write_scene(f"{folder}/scene.toml", MANY, SAMPLES, kind, name, 1)
         pid = os.spawnvpe(os.P_NOWAIT, program, [program, "run", f"{folder}/scene.toml", "--quiet",
                                                  "--threads", "1", "-o", f"{folder}/run"],
                           os.environ | SETTINGS)
@@ -73,10 +75,10 @@ def megabytes(program, kind, name=""):
     return usage.ru_maxrss / 1000 # it is in kB
 
 
-def instructions(program, kind, name="", every=1):
-    """Of all steps and samples of a run."""
+def instructions(program, discs, steps, kind, name="", every=1):
+    """Of all steps and samples of a run, for each disc and step."""
     with tempfile.TemporaryDirectory() as folder:
-        write_scene(f"{folder}/scene.toml", DISCS, kind, name, every)
+        write_scene(f"{folder}/scene.toml", discs, steps, kind, name, every)
         if name in SETTINGS_OF:
             with open(f"{folder}/scene.toml", "a", encoding="utf-8") as file:
                 file.write(SETTINGS_OF[name])
@@ -84,22 +86,25 @@ def instructions(program, kind, name="", every=1):
                    "--collect-atstart=no", "--toggle-collect=carrom::EngineBase*::advance_towards*",
                    "--toggle-collect=carrom::Sampler::act*", program, "run",
                    f"{folder}/scene.toml", "--quiet", "--threads", "1", "-o", f"{folder}/run"]
-        result = subprocess.run(command, check=True, capture_output=True, text=True, timeout=600,
+        result = subprocess.run(command, check=True, capture_output=True, text=True, timeout=1200,
                                 env=os.environ | SETTINGS)
-    return int(re.search(r"Collected : (\d+)", result.stderr)[1])
+    return int(re.search(r"Collected : (\d+)", result.stderr)[1]) / (discs * steps)
 
 
 def main():
     """Print the table."""
     program, names = sys.argv[1], sys.argv[2:] or QUANTITIES
     kinds = {name: "wall" if name.startswith("wall") else "periodic" for name in names}
-    plain = {kind: (instructions(program, kind), megabytes(program, kind))
+    whole = {kind: (instructions(program, MANY, PLAIN_STEPS, kind), megabytes(program, kind))
              for kind in set(kinds.values())}
+    plain = {(kind, every): instructions(program, FEW, every * SAMPLES, kind)
+             for kind in whole for every in (1, 10)}
     print("quantity,per_collision,per_ten,megabytes")
     for name, kind in kinds.items():
-        count, memory = plain[kind]
-        shares = [instructions(program, kind, name, every) / count - 1 for every in (1, 10)]
-        print(f"{name},{shares[0]:.3f},{shares[1]:.3f},"
+        count, memory = whole[kind]
+        added = [instructions(program, FEW, every * SAMPLES, kind, name, every) - plain[kind, every]
+                 for every in (1, 10)]
+        print(f"{name},{added[0] / count:.3f},{added[1] / count:.3f},"
               f"{max(0, megabytes(program, kind, name) - memory):.1f}", flush=True)
 
 

@@ -76,10 +76,10 @@ struct Comparison {
     double turns_per_length, overlap_squared;
 
     /// Adds `n` discs from place `begin` on to the moments `of`, at most a run of ids, in their
-    /// order. Terms are found first, because sums in order hinder vectors.
+    /// order. Terms are found first, because sums in order hinder vectors, and so do whole numbers.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
-        std::array<double, ids_of_run> square, product, wave; // no zeros, which would cost a tenth
-        std::int64_t n_near = 0;
+        // Without zeros, which would cost a tenth.
+        std::array<double, ids_of_run> square, product, wave, is_near;
         const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
                             *const vy = &now.vy[begin], *const x_before = &before.x[begin],
                             *const y_before = &before.y[begin],
@@ -88,18 +88,20 @@ struct Comparison {
         for (std::size_t i = 0; i < n; ++i) {
             const double dx = x[i] - x_before[i], dy = y[i] - y_before[i];
             square[i] = dx * dx + dy * dy;
-            n_near += square[i] < overlap_squared ? 1 : 0;
+            is_near[i] = square[i] < overlap_squared ? 1.0 : 0.0;
             product[i] = vx[i] * vx_before[i] + vy[i] * vy_before[i];
             wave[i] = cosine_of_turns(dx * turns_per_length) +
                       cosine_of_turns(dy * turns_per_length);
         }
+        std::array<double, n_moments> sums{};
         for (std::size_t i = 0; i < n; ++i) {
-            of[squares] += square[i];
-            of[fourths] += square[i] * square[i];
-            of[products] += product[i];
-            of[waves] += wave[i] / 2;
+            sums[squares] += square[i];
+            sums[fourths] += square[i] * square[i];
+            sums[products] += product[i];
+            sums[waves] += wave[i] / 2;
+            sums[overlaps] += is_near[i];
         }
-        of[overlaps] += static_cast<double>(n_near);
+        for (std::size_t k = 0; k < n_moments; ++k) of[k] += sums[k];
     }
 };
 

@@ -58,11 +58,17 @@ void warn_without_blocks(const SceneDraft& draft) {
     const double needed = (profile_samples.of(output) - 1) *
                           static_cast<double>(output.every_steps);
     if (draft.scene.steps == 0 || steps < 0 || needed <= static_cast<double>(steps)) return;
+    const bool is_rare = steps < output.every_steps; // a single sample has no collisions
     draft.scene.warnings.push_back(fmt::format(
         "no table of profiles: its first block takes {:.0f} steps, and from step {} to the "
         "last one are {}; try: {} = {} or less",
-        needed, output.from_step, steps, profile_samples.key_name(),
-        steps / output.every_steps + 1));
+        needed, output.from_step, steps,
+        is_rare ? "output.measurements.every_steps" : profile_samples.key_name(),
+        is_rare
+            ? std::max<std::int64_t>(static_cast<std::int64_t>(static_cast<double>(steps) /
+                                                               (profile_samples.of(output) - 1)),
+                                     1)
+            : steps / output.every_steps + 1));
 }
 
 /// A block's last sample, the steps whose collisions it counts, and the mean edges of the box.
@@ -98,9 +104,9 @@ public:
     }
 
     void take(std::span<const PairEvent> events) override {
-        Grid grid = grid_in({0, run_.scene.box.x, 0, run_.scene.box.y});
+        PlacedGrid grid = grid_in({0, run_.scene.box.x, 0, run_.scene.box.y});
         for (const PairEvent& event : events) {
-            if (are_sides_moving_)
+            if (are_sides_moving_) [[unlikely]]
                 grid = grid_in(extent_at(run_.scene.effects, run_.scene.box,
                                          event.steps_since(0, run_.scene.micro_steps)));
             add(event, grid);
@@ -112,14 +118,17 @@ public:
         const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const auto place = [](double x, std::size_t n) { // the edges belong to the last cells
-            return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(n - 1)));
+        const auto place = [](double x, std::size_t n) {    // the edges belong to the last cells
+            const auto cell = static_cast<std::int64_t>(x); // of unsigned numbers it takes branches
+            return static_cast<std::size_t>(
+                std::clamp<std::int64_t>(cell, 0, static_cast<std::int64_t>(n) - 1));
         };
         for (const Disc& disc : state.inside) {
-            const std::size_t cell = place((disc.y_at(time) - box.y_low) * per_y, n_y_) * n_x_ +
-                                     place((disc.x_at(time) - box.x_low) * per_x, n_x_);
-            sums_.add_disc(kind_of(disc.id) * n_cells() + cell, species_.of(disc.id).mass,
-                           disc.vx * unit, disc.vy * unit);
+            std::size_t cell = place((disc.y_at(time) - box.y_low) * per_y, n_y_) * n_x_ +
+                               place((disc.x_at(time) - box.x_low) * per_x, n_x_);
+            if (n_kinds_ > 1) cell += kind_of(disc.id) * n_cells();
+            sums_.add_disc(cell, have_masses_ ? species_.of(disc.id).mass : 1, disc.vx * unit,
+                           disc.vy * unit);
         }
         if (!state.is_first) head_.steps += static_cast<double>(run_.output.every_steps);
         head_.x_low += box.x_low, head_.x_high += box.x_high;
@@ -187,33 +196,38 @@ private:
                within(column, n_x_, run_.scene.effects.is_periodic_x());
     }
 
-    /// Where cells are: the corner of the first one, and cells in a length.
-    struct Grid {
-        double x = 0, y = 0, per_x = 1, per_y = 1;
-    };
-    Grid grid_in(const Extent& box) const {
-        return {box.x_low, box.y_low, static_cast<double>(n_x_) / (box.x_high - box.x_low),
-                static_cast<double>(n_y_) / (box.y_high - box.y_low)};
-    }
+    PlacedGrid grid_in(const Extent& box) const { return {n_x_, n_y_, box}; }
 
     /// What a collision adds to the stress and to the flow of energy. The energy that goes from p
     /// to q is the mean of what q gains and p loses.
-    ContactUnits units_of(const PairEvent& event) const {
-        double wx = event.p_vx + event.q_vx, wy = event.p_vy + event.q_vy;
-        if (have_masses_) {
-            const double per = 1 / (2 * species_.of(event.q).mass) -
-                               1 / (2 * species_.of(event.p).mass);
-            wx += event.ix * per, wy += event.iy * per;
-        }
-        const double energy = -(event.ix * wx + event.iy * wy) / 2;
-        return sums_.in_units({-event.ix * event.dx,
-                               -(event.ix * event.dy + event.iy * event.dx) / 2,
-                               -event.iy * event.dy, energy * event.dx, energy * event.dy});
+    ContactTerms terms_of(const PairEvent& event) const {
+        const Pair impulse = {event.ix, event.iy};
+        Pair velocity = Pair{event.p_vx, event.p_vy} + Pair{event.q_vx, event.q_vy};
+        if (have_masses_) [[unlikely]]
+            velocity += impulse *
+                        (1 / (2 * species_.of(event.q).mass) - 1 / (2 * species_.of(event.p).mass));
+        return sums_.terms_of(impulse, Pair{event.dx, event.dy}, velocity);
+    }
+
+    /// Most collisions have their whole line in one cell.
+    void add(const PairEvent& event, const PlacedGrid& grid) {
+        const Pair from = Pair{event.x, event.y} * grid.per_length + grid.origin,
+                   length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
+        const auto whole = [](double place) { return static_cast<std::int64_t>(place); };
+        const std::int64_t column = whole(from[0]), row = whole(from[1]);
+        const std::size_t to_right = static_cast<std::size_t>(column) - 1,
+                          upwards = static_cast<std::size_t>(row) - 1; // huge if negative
+        const ContactTerms terms = terms_of(event);
+        if (column == whole(to[0]) && row == whole(to[1]) && to_right < n_x_ && upwards < n_y_ &&
+            n_kinds_ == 1) [[likely]]
+            sums_.add_contact(upwards * n_x_ + to_right, terms);
+        else
+            add_parts(event, FieldSums::units_of(terms), from, length);
     }
 
     /// Shares a collision's stress among the cells on its line and both discs' species.
-    void add(const PairEvent& event, const Grid& grid) {
-        const ContactUnits whole = units_of(event);
+    [[gnu::noinline]] void add_parts(const PairEvent& event, const ContactUnits& whole, Pair from,
+                                     Pair length) {
         ContactUnits rest = whole;
         const std::size_t p = kind_of(event.p) * n_cells(), q = kind_of(event.q) * n_cells();
         const auto add_part = [&](std::int64_t column, std::int64_t row, ContactUnits part) {
@@ -227,14 +241,13 @@ private:
             sums_.add_contact(p + cell, part);
             sums_.add_contact(q + cell, half);
         };
-        for_each_part_of_line((event.x - grid.x) * grid.per_x, (event.y - grid.y) * grid.per_y,
-                              event.dx * grid.per_x, event.dy * grid.per_y,
-                              [&](std::int64_t column, std::int64_t row, double from, double to) {
+        for_each_part_of_line(from[0] - 1, from[1] - 1, length[0], length[1],
+                              [&](std::int64_t column, std::int64_t row, double begin, double to) {
                                   if (to == 1) return add_part(column, row, rest);
                                   ContactUnits part{};
                                   for (std::size_t k = 0; k < part.size(); ++k) {
                                       part[k] = static_cast<std::int64_t>(
-                                          static_cast<double>(whole[k]) * (to - from));
+                                          static_cast<double>(whole[k]) * (to - begin));
                                       rest[k] -= part[k];
                                   }
                                   add_part(column, row, part);

@@ -60,19 +60,20 @@ public:
     void take(std::span<const PairEvent> events) override {
         for (const PairEvent& event : events) {
             const double time = event.steps_since(last_step_, run_.scene.micro_steps);
-            const double before_p = energy(event.p_vx - event.ix, event.p_vy - event.iy),
-                         after_p = energy(event.p_vx, event.p_vy);
-            const double before_q = energy(event.q_vx + event.ix, event.q_vy + event.iy),
-                         after_q = energy(event.q_vx, event.q_vy);
+            // Velocities about the drift: their sum s does not change, and their difference is r
+            // afterwards. The discs are equal and elastic, so p gains the energy i s / 2.
+            const double sx = event.p_vx + event.q_vx - 2 * drift_[0],
+                         sy = event.p_vy + event.q_vy - 2 * drift_[1], rx = event.p_vx - event.q_vx,
+                         ry = event.p_vy - event.q_vy;
+            const double gained = (event.ix * sx + event.iy * sy) / 2,
+                         difference = (rx * sx + ry * sy) / 2 - 2 * gained; // p's - q's, before
             // This is what flights lose in the rest of the time, and what goes from one centre to
             // the other.
-            const auto sum = [&](double pv, double qv, double i, double drift, double d) {
-                const double gained = after_p * (pv - drift) - before_p * (pv - i - drift) +
-                                      after_q * (qv - drift) - before_q * (qv + i - drift);
-                return (before_p - after_p) * d - time * gained;
+            const auto sum = [&](double r, double i, double d) {
+                return -gained * d - time * (gained * r + difference * i);
             };
-            heat_[0].add(sum(event.p_vx, event.q_vx, event.ix, drift_[0], event.dx));
-            heat_[1].add(sum(event.p_vy, event.q_vy, event.iy, drift_[1], event.dy));
+            heat_[0].add(sum(rx, event.ix, event.dx));
+            heat_[1].add(sum(ry, event.iy, event.dy));
         }
     }
 
