@@ -39,6 +39,7 @@ struct CellBlock {
 class CellSums {
 public:
     /// `work_of(column, row)` is a whole number; those of all `cells` add up to less than 2^32.
+    /// Defined in cell_sums_fill.hpp.
     template <class WorkOf> void fill(const CellBlock& cells, int n_threads, const WorkOf& work_of);
     std::uint64_t in(const CellBlock& part) const;
     /// The smallest rectangle that holds all work of `part`.
@@ -100,36 +101,5 @@ private:
     std::vector<Node> nodes_;          ///< the first one is all cells
     std::vector<double> shares_; ///< own work of the blocks cut by work, compared with each other
 };
-
-template <class WorkOf>
-void CellSums::fill(const CellBlock& cells, int n_threads, const WorkOf& work_of) {
-    cells_ = cells;
-    sums_.resize(place(cells.end_column, cells.end_row) + 1);
-    constexpr int rows_each = 64; // of a stretch that a thread takes through all columns
-    const int n_stretches = cells.n_rows() / rows_each + 1;
-#pragma omp parallel num_threads(n_threads)
-    {
-#pragma omp for schedule(static)
-        for (int column = cells.first_column; column < cells.end_column; ++column) {
-            std::uint32_t* next = &sums_[place(column + 1, cells.first_row)];
-            *next = 0;
-            for (int row = cells.first_row; row < cells.end_row; ++row, ++next)
-                next[1] = next[0] + work_of(column, row);
-        }
-#pragma omp for schedule(static)
-        for (int k = 0; k < n_stretches; ++k) {
-            const int first = cells.first_row + k * rows_each;
-            const int n = first + rows_each <= cells.end_row ? rows_each
-                                                             : cells.end_row + 1 - first;
-            for (int row = 0; row < n; ++row)
-                sums_[place(cells.first_column, first) + static_cast<std::size_t>(row)] = 0;
-            for (int column = cells.first_column; column < cells.end_column; ++column) {
-                const std::uint32_t* from = &sums_[place(column, first)];
-                std::uint32_t* to = &sums_[place(column + 1, first)];
-                for (int row = 0; row < n; ++row) to[row] += from[row];
-            }
-        }
-    }
-}
 
 } // namespace carrom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "event_driven/cell_sums_fill.hpp"
 #include "event_driven/event_driven_engine.hpp"
 
 namespace carrom {

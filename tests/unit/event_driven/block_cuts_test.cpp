@@ -8,6 +8,8 @@
 
 #include "catch.hpp"
 
+#include "event_driven/cell_sums_fill.hpp"
+
 using namespace carrom;
 
 namespace {
