@@ -16,8 +16,9 @@ namespace {
 /// In small letters and without hyphens, so that Nose-Hoover and nosehoover are one word.
 std::string letters_of(std::string_view word) {
     std::string letters;
-    for (const unsigned char c : word)
-        if (c != '-' && c != '_' && c != ' ') letters += static_cast<char>(std::tolower(c));
+    for (const char c : word)
+        if (c != '-' && c != '_' && c != ' ')
+            letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return letters;
 }
 
