@@ -315,12 +315,12 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
 
 TEST_CASE("Periodic sides bound what can be measured, and the sizes of discs") {
     const Texts along_y{"box.bottom.kind=periodic", "box.top.kind=periodic"};
-    const auto measuring = [&](const char* quantities, bool is_around) {
+    const auto measuring = [&](const char* names, bool is_around) {
         Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"}
                                 : Texts{};
         texts.insert(texts.end(), along_y.begin(), along_y.end());
         texts.insert(texts.end(), {"output.folder=tables",
-                                   std::string("output.measurements.quantities=") + quantities});
+                                   std::string("output.measurements.quantities=") + names});
         return problems_with(texts);
     };
     CHECK(has(measuring("[\"wall_pressure\"]", true),
