@@ -44,6 +44,12 @@ Finding StateCheck::first_other_motion() const {
                     0,
                     1};
         if (now.walls + now.pairs > 0) continue;
+        if (then.rests()) { // until something wakes it
+            const double moved = std::hypot(disc.x - then.x, disc.y - then.y) +
+                                 std::hypot(disc.vx, disc.vy) * stretch();
+            if (disc.rests() && moved <= blur(64)) continue;
+            return {Invariant::motion, now.owner, first_id_ + i, moved, blur(64)};
+        }
         const double seam = effects_.periods(scene_.box).speed;
         double wx = disc.vx - (then.vx * left + effects_.gravity.x * time);
         const double wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
@@ -221,12 +227,13 @@ double StateCheck::energy_of_rounds(std::size_t i) const {
     return mass_of(now.id) * energy;
 }
 
-/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity
-/// gives in a contact time, at least.
+/// The guard of discs at rest: one that is pulled to a wall, or to another disc that rests, leaves it
+/// with half of what gravity gives in a contact time, at least.
 double StateCheck::resting_gain(const Known& known) const {
     const double pull = std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y));
     const double leaving = 0.5 * (pull + wall_pull_) * effects_.contact.contact_time;
-    return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(known.walls);
+    const std::uint64_t n = known.walls + (effects_.rest.is_any() ? known.pairs : 0);
+    return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(n);
 }
 
 /// The most that oscillating walls have given, or taken. A disc that comes with v and

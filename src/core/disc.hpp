@@ -32,7 +32,7 @@ struct alignas(64) Disc {
     std::uint64_t is_departed : 1 = 0; ///< see depart
     std::int64_t image_x : 16 = 0;     ///< displaced by so many box lengths (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    std::uint64_t : 1;
+    std::uint64_t is_resting : 1 = 0; ///< see rests
     std::int64_t image_y : 16 = 0;
 
     /// The disc has left the box at (x, y) through an open side. It is at rest there, and takes
@@ -42,6 +42,8 @@ struct alignas(64) Disc {
         is_departed = 1;
     }
     bool has_departed() const { return is_departed != 0; }
+    /// The disc lies still in the box until something wakes it (dynamics/resting_dynamics.hpp).
+    bool rests() const { return is_resting != 0; }
 
     double x_at(double time) const { return x + vx * (time - tau); }
     double y_at(double time) const { return y + vy * (time - tau); }

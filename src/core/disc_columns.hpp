@@ -52,13 +52,17 @@ inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
 /// Stands for the time of a departed disc, which has none.
 inline constexpr double departed_time = -1;
+/// A resting disc has -2 less its time, which is a whole number at the end of a step.
 inline double stored_time(const Disc& disc) {
+    if (disc.rests()) return -2 - disc.tau;
     return disc.has_departed() ? departed_time : disc.tau;
 }
 inline void set_stored_time(Disc& disc, std::uint64_t bits) {
     disc.tau = std::bit_cast<double>(bits);
     disc.is_departed = disc.tau == departed_time;
+    disc.is_resting = disc.tau <= -2;
     if (disc.has_departed()) disc.tau = 0;
+    if (disc.rests()) disc.tau = -2 - disc.tau;
 }
 
 } // namespace columns

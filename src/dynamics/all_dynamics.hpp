@@ -9,6 +9,7 @@
 #include "dynamics/growing_dynamics.hpp"
 #include "dynamics/periodic_dynamics.hpp"
 #include "dynamics/plain_dynamics.hpp"
+#include "dynamics/resting_dynamics.hpp"
 #include "dynamics/sheared_dynamics.hpp"
 #include "dynamics/study_dynamics.hpp"
 
@@ -18,7 +19,8 @@
         make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \
             make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics)                          \
                 make(PeriodicMixedDynamics) make(PeriodicRoughDynamics) make(GrowingDynamics)      \
-                    make(ShearedMixedDynamics) make(ShearedRoughDynamics)
+                    make(ShearedMixedDynamics) make(ShearedRoughDynamics)              \
+                        make(RestingMixedDynamics) make(RestingRoughDynamics)
 
 namespace carrom {
 

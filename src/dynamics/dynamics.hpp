@@ -31,6 +31,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { D::has_mirror_walls } -> std::convertible_to<bool>;   // walls only reverse a velocity
     { D::may_have_obstacles } -> std::convertible_to<bool>; // fixed bodies stand in the box
     { D::may_lose_discs } -> std::convertible_to<bool>;     // discs leave through open sides
+    { D::may_rest } -> std::convertible_to<bool>;           // discs may lie still in the box
     { D::has_elastic_pairs } -> std::convertible_to<bool>;  // they keep the kinetic energy
     { D::is_for_study } -> std::convertible_to<bool>;       // states are rounded, contacts missed
     { d.has_pairs() } -> std::same_as<bool>;                // discs collide with each other

@@ -128,6 +128,16 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
+/// Which discs may come to rest (scene/effects/rest.cpp, resting_dynamics.hpp); per step.
+struct Rest {
+    double speed = 0; ///< slower discs may come to rest; 0 is none
+    double gap = 0;   ///< discs as close as this hold each other
+    double wake = 0;  ///< a faster hit wakes a disc
+
+    bool is_any() const { return speed > 0; }
+    friend bool operator==(const Rest&, const Rest&) = default;
+};
+
 /// Times in steps in a scene, in micro-steps in a dynamics.
 struct Effects {
     ContactEffect contact;
@@ -141,6 +151,7 @@ struct Effects {
     double growth = 0; ///< radii grow by this share of their first value per time
     double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
     Thermostat thermostat{};
+    Rest rest{};
 
     bool have_spins() const { return contact.kind == ContactKind::rough; }
     bool have_plain_boundaries() const;
@@ -164,7 +175,7 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any();
+               growth != 0 || thermostat.is_any() || rest.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -50,6 +50,7 @@ public:
     static constexpr bool has_elastic_pairs = true;
     static constexpr bool may_have_obstacles = false;
     static constexpr bool may_lose_discs = false;
+    static constexpr bool may_rest = false;
     static constexpr double cascade_interval = 0x1p-40;
 
     PlainDynamics(const Box& box, double radius)

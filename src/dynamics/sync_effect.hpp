@@ -40,6 +40,11 @@ struct SyncDiscs {
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
     /// **Collective.**
     std::function<double(double)> largest_over_ranks = {};
+    /// The bytes of all ranks, one rank after the other, on every rank. **Collective.**
+    std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
+    /// On rank 0, and only while walls are measured: adds what a side of the box gives to discs at
+    /// rest until the next sync, across it and along it, in mass times length per micro-step.
+    std::function<void(std::size_t side, double normal, double along)> press_wall = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
     /// a copy of `sums`. **Collective.**
@@ -66,7 +71,7 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Changes velocities and spins, and nothing else. **Collective.**
+    /// Changes velocities and spins, and which discs rest, and nothing else. **Collective.**
     virtual void act(const SyncDiscs& at) const = 0;
 };
 

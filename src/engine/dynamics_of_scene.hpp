@@ -21,6 +21,10 @@ template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make
         return effects.contact.kind == ContactKind::rough
                    ? make.template operator()<ShearedRoughDynamics>()
                    : make.template operator()<ShearedMixedDynamics>();
+    if (effects.rest.is_any())
+        return effects.contact.kind == ContactKind::rough
+                   ? make.template operator()<RestingRoughDynamics>()
+                   : make.template operator()<RestingMixedDynamics>();
     if (effects.contact.kind == ContactKind::rough)
         return is_periodic ? make.template operator()<PeriodicRoughDynamics>()
                            : make.template operator()<RoughDynamics>();

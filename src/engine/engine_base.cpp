@@ -151,6 +151,12 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         for (std::int64_t i = 0; i < n; ++i) {
             Disc& disc = discs[static_cast<std::size_t>(i)];
             if (Dynamics::may_lose_discs && disc.has_departed()) continue;
+            if constexpr (Dynamics::may_rest) {
+                if (disc.rests()) {
+                    dynamics_.resting_places().write_for(disc, 0);
+                    continue;
+                }
+            }
             if (ends_flights) terms.add_flight(dynamics_.mass_of(disc), disc, flight, flights);
             Dynamics::advance(disc, time_);
             if (frame_moves) dynamics_.restart_frame(disc, time_);
@@ -166,11 +172,17 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     }
     if (is_work_asked) *work_ += energy_of_own();
     if (sync_action_.has_effects()) {
-        sync_action_.act(discs_, n_micro_done_ / sync_every_);
+        sync_action_.act(discs_, n_micro_done_ / sync_every_, this->wall_followers_);
         fastest = 0;
         for (const Disc& disc : own()) fastest = std::max(fastest, dynamics_.squared_speed(disc));
     }
     return std::sqrt(fastest);
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::write_resting_states() {
+    if constexpr (Dynamics::may_rest)
+        for (Disc& disc : discs_.all())
+            if (disc.rests()) dynamics_.resting_places().write_for(disc, time_);
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {

@@ -64,6 +64,9 @@ protected:
     /// Redistributes discs, halo and cells as they are now, for partners within a diameter or
     /// `least_reach`. No state changes. **Collective.**
     void redistribute_now(double least_reach = 0);
+    /// Writes the states of own discs at rest for the present time, from which their places are
+    /// exact.
+    void write_resting_states();
     /// Takes departed discs out of the arrays, where they stay until then. **Collective.**
     void set_departed_aside();
 

@@ -10,12 +10,14 @@ namespace carrom {
 SyncAction::SyncAction(const Scene& scene, const SpeciesTable& species,
                        const Communicator& communicator, int n_threads)
     : effects_(sync_effects_of(scene)), species_(species), inertia_(scene.effects.contact.inertia),
-      box_(scene.box), shear_(scene.effects.are_sheared()
+      micro_steps_(static_cast<double>(scene.micro_steps)), box_(scene.box),
+      shear_(scene.effects.are_sheared()
                                   ? scene.effects.shear / static_cast<double>(scene.micro_steps)
                                   : 0),
       communicator_(communicator), n_threads_(n_threads) {}
 
-void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
+void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs,
+                     const Followers<WallEvent>& walls) {
     SyncDiscs at{species_};
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
@@ -34,11 +36,32 @@ void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
     };
     at.largest_over_ranks = [this](double value) { return communicator_.max(value); };
 
+    at.gather_over_ranks = [this](std::span<const std::byte> mine) { return gathered(mine); };
+    if (walls.are_any() && communicator_.is_root())
+        at.press_wall = [&](std::size_t side, double normal, double along) {
+            WallEvent event;
+            event.side = static_cast<std::uint8_t>(side);
+            event.normal = normal * micro_steps_;
+            event.along = along * micro_steps_;
+            walls.give({&event, 1});
+        };
+
     energy_given_ -= energy_of(at);
     if (shear_ != 0) add_flow(at, -1);
     for (const auto& effect : effects_) effect->act(at);
     if (shear_ != 0) add_flow(at, 1);
     energy_given_ += energy_of(at);
+}
+
+std::vector<std::byte> SyncAction::gathered(std::span<const std::byte> mine) const {
+    std::vector<std::byte> all;
+    for (int rank = 0; rank < communicator_.size(); ++rank) {
+        std::vector<std::byte> part;
+        if (rank == communicator_.rank()) part.assign(mine.begin(), mine.end());
+        communicator_.broadcast(part, rank);
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
 }
 
 /// vx = rate (y - Ly / 2) turns clockwise at half the rate.

@@ -4,6 +4,7 @@
 
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
+#include "engine/wall_event.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 
@@ -16,13 +17,15 @@ public:
 
     bool has_effects() const { return !effects_.empty(); }
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.
-    /// Adds to `energy_given()`. **Collective.**
-    void act(StripDiscs& discs, std::int64_t n_syncs);
+    /// Adds to `energy_given()`, and gives `walls` what walls give to discs at rest until the next
+    /// sync. **Collective.**
+    void act(StripDiscs& discs, std::int64_t n_syncs, const Followers<WallEvent>& walls);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
     /// included, per micro-step. For checks: its last bits depend on the machine shape.
     double energy_given() const { return energy_given_; }
 
 private:
+    std::vector<std::byte> gathered(std::span<const std::byte> mine) const;
     double energy_of(const SyncDiscs& at) const;
     /// Adds the flow of sheared discs, so many times, to velocities and spins.
     void add_flow(const SyncDiscs& at, double times) const;
@@ -30,6 +33,7 @@ private:
     SyncEffects effects_;
     SpeciesTable species_;
     double inertia_;
+    double micro_steps_; ///< of a step
     Box box_;
     double shear_; ///< per micro-step
     Communicator communicator_;

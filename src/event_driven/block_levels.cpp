@@ -158,6 +158,11 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::measure_radii() {
     for (std::size_t slot = 0; slot < indices.size(); ++slot) {
         const double radius = first_radius_of(ground.discs[indices[slot]]);
         radii[slot] = static_cast<float>((radius * growth + dynamics.slack()) * scale);
+        if constexpr (Dynamics::may_rest) { // flights of discs that come to rest are parabolas
+            const double duration = ground.window.duration(),
+                         bend = 0.5 * dynamics.speed_gained_at(duration) * duration;
+            radii[slot] += static_cast<float>(bend * scale);
+        }
     }
 }
 

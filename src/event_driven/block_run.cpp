@@ -237,6 +237,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
     const bool is_corner = event.q == x_wall && dynamics.y_wall_time(discs[event.p]) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy
+    if constexpr (Dynamics::may_rest) last_event_time = event.time;
     carry_out(event);
     const bool has_left = Dynamics::may_lose_discs &&
                           discs[event.p].has_departed(); // the disc left through the first side
@@ -293,12 +294,23 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     Disc &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
+    [[maybe_unused]] const bool one_rests = p.rests() || q.rests();
+    [[maybe_unused]] const Disc& mover = p.rests() ? q : p;
+    [[maybe_unused]] const WallStress<Dynamics> off_resting(mover);
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
     if constexpr (Dynamics::has_spin)
         dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
                             columns[SideColumn::spin][event.q]);
     else
         dynamics.collide_at(p, q, event.time);
+    if constexpr (Dynamics::may_rest) {
+        if (one_rests && (p.rests() || q.rests())) { // it was like an obstacle
+            if (is_own[event.p] != 0)
+                off_resting.add_to(stress_terms, outcome->stress, dynamics, mover, event.time,
+                                   ground.flown_before);
+            return;
+        }
+    }
     if (is_own[event.p] != 0) {
         const Separation to = dynamics.separation(p, q);
         [[maybe_unused]] const double impulse = stress.add_to(

@@ -102,10 +102,10 @@ public:
     explicit NewState(const Disc& disc)
         : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
           wall_collisions_(disc.wall_collisions & wall_bits), is_departed_(disc.is_departed),
-          pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
+          is_resting_(disc.is_resting), pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
 
     /// Requires that `disc` is as it was at the window's start, and that its counters grow by less
-    /// than 2^31.
+    /// than 2^30.
     void overwrite(Disc& disc) const {
         disc.x = x_;
         disc.y = y_;
@@ -115,14 +115,16 @@ public:
         disc.wall_collisions += (wall_collisions_ - disc.wall_collisions) & wall_bits;
         disc.pair_collisions += pair_collisions_ - static_cast<std::uint32_t>(disc.pair_collisions);
         disc.is_departed = is_departed_;
+        disc.is_resting = is_resting_;
     }
 
 private:
-    static constexpr std::uint64_t wall_bits = 0x7fffffff;
+    static constexpr std::uint64_t wall_bits = 0x3fffffff;
 
     double x_, y_, vx_, vy_, tau_;
-    std::uint32_t wall_collisions_ : 31; ///< the low bits of the counter
+    std::uint32_t wall_collisions_ : 30; ///< the low bits of the counter
     std::uint32_t is_departed_ : 1;
+    std::uint32_t is_resting_ : 1;
     std::uint32_t pair_collisions_; ///< the low bits of the counter
 };
 static_assert(sizeof(NewState) == 48);

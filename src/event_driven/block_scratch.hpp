@@ -117,8 +117,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void hold_to_schedule(std::uint32_t slot, double time);
     /// The flight of a disc that has just collided.
     Flight flight_of(std::uint32_t slot) const {
-        const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) *
-                                            windows_per_time);
+        const double time = Dynamics::may_rest ? last_event_time : discs[slot].tau;
+        const auto now = static_cast<float>((time - ground.window.begin) * windows_per_time);
         return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
     }
     /// No branches on signs, which are anything: a flight ends where it began or on either side of
@@ -223,6 +223,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     /// Whether the two discs collided with each other at this time and with no other disc since.
     /// They may have been other images than now.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
+        // The own time of a disc at rest is not that of its last collision.
+        if (Dynamics::may_rest && discs[a].rests()) std::swap(a, b);
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
                 return partner < discs.size() && discs[partner].id == discs[disc].id;
@@ -344,6 +346,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double bound_squared = 0;     ///< square of the speed bound
     float bound_lane_squared = 0; ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;          ///< see BlockOutcome
+    double last_event_time = 0;   ///< where discs may rest
     // Of discs of several sizes:
     std::vector<LevelCells> levels;                 ///< smallest discs first
     std::vector<std::vector<LocalIndex>> in_levels; ///< what is listed, by level

@@ -59,12 +59,14 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
     const auto micro_steps = static_cast<double>(target - this->last_sync());
     const double target_time = dynamics_.clock_at(micro_steps);
     while (time_ < target_time) run_window(target_time);
+    this->write_resting_states();
     n_micro_done_ = target;
 }
 
 /// Runs one window, which ends at `target` or before.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double target) {
     this->set_departed_aside();
+    this->write_resting_states();
     migrate();
     refuse_jam();
     window_ = choose(target);
@@ -122,7 +124,8 @@ template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double now = communicator_.max(largest_speed_) * block_tuning_.speed_allowance;
     const double soon = std::min(time_ + 2 * last_duration_, target);
-    return std::max(now, 0.99 * travel_speed_) +
+    const double at_rest = Dynamics::may_rest ? dynamics_.speed_gained_at(target) : 0;
+    return std::max(std::max(now, at_rest), 0.99 * travel_speed_) +
            (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
 }
 

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Hold heaps of discs that come to rest to soft discs of the same geometry: prints a study as CSV.
+
+  tests/physics/heaps.py CARROM STUDY [--short]
+
+column     a column against a wall collapses on a floor, with friction 0, 0.3 and 0.8
+heap       a block in the middle of a floor of fixed discs collapses into a heap, the same frictions
+weight     a heap presses the floor with its weight
+
+Five starts of column and heap are run by Carrom and by LAMMPS (lmp, gran/hooke/history: linear
+springs so stiff that discs overlap by less than 2 % of a radius, the same restitution and
+friction). Two sizes of discs do not crystallize. A number of Carrom's must be within the scatter of
+the starts of both programs of LAMMPS's. Without lmp the studies are left out, with code 77.
+"""
+import argparse
+import json
+import math
+import os
+import random
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+
+G = 0.01
+RADII = (0.9, 1.1)
+RESTITUTION = 0.5
+STIFFNESS = 2000
+COLUMN = {"box": (120, 80), "corner": (1.2, 1.2), "columns": 9, "rows": 26, "steps": 800}
+HEAP = {"box": (160, 60), "corner": (62, 2.2), "columns": 16, "rows": 16, "steps": 800}
+
+
+def start_of(case, seed):
+    """Rows of x, y and radius, small discs first."""
+    draw = random.Random(seed)
+    places = []
+    for row in range(case["rows"]):
+        for column in range(case["columns"]):
+            places.append((case["corner"][0] + 2.26 * (column + row % 2 / 2) +
+                           draw.uniform(-0.02, 0.02),
+                           case["corner"][1] + 2.24 * row + draw.uniform(-0.02, 0.02)))
+    draw.shuffle(places)
+    half = len(places) // 2
+    return [(x, y, RADII[0] if k < half else RADII[1]) for k, (x, y) in enumerate(places)]
+
+
+def floor_of(case):
+    """Fixed discs of the heap's floor, whose centres are on the box's bottom."""
+    return [(x, 0.0) for x in range(1, case["box"][0], 2)] if case is HEAP else []
+
+
+def carrom(program, case, friction, discs, extra=""):
+    """The places at the end, and the report."""
+    floor = floor_of(case)
+    rubs = f"tangential_restitution = 0\nfriction = {friction}\n"
+    text = f"""[box]
+size = [{case["box"][0]}, {case["box"][1]}]
+[box.bottom]
+restitution = {RESTITUTION}
+{rubs}
+[discs]
+file = "discs.txt"
+columns = ["radius", "mass"]
+[time]
+steps = {case["steps"]}
+method = "event-driven"
+sync_every = 2
+[effects.contact]
+kind = "rough"
+restitution = {RESTITUTION}
+contact_time = 0.1
+{rubs}
+[effects.gravity]
+y = {-G}
+[effects.rest]
+speed = 0.03
+"""
+    if floor:
+        text += (f"[effects.obstacles]\nrestitution = {RESTITUTION}\n{rubs}"
+                 f"discs = {[[x, y, 1.0] for x, y in floor]}\n")
+    with tempfile.TemporaryDirectory() as folder:
+        scene = os.path.join(folder, "scene.toml")
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(text + extra)
+        with open(os.path.join(folder, "discs.txt"), "w", encoding="utf-8") as file:
+            for k, (x, y, radius) in enumerate(discs):
+                file.write(f"{k} {x:.17g} {y:.17g} 0 0 {radius} {radius ** 2:.17g}\n")
+        report = os.path.join(folder, "report.json")
+        done = subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report",
+                               report, "--set", "output.text=ends"],
+                              check=True, stdout=subprocess.PIPE, text=True)
+        rows = [line.split() for line in done.stdout.splitlines()]
+        with open(report, encoding="utf-8") as file:
+            return rows, json.load(file)
+
+
+LAMMPS = """units lj
+dimension 2
+atom_style sphere
+comm_modify vel yes
+boundary f f p
+newton off
+region all block 0 {width} -2 {height} -0.5 0.5
+create_box 3 all
+{atoms}
+set type 1 diameter {d1} mass {m1}
+set type 2 diameter {d2} mass {m2}
+set type 3 diameter 2 mass 1
+group moving type 1 2
+pair_style gran/hooke/history {kn} {kt} {gn} {gt} {mu} 1
+pair_coeff * *
+neighbor 0.4 bin
+neigh_modify delay 0 every 10 check yes exclude type 3 3
+fix gravity moving gravity {g} vector 0 -1 0
+fix motion moving nve/sphere disc
+fix plane all enforce2d
+fix floor moving wall/gran hooke/history {kn} {kt} {gn} {gt} {mu} 1 yplane 0 NULL
+fix sides moving wall/gran hooke/history {kn} {kt} {gn} 0 0 1 xplane 0 {width}
+timestep {dt}
+thermo 100000
+run {steps}
+write_dump all custom {dump} id type x y modify sort id
+"""
+
+
+def lammps(case, friction, discs):
+    """The places at the end."""
+    frequency = math.sqrt(2 * STIFFNESS)
+    decay = -math.log(RESTITUTION)
+    damping = 2 * frequency * decay / math.hypot(math.pi, decay)
+    dt = math.pi / frequency / 50
+    atoms = [f"create_atoms {1 if radius < 1 else 2} single {x:.12g} {y:.12g} 0"
+             for x, y, radius in discs]
+    atoms += [f"create_atoms 3 single {x} {y} 0" for x, y in floor_of(case)]
+    with tempfile.TemporaryDirectory() as folder:
+        dump = os.path.join(folder, "last")
+        script = os.path.join(folder, "in.heap")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(LAMMPS.format(
+                width=case["box"][0], height=case["box"][1], atoms="\n".join(atoms),
+                d1=2 * RADII[0], d2=2 * RADII[1], m1=RADII[0] ** 2, m2=RADII[1] ** 2,
+                kn=STIFFNESS, kt=STIFFNESS * 2 / 7, gn=damping, gt=damping / 2, mu=friction, g=G,
+                dt=dt, steps=round(case["steps"] / dt), dump=dump))
+        subprocess.run(["lmp", "-in", script, "-log", "none", "-screen", "none"], check=True)
+        with open(dump, encoding="utf-8") as file:
+            rows = [line.split() for line in file.read().splitlines()[9:]]
+    return [(float(x), float(y)) for _, kind, x, y in rows if kind != "3"]
+
+
+def shape_of(case, places):
+    """How far and how high the discs lie, and the slope of the surface in degrees."""
+    middle = case["box"][0] / 2 if case is HEAP else 0
+    far = sorted(abs(x - middle) for x, _ in places)
+    highest = {}
+    for x, y in places:
+        column = int(abs(x - middle) / 4)
+        highest[column] = max(highest.get(column, 0), y)
+    flank = [(4 * k + 2, y) for k, y in sorted(highest.items()) if y > 3 and k > 0]
+    slope = float("nan")
+    if len(flank) > 2:
+        mean_x, mean_y = (statistics.fmean(values) for values in zip(*flank))
+        slope = -math.degrees(math.atan(
+            sum((x - mean_x) * (y - mean_y) for x, y in flank) /
+            sum((x - mean_x) ** 2 for x, _ in flank)))
+    return {"runout": far[int(0.95 * len(far))], "height": 2 * statistics.fmean(
+        y for _, y in places), "slope": slope}
+
+
+def collapse(program, case, is_short):
+    for friction in (0.3,) if is_short else (0, 0.3, 0.8):
+        found = {"carrom": [], "lammps": []}
+        for seed in range(1, 3 if is_short else 6):
+            discs = start_of(case, seed)
+            rows, _ = carrom(program, case, friction, discs)
+            last = rows[-len(discs):]
+            found["carrom"].append(shape_of(case, [(float(row[2]), float(row[3]))
+                                                   for row in last]))
+            found["lammps"].append(shape_of(case, lammps(case, friction, discs)))
+        row = {"friction": friction}
+        for name in ("runout", "height", "slope"):
+            for who, shapes in found.items():
+                values = [shape[name] for shape in shapes]
+                row[f"{name}_{who}"] = statistics.fmean(values)
+                row[f"{name}_{who}_scatter"] = statistics.stdev(values)
+        yield row
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="CARROM")
+    parser.add_argument("study", choices=("column", "heap"))
+    parser.add_argument("--short", action="store_true")
+    options = parser.parse_args()
+    if not shutil.which("lmp"):
+        print("left out: there is no LAMMPS (lmp)", file=sys.stderr)
+        return 77
+    code = 0
+    case = COLUMN if options.study == "column" else HEAP
+    for k, row in enumerate(collapse(options.program, case, options.short)):
+        if k == 0:
+            print(",".join(row))
+        print(",".join(f"{value:.4g}" for value in row.values()), flush=True)
+        for name in ("runout", "height", "slope"):
+            joint = math.hypot(row[f"{name}_carrom_scatter"], row[f"{name}_lammps_scatter"])
+            away = abs(row[f"{name}_carrom"] - row[f"{name}_lammps"])
+            if away > joint and not math.isnan(away):
+                print(f"friction {row['friction']}: {name} differs by {away / joint:.2f} scatters",
+                      file=sys.stderr)
+                code = 1
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())
