@@ -23,7 +23,7 @@ public:
         : gravity_(gravity),
           // Adding it leaves a sum in [2^52, 2^53) units of the grid; places and falls are below
           // 2 L together.
-          rounder_(std::ldexp(1.5, std::ilogb(box.longest()) + 4)) {}
+          rounder_(std::ldexp(1.5, std::ilogb(box.longest()) + 3)) {}
 
     /// At a sync: the disc comes to rest where it is.
     void settle(Disc& disc) const {

@@ -14,8 +14,9 @@
 //
 // A slow disc that is caught between bodies at rest would collide the more often, the less room it
 // has. It comes to rest at a slow contact that follows its last one within an eighth of the contact
-// time. A disc that slides down a single body flies for the whole contact time at each bounce,
-// so it goes on. The first contact after a sync has no such predecessor.
+// time, and a faster one where hardly any time is left between contacts. A disc that slides down a
+// single body flies for the whole contact time at each bounce, so it goes on. The first contact
+// after a sync has no such predecessor.
 #pragma once
 
 #include <algorithm>
@@ -112,13 +113,13 @@ private:
     struct Contact {
         bool is_soft = false; ///< one of the discs rests, and goes on resting
         bool is_guarded = false;
-        bool may_catch = false; ///< the other disc may come to rest
+        bool catches_slow = false, catches_all = false; ///< the other disc comes to rest
     };
     /// Advances discs to their contact at `time`, but for one that rests.
     Contact reach(Disc& p, Disc& q, double time) const {
         const bool one_rests = p.rests() || q.rests();
         const double last = p.rests() ? q.tau : q.rests() ? p.tau : std::max(p.tau, q.tau);
-        const bool follows = last > 0 && time - last < effect_.contact_time / 8;
+        const double share = last > 0 ? (time - last) / effect_.contact_time : 1;
         if (!p.rests()) Moving::advance(p, time);
         if (!q.rests()) Moving::advance(q, time);
         Approach to;
@@ -130,7 +131,8 @@ private:
                      closing = -(to.vx * to.x + to.vy * to.y);
         const bool is_gentle = !(closing > guarded_speed_ * distance);
         return {one_rests && !(closing > wake_ * distance),
-                time - last < effect_.contact_time && is_gentle, follows && is_gentle};
+                time - last < effect_.contact_time && is_gentle,
+                is_gentle && share < 0.125, is_gentle && share < 0x1p-12};
     }
     void wake_one(Disc& p, Disc& q, double time) const {
         if (p.rests()) places_.wake(p, time);
@@ -157,7 +159,7 @@ private:
         mover.vy += (away - normal) * ny;
         mover.pair_collisions += 1;
         resting.pair_collisions += 1;
-        if (contact.may_catch && is_slow(to, mover, spin)) {
+        if (contact.catches_all || (contact.catches_slow && is_slow(to, mover, spin))) {
             if (spin) *spin = 0;
             return places_.stop(mover, mover.x + RestingPlaces::fallen(g.x, mover.tau),
                                 mover.y + RestingPlaces::fallen(g.y, mover.tau), mover.tau);

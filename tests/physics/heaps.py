@@ -28,7 +28,7 @@ G = 0.01
 RADII = (0.9, 1.1)
 RESTITUTION = 0.5
 STIFFNESS = 2000
-COLUMN = {"box": (120, 80), "corner": (1.2, 1.2), "columns": 9, "rows": 26, "steps": 800}
+COLUMN = {"box": (300, 80), "corner": (1.2, 1.2), "columns": 9, "rows": 26, "steps": 800}
 HEAP = {"box": (160, 60), "corner": (62, 2.2), "columns": 16, "rows": 16, "steps": 800}
 
 
@@ -61,6 +61,8 @@ size = [{case["box"][0]}, {case["box"][1]}]
 restitution = {RESTITUTION}
 {rubs}
 [discs]
+count = {len(discs)}
+generator = "file"
 file = "discs.txt"
 columns = ["radius", "mass"]
 [time]
@@ -76,6 +78,7 @@ contact_time = 0.1
 y = {-G}
 [effects.rest]
 speed = 0.03
+gap = 0.04
 """
     if floor:
         text += (f"[effects.obstacles]\nrestitution = {RESTITUTION}\n{rubs}"

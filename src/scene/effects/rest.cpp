@@ -34,7 +34,8 @@ public:
         : effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))),
           interval_(static_cast<double>(scene.sync_every)),
           species_(scene.effects.species, scene.radius), places_(scene.box, effects_.gravity),
-          balance_(scene.box, effects_) {}
+          balance_(scene.box, effects_),
+          of_standing_(scene.box, effects_) {}
 
     void act(const SyncDiscs& at) const override {
         update_heap(at);
@@ -66,12 +67,6 @@ private:
         heap_ = std::move(all);
         balance_.set_discs(heap_);
         rest_ = decide();
-        if (getenv("RESTDBG")) {
-            std::size_t n = 0; for (auto r : rest_) n += r;
-            double top = 0, vmax = 0; std::size_t low = 0;
-            for (const Disc& d : at.discs) { if (d.rests()) continue; top += squared_speed_of(d); vmax = std::max(vmax, squared_speed_of(d)); low += d.y < 1.1; }
-            fprintf(stderr, "sync %ld heap %zu rest %zu sweeps %d/%d vmax %g rms %g low %zu\n", (long)at.n_syncs, heap_.size(), n, sw1_, sw2_, std::sqrt(vmax), std::sqrt(top / (double)at.discs.size()), low);
-        }
         forces_ = {};
     }
 
@@ -98,17 +93,23 @@ private:
                   [](const HeapDisc& a, const HeapDisc& b) { return a.id < b.id; });
     }
 
-    /// Which discs of the heap rest from now on: those that all together hold each other, and those
-    /// between them that the former hold.
+    /// Which discs of the heap rest from now on. Those that rest already must hold each other, which
+    /// is known until one of them moves. All others must be held by these, together.
     std::vector<std::uint8_t> decide() const {
+        std::vector<HeapDisc> standing;
+        for (const HeapDisc& disc : heap_)
+            if (disc.rests != 0) standing.push_back(disc);
+        if (standing != standing_) {
+            standing_ = std::move(standing);
+            of_standing_.set_discs(standing_);
+            left_ = of_standing_.find(std::vector<std::uint8_t>(standing_.size(), 1)).left;
+        }
         std::vector<std::uint8_t> rest(heap_.size()), others(heap_.size());
-        const HeapForces all = balance_.find(std::vector<std::uint8_t>(heap_.size(), 1));
-        for (std::size_t i = 0; i < heap_.size(); ++i) {
-            rest[i] = all.left[i] < (heap_[i].rests != 0 ? ends_above : begins_below);
+        for (std::size_t i = 0, k = 0; i < heap_.size(); ++i) {
+            if (heap_[i].rests != 0) rest[i] = left_[k++] < ends_above;
             others[i] = rest[i] == 0;
         }
         const HeapForces joining = balance_.find(others);
-        sw1_ = all.n_sweeps; sw2_ = joining.n_sweeps;
         for (std::size_t i = 0; i < heap_.size(); ++i)
             if (others[i] != 0) rest[i] = joining.left[i] < begins_below;
         return rest;
@@ -134,10 +135,11 @@ private:
     RestingPlaces places_;
     // What follows from the states of discs is kept for the next sync, so it is no state of the run.
     mutable HeapBalance balance_;
-    mutable std::vector<HeapDisc> mine_, heap_;
+    mutable HeapBalance of_standing_;
+    mutable std::vector<HeapDisc> mine_, heap_, standing_; ///< standing: that rested before a sync
+    mutable std::vector<double> left_;                     ///< along `standing_`
     mutable std::vector<std::uint8_t> rest_; ///< along `heap_`
-    mutable HeapForces forces_;
-    mutable int sw1_ = 0, sw2_ = 0;
+    mutable HeapForces forces_; ///< of those that rest, if they have been asked for
 };
 
 bool has_rest(const Scene& s) { return s.effects.rest.is_any(); }
