@@ -35,11 +35,23 @@ struct CellBlock {
     }
 };
 
+/// The work of a cell, in whole units.
+struct CellWork {
+    std::uint32_t per_disc = 1, per_pair = 0; ///< each pair counts twice
+
+    std::uint32_t of(std::uint32_t n_discs) const {
+        return n_discs * (per_disc + (n_discs - 1) * per_pair);
+    }
+};
+
 /// Sums the work of the cells in any rectangle by four reads.
 class CellSums {
 public:
-    /// `work_of(column, row)` is a whole number; those of all `cells` add up to less than 2^32.
-    template <class WorkOf> void fill(const CellBlock& cells, int n_threads, const WorkOf& work_of);
+    /// `discs_before(column, row)` is the number of discs of a column before `row`, or more by the
+    /// same number for all rows. The work of all `cells` adds up to less than 2^32.
+    template <class DiscsBefore>
+    void fill(const CellBlock& cells, int n_threads, const CellWork& work,
+              const DiscsBefore& discs_before);
     std::uint64_t in(const CellBlock& part) const;
     /// The smallest rectangle that holds all work of `part`.
     CellBlock occupied(CellBlock part) const;
@@ -101,8 +113,9 @@ private:
     std::vector<double> shares_; ///< own work of the blocks cut by work, compared with each other
 };
 
-template <class WorkOf>
-void CellSums::fill(const CellBlock& cells, int n_threads, const WorkOf& work_of) {
+template <class DiscsBefore>
+void CellSums::fill(const CellBlock& cells, int n_threads, const CellWork& work,
+                    const DiscsBefore& discs_before) {
     cells_ = cells;
     sums_.resize(place(cells.end_column, cells.end_row) + 1);
     constexpr int rows_each = 64; // of a stretch that a thread takes through all columns
@@ -113,8 +126,12 @@ void CellSums::fill(const CellBlock& cells, int n_threads, const WorkOf& work_of
         for (int column = cells.first_column; column < cells.end_column; ++column) {
             std::uint32_t* next = &sums_[place(column + 1, cells.first_row)];
             *next = 0;
-            for (int row = cells.first_row; row < cells.end_row; ++row, ++next)
-                next[1] = next[0] + work_of(column, row);
+            std::uint32_t before = discs_before(column, cells.first_row);
+            for (int row = cells.first_row; row < cells.end_row; ++row, ++next) {
+                const std::uint32_t end = discs_before(column, row + 1);
+                next[1] = next[0] + work.of(end - before);
+                before = end;
+            }
         }
 #pragma omp for schedule(static)
         for (int k = 0; k < n_stretches; ++k) {
