@@ -14,28 +14,13 @@ more.
 import argparse
 import csv
 import os
-import subprocess
 import sys
+
+from instructions import finished
 
 TOLERANCE = 0.05
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "block_spans.csv")
 DISCS, THREADS = "1e5", "32"
-
-
-def counted(program):
-    """The lines that the program prints, as text."""
-    command = [program, DISCS, THREADS]
-    run = subprocess.run(
-        command,
-        env={**os.environ, "OMP_WAIT_POLICY": "passive"},
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-    )
-    if run.returncode != 0:
-        sys.exit(f"{' '.join(command)} failed:\n{run.stderr}")
-    return run.stdout
 
 
 def main():
@@ -43,7 +28,7 @@ def main():
     parser.add_argument("program", metavar="BLOCK_SPANS")
     parser.add_argument("--record", action="store_true")
     options = parser.parse_args()
-    text = counted(options.program)
+    text = finished([options.program, DISCS, THREADS]).stdout
     if options.record:
         with open(TABLE, "w", encoding="utf-8") as file:
             file.write(text)
