@@ -56,7 +56,7 @@ build_preset() {
     local preset=$1 words
     shift
     mapfile -t words < <(mpi_words)
-    words+=(-DCMAKE_C_COMPILER="${cxx/++/}" -DCMAKE_CXX_COMPILER="$cxx")
+    words+=(-DCMAKE_C_COMPILER="${cxx/++/}" -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_UNITY_BUILD=ON)
     (cd "$top" && cmake --preset "$preset" "${words[@]}") >&2 </dev/null ||
         die "cmake could not configure $preset"
     build=$top/build-$preset build_targets "$@"
