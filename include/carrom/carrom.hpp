@@ -14,20 +14,3 @@
 #include <carrom/totals.hpp>
 #include <carrom/trajectory.hpp>
 #include <carrom/version.hpp>
-
-// The names for a program that uses the library. They stand here and not in the headers above: the
-// library's own code has other types of the same names in namespace carrom.
-namespace carrom {
-
-using api::CheckpointSchedule;
-using api::Disc;
-using api::FrameReader;
-using api::Options;
-using api::Scene;
-using api::SceneFacts;
-using api::Session;
-using api::Simulation;
-using api::TrajectoryFields;
-using api::TrajectoryWriter;
-
-} // namespace carrom

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace carrom::api {
+namespace carrom {
 
 /// Lengths are in the scene's unit, times in steps.
 struct Disc {
@@ -18,4 +18,4 @@ struct Disc {
     friend bool operator==(const Disc&, const Disc&) = default;
 };
 
-} // namespace carrom::api
+} // namespace carrom

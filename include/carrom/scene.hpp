@@ -14,7 +14,7 @@
 #include <carrom/box.hpp>
 #include <carrom/disc.hpp>
 
-namespace carrom::api {
+namespace carrom {
 
 class Session;
 
@@ -87,4 +87,4 @@ private:
     Source source_;
 };
 
-} // namespace carrom::api
+} // namespace carrom

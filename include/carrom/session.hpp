@@ -11,7 +11,7 @@
 
 #include <carrom/errors.hpp>
 
-namespace carrom::api {
+namespace carrom {
 
 class Session {
 public:
@@ -50,4 +50,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-} // namespace carrom::api
+} // namespace carrom

@@ -19,7 +19,7 @@
 #include <carrom/session.hpp>
 #include <carrom/totals.hpp>
 
-namespace carrom::api {
+namespace carrom {
 
 /// Choices that change how long a run takes, and never its result.
 struct Options {
@@ -112,4 +112,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-} // namespace carrom::api
+} // namespace carrom

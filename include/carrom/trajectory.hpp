@@ -14,7 +14,7 @@
 #include <carrom/session.hpp>
 #include <carrom/simulation.hpp>
 
-namespace carrom::api {
+namespace carrom {
 
 /// What a trajectory holds of each disc. Positions are always there.
 struct TrajectoryFields {
@@ -83,4 +83,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-} // namespace carrom::api
+} // namespace carrom

@@ -37,9 +37,9 @@ int cells_along(double length, double width) {
 
 /// The places of discs in a box without periodic sides.
 struct StoredPlaces {
-    static double x_of(const Disc& disc, double time) { return disc.x_at(time); }
-    static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
-    static double vx_of(const Disc& disc) { return disc.vx; }
+    static double x_of(const DiscState& disc, double time) { return disc.x_at(time); }
+    static double y_of(const DiscState& disc, double time) { return disc.y_at(time); }
+    static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
 /// The places of images in a box that repeats itself at rest. It is a type of its own,
@@ -47,9 +47,9 @@ struct StoredPlaces {
 struct PlacesAtRest {
     const Periods& periods;
 
-    double x_of(const Disc& disc, double time) const { return periods.x_at_rest(disc, time); }
-    double y_of(const Disc& disc, double time) const { return periods.y_of(disc, time); }
-    static double vx_of(const Disc& disc) { return disc.vx; }
+    double x_of(const DiscState& disc, double time) const { return periods.x_at_rest(disc, time); }
+    double y_of(const DiscState& disc, double time) const { return periods.y_of(disc, time); }
+    static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
 /// Calls `work` with the type that knows the places of discs in such a box.
@@ -97,7 +97,7 @@ GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
 }
 
 template <class Places>
-CellGrid::Cell CellGrid::cell_at(const Places& places, const Disc& disc) const {
+CellGrid::Cell CellGrid::cell_at(const Places& places, const DiscState& disc) const {
     const auto [along, across] = turned(geometry_.axis, places.x_of(disc, anchor_),
                                         places.y_of(disc, anchor_));
     return {geometry_.column_of(along), geometry_.row_of(across)};
@@ -105,7 +105,7 @@ CellGrid::Cell CellGrid::cell_at(const Places& places, const Disc& disc) const {
 
 template <class Places>
 void CellGrid::place(const Places& places, float* flight, std::size_t length,
-                     const Disc& disc) const {
+                     const DiscState& disc) const {
     const double cells = geometry_.cells_per_length();
     const auto [x, y] = turned(geometry_.axis, places.x_of(disc, time_), places.y_of(disc, time_));
     const auto [vx, vy] = turned(geometry_.axis, places.vx_of(disc), disc.vy);
@@ -115,8 +115,8 @@ void CellGrid::place(const Places& places, float* flight, std::size_t length,
     flight[3 * length] = static_cast<float>(vy * duration_ * cells);
 }
 
-void CellGrid::sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
-                    double duration, int n_threads, const Periods& periods,
+void CellGrid::sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor,
+                    double time, double duration, int n_threads, const Periods& periods,
                     const Companions& companions) {
     geometry_ = geometry;
     periods_ = periods;
@@ -132,7 +132,7 @@ void CellGrid::sort(std::span<Disc> own, const GridGeometry& geometry, double an
     }
 }
 
-void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, double time,
+void CellGrid::sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
                           int n_threads, const Periods& periods, const Companions& companions) {
     geometry_ = geometry;
     periods_ = periods;
@@ -142,7 +142,7 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, dou
     RawVector<float>().swap(lanes_); // only the sorter used them
 }
 
-void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
+void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& companions) {
     ensure(companions.states.empty() || companions.states.size() == own.size(),
            "what goes with the own discs is as many");
     apart_.clear();
@@ -177,12 +177,12 @@ void CellGrid::sort_columns(SideColumns& columns, Lent order, int n_threads) con
 /// Writes which disc goes where into the second of the lanes, and then moves the
 /// discs. Nearly all come from near by, so this is one pass over the discs.
 template <class Places>
-void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
+void CellGrid::sort(const Places& places, std::span<DiscState> own, int n_threads,
                     const Companions& companions) {
     const SortMemory memory{lanes_, lane_length_};
     sorter_.find_order(
         own,
-        [&](const Disc& disc) {
+        [&](const DiscState& disc) {
             const Cell cell = cell_at(places, disc);
             return static_cast<std::uint32_t>(cell.column) * rows() +
                    static_cast<std::uint32_t>(cell.row);
@@ -202,12 +202,13 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
     sorter_.carry(own, memory, place_flight);
 }
 
-void CellGrid::add_halo(std::span<const Disc> halo) {
+void CellGrid::add_halo(std::span<const DiscState> halo) {
     with_places(periods_, [&](const auto& places) { add_halo(places, halo); });
 }
 
 /// A counting sort over the cells of those columns that hold any of them.
-template <class Places> void CellGrid::add_halo(const Places& places, std::span<const Disc> halo) {
+template <class Places>
+void CellGrid::add_halo(const Places& places, std::span<const DiscState> halo) {
     halo_order_.resize(halo.size());
     halo_slot_.resize(halo.size());
     if (halo.empty()) return;
@@ -241,7 +242,7 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
 }
 
 template <class Places>
-void CellGrid::update(const Places& places, LocalIndex index, const Disc& disc) {
+void CellGrid::update(const Places& places, LocalIndex index, const DiscState& disc) {
     if (index < n_own_)
         place(places, lanes_.data() + index, lane_length_, disc);
     else
@@ -249,11 +250,11 @@ void CellGrid::update(const Places& places, LocalIndex index, const Disc& disc) 
               disc);
 }
 
-void CellGrid::update_flight(LocalIndex index, const Disc& disc) {
+void CellGrid::update_flight(LocalIndex index, const DiscState& disc) {
     update(StoredPlaces{}, index, disc);
 }
 
-void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) {
+void CellGrid::update_flight_of_image(LocalIndex index, const DiscState& disc) {
     with_places(periods_, [&](const auto& places) { update(places, index, disc); });
 }
 

@@ -16,7 +16,7 @@
 
 #include "cell_list/disc_sorter.hpp"
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/extent.hpp"
 #include "core/image.hpp"
 #include "core/raw_vector.hpp"
@@ -87,7 +87,7 @@ inline constexpr std::size_t filter_padding = 64;
 
 /// Arrays that run along the own discs and are moved with them. Empty arrays do not exist.
 struct Companions {
-    std::span<Disc> states;
+    std::span<DiscState> states;
     SideColumns* columns = nullptr;
 };
 
@@ -96,15 +96,15 @@ public:
     /// Brings `own` into the order of their cells at `anchor`. Flights begin at `time`
     /// and last for `duration`. In a periodic box a disc is where its image is. There
     /// is no halo until add_halo.
-    void sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
+    void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
     /// Sorts into cells by the places at `time`, without flights: there are no
     /// `lanes()`, so searches find nothing.
-    void sort_cells(std::span<Disc> own, const GridGeometry& geometry, double time, int n_threads,
-                    const Periods& periods = {}, const Companions& companions = {});
+    void sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
+                    int n_threads, const Periods& periods = {}, const Companions& companions = {});
     /// Puts the discs that follow the own ones in memory into cells of the halo.
-    void add_halo(std::span<const Disc> halo);
+    void add_halo(std::span<const DiscState> halo);
 
     /// Takes the flights of discs faster than `speed`, in lengths per unit of time,
     /// out of the lanes, so that no search finds them. They are listed in `apart()`
@@ -116,8 +116,8 @@ public:
     }
 
     /// Replaces a disc's free flight. Its cell stays the same.
-    void update_flight(LocalIndex index, const Disc& disc);
-    void update_flight_of_image(LocalIndex index, const Disc& disc);
+    void update_flight(LocalIndex index, const DiscState& disc);
+    void update_flight_of_image(LocalIndex index, const DiscState& disc);
 
     const GridGeometry& geometry() const { return geometry_; }
     std::size_t n_own() const { return n_own_; }
@@ -227,16 +227,18 @@ private:
     std::uint32_t rows() const { return static_cast<std::uint32_t>(geometry_.n_rows); }
 
     // `Places` gives the places of discs: those of their states, or of their images.
-    void sort(std::span<Disc> own, int n_threads, const Companions& companions);
+    void sort(std::span<DiscState> own, int n_threads, const Companions& companions);
     template <class Places>
-    void sort(const Places& places, std::span<Disc> own, int n_threads,
+    void sort(const Places& places, std::span<DiscState> own, int n_threads,
               const Companions& companions);
     void sort_columns(SideColumns& columns, Lent order, int n_threads) const;
-    template <class Places> Cell cell_at(const Places& places, const Disc& disc) const;
-    template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
+    template <class Places> Cell cell_at(const Places& places, const DiscState& disc) const;
+    template <class Places> void add_halo(const Places& places, std::span<const DiscState> halo);
     template <class Places>
-    void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
-    template <class Places> void update(const Places& places, LocalIndex index, const Disc& disc);
+    void place(const Places& places, float* flight, std::size_t length,
+               const DiscState& disc) const;
+    template <class Places>
+    void update(const Places& places, LocalIndex index, const DiscState& disc);
 
     GridGeometry geometry_;
     Periods periods_;

@@ -143,7 +143,7 @@ bool DiscSorter::share_out_travellers() {
     return true;
 }
 
-void DiscSorter::set_travellers_aside(std::span<const Disc> discs, SortMemory memory) {
+void DiscSorter::set_travellers_aside(std::span<const DiscState> discs, SortMemory memory) {
     const Lent order = memory.order();
 #pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
     for (std::size_t k = 0; k < carriers_.size(); ++k) {
@@ -156,14 +156,14 @@ void DiscSorter::set_travellers_aside(std::span<const Disc> discs, SortMemory me
     }
 }
 
-void DiscSorter::rearrange(std::initializer_list<std::span<Disc>> arrays, SortMemory memory) {
+void DiscSorter::rearrange(std::initializer_list<std::span<DiscState>> arrays, SortMemory memory) {
     RawVector<std::uint32_t> order(n_discs_);
     const Lent old_order = memory.order();
 #pragma omp parallel for num_threads(n_threads_) schedule(static)
     for (std::size_t i = 0; i < n_discs_; ++i) order[i] = old_order[i];
     // A quarter of each state at a time goes through the lanes, so that no second array of states
     // is needed.
-    constexpr std::size_t quarter = sizeof(Disc) / 4;
+    constexpr std::size_t quarter = sizeof(DiscState) / 4;
     static_assert(quarter == 4 * sizeof(float));
     if (memory.lanes.size() < 4 * memory.lane_length) {
         RawVector<float>().swap(memory.lanes); // so that the old lanes do not exist beside them
@@ -171,7 +171,7 @@ void DiscSorter::rearrange(std::initializer_list<std::span<Disc>> arrays, SortMe
     }
     auto* lent = reinterpret_cast<std::byte*>(memory.lanes.data());
     const auto n = static_cast<std::int64_t>(n_discs_);
-    for (const std::span<Disc> discs : arrays) {
+    for (const std::span<DiscState> discs : arrays) {
         if (discs.empty()) continue;
         auto* states = reinterpret_cast<std::byte*>(discs.data());
 #pragma omp parallel num_threads(n_threads_)
@@ -180,13 +180,13 @@ void DiscSorter::rearrange(std::initializer_list<std::span<Disc>> arrays, SortMe
             for (std::int64_t k = 0; k < n; ++k) {
                 const auto slot = static_cast<std::size_t>(k);
                 std::memcpy(lent + slot * quarter,
-                            states + order[slot] * sizeof(Disc) + part * quarter, quarter);
+                            states + order[slot] * sizeof(DiscState) + part * quarter, quarter);
             }
 #pragma omp for schedule(static)
             for (std::int64_t k = 0; k < n; ++k) {
                 const auto slot = static_cast<std::size_t>(k);
-                std::memcpy(states + slot * sizeof(Disc) + part * quarter, lent + slot * quarter,
-                            quarter);
+                std::memcpy(states + slot * sizeof(DiscState) + part * quarter,
+                            lent + slot * quarter, quarter);
             }
         }
     }

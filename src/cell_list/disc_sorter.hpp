@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/raw_vector.hpp"
 
 namespace carrom {
@@ -51,8 +51,9 @@ public:
     /// which disc goes where to `memory.order()`, and the first place of each cell,
     /// and the end, to `cell_start`. `n_columns` is the number of stretches of cells.
     template <class CellOf>
-    void find_order(std::span<const Disc> discs, const CellOf& find_cell, std::size_t n_columns,
-                    int n_threads, RawVector<std::uint32_t>& cell_start, SortMemory memory) {
+    void find_order(std::span<const DiscState> discs, const CellOf& find_cell,
+                    std::size_t n_columns, int n_threads, RawVector<std::uint32_t>& cell_start,
+                    SortMemory memory) {
         begin(discs.size(), n_columns, n_threads);
         if (n_threads == 1)
             order_alone(discs, find_cell, cell_start, memory);
@@ -66,12 +67,12 @@ public:
     /// Brings discs to their places, ascending. Calls placed(i) when the disc of place i is there;
     /// the order up to i is not needed any more.
     template <class Placed>
-    void carry(std::span<Disc> discs, SortMemory memory, const Placed& placed) {
+    void carry(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
         set_travellers_aside(discs, memory);
         bring(discs, memory, placed);
     }
     /// Brings discs in no order to their places, in each of the arrays that are not empty.
-    void rearrange(std::initializer_list<std::span<Disc>> arrays, SortMemory memory);
+    void rearrange(std::initializer_list<std::span<DiscState>> arrays, SortMemory memory);
 
 private:
     /// A share of the discs, which lie in the cells first .. end, and where its counts
@@ -83,21 +84,21 @@ private:
     };
     /// The state of a thread while it brings its share of the places into order.
     struct Carrier {
-        std::vector<Disc> passed;         ///< a ring with the discs of the places just passed
-        std::vector<Disc> travellers;     ///< discs that come from afar, set aside beforehand
-        std::vector<LocalIndex> arrivals; ///< their new places, ascending, with an end
-        std::vector<LocalIndex> sent;     ///< new places of travellers that leave, in no order
+        std::vector<DiscState> passed;     ///< a ring with the discs of the places just passed
+        std::vector<DiscState> travellers; ///< discs that come from afar, set aside beforehand
+        std::vector<LocalIndex> arrivals;  ///< their new places, ascending, with an end
+        std::vector<LocalIndex> sent;      ///< new places of travellers that leave, in no order
     };
 
     void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);
     template <class CellOf>
-    void order_alone(std::span<const Disc> discs, const CellOf& find_cell,
+    void order_alone(std::span<const DiscState> discs, const CellOf& find_cell,
                      RawVector<std::uint32_t>& cell_start, SortMemory memory);
     template <class CellOf>
-    void order_together(std::span<const Disc> discs, const CellOf& find_cell,
+    void order_together(std::span<const DiscState> discs, const CellOf& find_cell,
                         RawVector<std::uint32_t>& cell_start, SortMemory memory);
     template <class CellOf>
-    void find_cells(std::span<const Disc> discs, const CellOf& find_cell, SortMemory memory);
+    void find_cells(std::span<const DiscState> discs, const CellOf& find_cell, SortMemory memory);
     void turn_into_places(RawVector<std::uint32_t>& cell_start, Lent all_counts);
     void share_out(std::size_t n_discs, std::size_t n_sorters);
     bool make_room_for_counts(std::size_t n_cells, SortMemory memory);
@@ -108,9 +109,9 @@ private:
     void note_traveller(Carrier& carrier, std::uint32_t place) const {
         if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
     }
-    void set_travellers_aside(std::span<const Disc> discs, SortMemory memory);
+    void set_travellers_aside(std::span<const DiscState> discs, SortMemory memory);
     template <class Placed>
-    void bring(std::span<Disc> discs, SortMemory memory, const Placed& placed);
+    void bring(std::span<DiscState> discs, SortMemory memory, const Placed& placed);
 
     int n_threads_ = 1;
     std::size_t n_discs_ = 0;

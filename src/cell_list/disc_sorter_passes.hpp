@@ -11,15 +11,15 @@ namespace carrom {
 
 /// Prefetches numbers that are read in a row, further ahead than the processor does by
 /// itself. A prefetch beyond the last number is no access.
-inline void ask_ahead(const Disc& disc) {
-    constexpr std::uintptr_t ahead = 32 * sizeof(Disc);
+inline void ask_ahead(const DiscState& disc) {
+    constexpr std::uintptr_t ahead = 32 * sizeof(DiscState);
     __builtin_prefetch(
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
 }
 
 /// Counting sort by one thread. It reads states in the order in which they lie in memory.
 template <class CellOf>
-void DiscSorter::order_alone(std::span<const Disc> discs, const CellOf& find_cell,
+void DiscSorter::order_alone(std::span<const DiscState> discs, const CellOf& find_cell,
                              RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     Lent cell_of = memory.cells(), order = memory.order();
     std::fill(cell_start.begin(), cell_start.end(), 0u);
@@ -46,7 +46,7 @@ void DiscSorter::order_alone(std::span<const Disc> discs, const CellOf& find_cel
 
 /// Files the discs under their cells, and notes which cells each sorter meets.
 template <class CellOf>
-void DiscSorter::find_cells(std::span<const Disc> discs, const CellOf& find_cell,
+void DiscSorter::find_cells(std::span<const DiscState> discs, const CellOf& find_cell,
                             SortMemory memory) {
     Lent cell_of = memory.cells();
     share_out(discs.size(), static_cast<std::size_t>(n_threads_));
@@ -70,7 +70,7 @@ void DiscSorter::find_cells(std::span<const Disc> discs, const CellOf& find_cell
 /// last cell of its share of the discs. Shares are nearly in the order of their cells,
 /// so all counts together are hardly more than the cells.
 template <class CellOf>
-void DiscSorter::order_together(std::span<const Disc> discs, const CellOf& find_cell,
+void DiscSorter::order_together(std::span<const DiscState> discs, const CellOf& find_cell,
                                 RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     find_cells(discs, find_cell, memory);
     are_in_disorder_ = !make_room_for_counts(cell_start.size() - 1, memory);
@@ -105,19 +105,19 @@ void DiscSorter::order_together(std::span<const Disc> discs, const CellOf& find_
 }
 
 template <class Placed>
-void DiscSorter::bring(std::span<Disc> discs, SortMemory memory, const Placed& placed) {
+void DiscSorter::bring(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
     constexpr std::size_t ahead = 16;
     const Lent order = memory.order();
     const std::size_t n_shares = carriers_.size(), mask = n_passed_ - 1;
 #pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
     for (std::size_t k = 0; k < n_shares; ++k) {
-        Disc* const at = discs.data();
-        Disc* const passed = carriers_[k].passed.data();
-        const Disc* traveller = carriers_[k].travellers.data();
+        DiscState* const at = discs.data();
+        DiscState* const passed = carriers_[k].passed.data();
+        const DiscState* traveller = carriers_[k].travellers.data();
         const LocalIndex* arrival = carriers_[k].arrivals.data();
         const auto bring_to = [&](std::size_t i) {
             const std::size_t from = order[i];
-            const Disc* source = from >= i ? at + from : passed + (from & mask);
+            const DiscState* source = from >= i ? at + from : passed + (from & mask);
             if (i == *arrival) [[unlikely]] {
                 source = traveller++;
                 ++arrival;

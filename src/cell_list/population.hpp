@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <span>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 
 /// A rank's discs: its own first, then the halo's. Other ranks treat the pairs of two
 /// halo discs.
 struct Population {
-    std::span<const Disc> discs;
+    std::span<const DiscState> discs;
     std::size_t n_own = 0;
 };
 

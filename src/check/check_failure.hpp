@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The error of a run's self-check (Simulation::check_every_step): which invariant is
+// The error of a run's self-check (DiscSystem::check_every_step): which invariant is
 // broken, where, and the discs around.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 

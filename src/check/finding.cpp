@@ -5,7 +5,7 @@
 
 namespace carrom {
 
-std::string text_of(const Finding& f, const Scene& scene, const Obstacles* obstacles,
+std::string text_of(const Finding& f, const SceneParameters& scene, const Obstacles* obstacles,
                     std::int64_t step) {
     std::string who = fmt::format("check failed at step {}: disc {} on rank {} ", step, f.disc,
                                   f.rank);

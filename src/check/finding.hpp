@@ -6,9 +6,9 @@
 #include <string>
 
 #include "check/check_failure.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/obstacles.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -28,7 +28,7 @@ struct Finding {
 };
 
 /// `obstacles` may be null if the scene has none.
-std::string text_of(const Finding& finding, const Scene& scene, const Obstacles* obstacles,
-                    std::int64_t step);
+std::string text_of(const Finding& finding, const SceneParameters& scene,
+                    const Obstacles* obstacles, std::int64_t step);
 
 } // namespace carrom

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

@@ -28,15 +28,16 @@ struct Part {
     double work = 0;    ///< by growing surfaces
 };
 
-bool is_finite(const Disc& disc) {
+bool is_finite(const DiscState& disc) {
     return std::isfinite(disc.x) && std::isfinite(disc.y) && std::isfinite(disc.vx) &&
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
 /// Returns the stored bits if the box's coordinates are those of the discs.
-Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_steps_since_sync) {
+DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
+                  double micro_steps_since_sync) {
     if (!frame.is_moving) return disc;
-    Disc seen = frame.in_box(disc, time);
+    DiscState seen = frame.in_box(disc, time);
     seen.tau = micro_steps_since_sync;
     if (frame.periods.are_any()) set_image(seen, {});
     return seen;
@@ -46,10 +47,10 @@ double beyond(double low, double place, double high) { return std::max(low - pla
 
 } // namespace
 
-StateCheck::StateCheck(const Scene& scene, const SpeciesTable& species, std::span<const Disc> own,
-                       std::int64_t micro_steps_done, const Communicator& communicator,
-                       const Frame& frame, double time, std::span<const double> spins,
-                       double energy_given)
+StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species,
+                       std::span<const DiscState> own, std::int64_t micro_steps_done,
+                       const Communicator& communicator, const Frame& frame, double time,
+                       std::span<const double> spins, double energy_given)
     : scene_(scene),
       effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))),
       species_(species), communicator_(communicator),
@@ -99,7 +100,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     energy_given_before_ = std::exchange(energy_given_, energy_given);
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
-    const std::span<const Disc> own = now.population.discs.first(now.population.n_own);
+    const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     note_speeds();
@@ -162,7 +163,7 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     const Extent walls = walls_before();
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
-        Disc disc = known.disc;
+        DiscState disc = known.disc;
         const double radius = species_.of(disc.id).radius * growth_at(micro_steps_before_);
         PlainDynamics::advance(disc, clock);
         periods.wrap(disc, clock);
@@ -176,7 +177,7 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     return discs;
 }
 
-Finding StateCheck::first_not_finite(std::span<const Disc> own,
+Finding StateCheck::first_not_finite(std::span<const DiscState> own,
                                      std::span<const double> spins) const {
     for (std::size_t i = 0; i < own.size(); ++i) {
         if (!is_finite(own[i]) || !std::isfinite(spins.empty() ? 0 : spins[i]))
@@ -187,13 +188,13 @@ Finding StateCheck::first_not_finite(std::span<const Disc> own,
 
 /// Sends every disc to the rank that keeps its record. The `value` of a finding is the
 /// number of ranks, or places, that own the disc.
-Finding StateCheck::take_records(std::span<const Disc> own, std::span<const double> spins,
+Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const double> spins,
                                  const Frame& frame, double time) {
-    std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
+    std::vector<std::vector<DiscState>> out(static_cast<std::size_t>(communicator_.size()));
     std::vector<std::vector<double>> spins_out(out.size());
     Finding finding;
     for (std::size_t i = 0; i < own.size(); ++i) {
-        const Disc& disc = own[i];
+        const DiscState& disc = own[i];
         if (disc.id >= scene_.n_discs) {
             finding = {Invariant::owned_once, communicator_.rank(), disc.id, 1};
             continue;
@@ -202,7 +203,7 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
         out[keeper].push_back(disc);
         if (!spins.empty()) spins_out[keeper].push_back(spins[i]);
     }
-    const Received<Disc> in = send_to_owners(communicator_, out);
+    const Received<DiscState> in = send_to_owners(communicator_, out);
     if (effects_.have_spins()) {
         const Received<double> spins_in = send_to_owners(communicator_, spins_out);
         for (std::size_t i = 0; i < spins_in.items.size(); ++i)
@@ -211,7 +212,7 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
     std::vector<int> n_owners(known_.size(), 0);
     for (Known& known : known_) known.walls = known.pairs = 0, known.wall_impulse = known.work = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const Disc& disc : in.from(k)) {
+        for (const DiscState& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;
             ++n_owners[i];
             known_[i].disc = as_seen(disc, frame, time,
@@ -262,9 +263,9 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
     };
     const bool is_filed = now.grid->is_valid(now.population.discs.size());
     for (std::size_t i = 0; i < now.population.n_own; ++i) {
-        const Disc& disc = now.population.discs[i];
+        const DiscState& disc = now.population.discs[i];
         const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
-        const Disc seen = now.frame.in_box(disc, now.time);
+        const DiscState seen = now.frame.in_box(disc, now.time);
         const double radius = species_.of(disc.id).radius * growth_at(micro_steps_done_);
         // In a periodic box the image's centre is in the box.
         const double outside = std::max(
@@ -289,8 +290,8 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
 Finding StateCheck::first_in_obstacle(const LocalView& now) const {
     if (!obstacles_) return {};
     const double bound = 2 * tolerance_ + blur(64);
-    for (const Disc& disc : now.population.discs.first(now.population.n_own)) {
-        const Disc seen = now.frame.in_box(disc, now.time);
+    for (const DiscState& disc : now.population.discs.first(now.population.n_own)) {
+        const DiscState seen = now.frame.in_box(disc, now.time);
         const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y,
                                                          species_.of(disc.id).radius, bound);
         if (overlap.body != ObstacleContact::no_body)
@@ -332,8 +333,8 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     visit_near_pairs(*now.grid, [&](LocalIndex a, LocalIndex b) {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
         if (a >= now.population.n_own) return; // the owner of the lower id judges the pair
-        Disc p = now.population.discs[a], q = now.population.discs[b];
-        for (Disc* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
+        DiscState p = now.population.discs[a], q = now.population.discs[b];
+        for (DiscState* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
         const Shift shift = now.periods.between(p, q, now.time);
         q.x += shift.x, q.y += shift.y, q.vx += shift.vx;
         const double depth = diameter_of(p, q) - std::hypot(q.x - p.x, q.y - p.y);

@@ -28,13 +28,13 @@
 #include "check/finding.hpp"
 #include "check/shared_energy.hpp"
 #include "check/surroundings.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/obstacles.hpp"
 #include "engine/collision.hpp"
 #include "engine/engine.hpp"
 #include "engine/totals.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -42,10 +42,10 @@ class StateCheck {
 public:
     /// Takes the present state as right. `scene` must outlive this and have the default
     /// arithmetic. `spins` of rough discs run along the discs, per micro-step. **Collective.**
-    StateCheck(const Scene& scene, const SpeciesTable& species, std::span<const Disc> own,
-               std::int64_t micro_steps_done, const Communicator& communicator,
-               const Frame& frame = {}, double time = 0, std::span<const double> spins = {},
-               double energy_given = 0);
+    StateCheck(const SceneParameters& scene, const SpeciesTable& species,
+               std::span<const DiscState> own, std::int64_t micro_steps_done,
+               const Communicator& communicator, const Frame& frame = {}, double time = 0,
+               std::span<const double> spins = {}, double energy_given = 0);
 
     /// Inspects the end of a step. `log` has this rank's share of the collisions since the last
     /// inspection. If an invariant is broken every rank throws the same CheckFailure.
@@ -57,7 +57,7 @@ public:
 
 private:
     struct Known {
-        Disc disc;
+        DiscState disc;
         double spin = 0;
         std::int64_t free_from =
             0; ///< the end of the last micro-step with a collision, or the check's begin
@@ -67,7 +67,7 @@ private:
         int owner = -1;
     };
     struct Suspect {
-        Disc p, q;
+        DiscState p, q;
         double depth = 0, bound = 0;
         std::int64_t free_from = 0;
         int owner = 0;
@@ -79,8 +79,8 @@ private:
     void fail_if_found(const Finding& mine, Log log);
     std::vector<SceneDisc> discs_before() const;
 
-    Finding first_not_finite(std::span<const Disc> own, std::span<const double> spins) const;
-    Finding take_records(std::span<const Disc> own, std::span<const double> spins,
+    Finding first_not_finite(std::span<const DiscState> own, std::span<const double> spins) const;
+    Finding take_records(std::span<const DiscState> own, std::span<const double> spins,
                          const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const LocalView& now) const;
@@ -90,13 +90,14 @@ private:
     static void keep_lowest(Finding& first, const Suspect& s);
     Finding first_overlap(const LocalView& now) const;
     Finding first_unexplained(std::vector<Suspect> suspects) const;
-    Finding first_other_energy(std::span<const Disc> own, Log log);
-    Finding first_other_total(std::span<const Disc> own, const std::vector<SharedEnergy>& mine);
+    Finding first_other_energy(std::span<const DiscState> own, Log log);
+    Finding first_other_total(std::span<const DiscState> own,
+                              const std::vector<SharedEnergy>& mine);
     SharedEnergy shared_energy_of(std::size_t i) const;
-    double energy_of(std::span<const Disc> own) const;
+    double energy_of(std::span<const DiscState> own) const;
     double twice_energy(const Known& known) const;
     double mass_of(DiscId id) const { return species_.of(id).mass; }
-    double diameter_of(const Disc& p, const Disc& q) const {
+    double diameter_of(const DiscState& p, const DiscState& q) const {
         return growth_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);
     }
     double growth_at(std::int64_t micro_step) const {
@@ -122,7 +123,7 @@ private:
     /// How far rounding moves a disc: so many ulp(L), and its flight in the rounding of times.
     double blur(double n_ulps) const;
 
-    const Scene& scene_;
+    const SceneParameters& scene_;
     Effects effects_; ///< times in micro-steps
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;

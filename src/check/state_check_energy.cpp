@@ -34,7 +34,7 @@ Finding StateCheck::first_other_motion() const {
                           (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
-        const Disc &disc = now.disc, &then = before_[i].disc;
+        const DiscState &disc = now.disc, &then = before_[i].disc;
         if (now.pairs == 0 && !(surfaces_rub_ && now.walls > 0) &&
             now.spin != before_[i].spin) // `partner` says that it is the spin
             return {Invariant::motion,
@@ -60,7 +60,7 @@ Finding StateCheck::first_other_motion() const {
     return {};
 }
 
-Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
+Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) {
     std::vector<SharedEnergy> mine, all;
     for (std::size_t i = 0; i < known_.size(); ++i) {
         if (known_[i].walls + known_[i].pairs == 0) continue;
@@ -94,7 +94,7 @@ Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
 
 /// Checks all discs together since the check began; since the last check if effects
 /// take or give energy. **Collective.**
-Finding StateCheck::first_other_total(std::span<const Disc> own,
+Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || effects_.growth != 0) return {};
     const double n = static_cast<double>(scene_.n_discs);
@@ -186,7 +186,7 @@ void StateCheck::note_speeds() {
 /// With potential energy under gravity, counted from far enough below that the
 /// rounding of places is small against it.
 double StateCheck::twice_energy(const Known& known) const {
-    const Disc& seen = known.disc;
+    const DiscState& seen = known.disc;
     const SizeAndMass& body = species_.of(seen.id);
     const double turning = body.radius * known.spin,
                  square = squared_speed_of(seen) + effects_.contact.inertia * turning * turning;
@@ -205,7 +205,7 @@ double StateCheck::twice_energy(const Known& known) const {
 /// it went round. That a disc flies less than a quarter of the box between two inspections tells
 /// how often it did; otherwise nothing is known, and the number is infinite.
 double StateCheck::energy_of_rounds(std::size_t i) const {
-    const Disc &then = before_[i].disc, &now = known_[i].disc;
+    const DiscState &then = before_[i].disc, &now = known_[i].disc;
     const Periods periods = effects_.periods(scene_.box);
     double energy = 0;
     const auto add = [&](double g, double period, double from, double to, double v, double w) {
@@ -258,10 +258,10 @@ double StateCheck::energy_left() const {
 }
 
 /// In the scene's units. With effects the discs are as the box sees them, with potential energy.
-double StateCheck::energy_of(std::span<const Disc> own) const {
+double StateCheck::energy_of(std::span<const DiscState> own) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
-    std::vector<Disc> seen;
+    std::vector<DiscState> seen;
     std::vector<double> spins;
     if (scene_.effects.are_any()) {
         for (const Known& known : known_) {

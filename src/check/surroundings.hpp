@@ -9,7 +9,7 @@
 #include "core/image.hpp"
 #include "engine/collision.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 

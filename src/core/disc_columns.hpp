@@ -12,7 +12,7 @@
 #include <cstring>
 #include <span>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 
@@ -22,8 +22,8 @@ struct StateColumn {
     const char* unit;
     bool is_real;
     /// Writes the numbers of all discs, one after the other.
-    void (*put)(std::span<const Disc> discs, std::byte* out);
-    void (*set)(Disc& disc, std::uint64_t bits);
+    void (*put)(std::span<const DiscState> discs, std::byte* out);
+    void (*set)(DiscState& disc, std::uint64_t bits);
 };
 
 namespace columns {
@@ -32,30 +32,31 @@ namespace columns {
 template <auto Get, auto Set>
 constexpr StateColumn make(const char* name, const char* unit, bool is_real) {
     return {name, unit, is_real,
-            [](std::span<const Disc> discs, std::byte* out) {
-                for (const Disc& disc : discs) {
+            [](std::span<const DiscState> discs, std::byte* out) {
+                for (const DiscState& disc : discs) {
                     const auto number = Get(disc);
                     static_assert(sizeof number == 8);
                     std::memcpy(out, &number, 8);
                     out += 8;
                 }
             },
-            [](Disc& disc, std::uint64_t bits) { Set(disc, bits); }};
+            [](DiscState& disc, std::uint64_t bits) { Set(disc, bits); }};
 }
 template <auto Field> constexpr StateColumn make(const char* name, const char* unit) {
-    return make<[](const Disc& disc) { return disc.*Field; },
-                [](Disc& disc, std::uint64_t bits) { disc.*Field = std::bit_cast<double>(bits); }>(
-        name, unit, true);
+    return make<[](const DiscState& disc) { return disc.*Field; },
+                [](DiscState& disc, std::uint64_t bits) {
+                    disc.*Field = std::bit_cast<double>(bits);
+                }>(name, unit, true);
 }
 
 inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
 /// Stands for the time of a departed disc, which has none.
 inline constexpr double departed_time = -1;
-inline double stored_time(const Disc& disc) {
+inline double stored_time(const DiscState& disc) {
     return disc.has_departed() ? departed_time : disc.tau;
 }
-inline void set_stored_time(Disc& disc, std::uint64_t bits) {
+inline void set_stored_time(DiscState& disc, std::uint64_t bits) {
     disc.tau = std::bit_cast<double>(bits);
     disc.is_departed = disc.tau == departed_time;
     if (disc.has_departed()) disc.tau = 0;
@@ -64,17 +65,17 @@ inline void set_stored_time(Disc& disc, std::uint64_t bits) {
 } // namespace columns
 
 inline constexpr std::array disc_columns = {
-    columns::make<&Disc::x>("x", "length"),
-    columns::make<&Disc::y>("y", "length"),
-    columns::make<&Disc::vx>("vx", "length per micro-step"),
-    columns::make<&Disc::vy>("vy", "length per micro-step"),
+    columns::make<&DiscState::x>("x", "length"),
+    columns::make<&DiscState::y>("y", "length"),
+    columns::make<&DiscState::vx>("vx", "length per micro-step"),
+    columns::make<&DiscState::vy>("vy", "length per micro-step"),
     columns::make<&columns::stored_time, &columns::set_stored_time>("tau", "micro-steps", true),
-    columns::make<[](const Disc& disc) { return std::uint64_t{disc.wall_collisions}; },
-                  [](Disc& disc, std::uint64_t bits) {
+    columns::make<[](const DiscState& disc) { return std::uint64_t{disc.wall_collisions}; },
+                  [](DiscState& disc, std::uint64_t bits) {
                       disc.wall_collisions = bits & columns::all_of_counter;
                   }>("wall_collisions", "1", false),
-    columns::make<[](const Disc& disc) { return std::uint64_t{disc.pair_collisions}; },
-                  [](Disc& disc, std::uint64_t bits) {
+    columns::make<[](const DiscState& disc) { return std::uint64_t{disc.pair_collisions}; },
+                  [](DiscState& disc, std::uint64_t bits) {
                       disc.pair_collisions = bits & columns::all_of_counter;
                   }>("pair_collisions", "1", false)};
 

@@ -7,7 +7,7 @@
 // image that is in it. Without these effects the frame is the box's, and nothing is computed.
 #pragma once
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/image.hpp"
 
 namespace carrom {
@@ -27,9 +27,9 @@ struct Frame {
 
     /// The disc at the frame's time `time`, as the box sees it. A disc that has left
     /// the box is already stored as the box sees it.
-    Disc in_box(const Disc& stored, double time) const {
+    DiscState in_box(const DiscState& stored, double time) const {
         if (stored.has_departed()) return stored;
-        Disc disc = stored;
+        DiscState disc = stored;
         disc.x = stored.x_at(time);
         disc.y = stored.y_at(time);
         disc.tau = time;

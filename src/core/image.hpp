@@ -21,7 +21,7 @@
 #include <limits>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/errors.hpp"
 
 namespace carrom {
@@ -40,25 +40,25 @@ struct Shift {
     double vx = 0; ///< how fast the shift grows; it never does along y
 };
 
-inline Image image_of(const Disc& disc) {
+inline Image image_of(const DiscState& disc) {
     return {static_cast<int>(disc.image_x), static_cast<int>(disc.image_y)};
 }
 
 /// Whether the disc's image is the one at its stored place, as nearly all are.
-inline bool is_unshifted(const Disc& disc) { return disc.image_x == 0 && disc.image_y == 0; }
+inline bool is_unshifted(const DiscState& disc) { return disc.image_x == 0 && disc.image_y == 0; }
 
 /// Whether both discs' images are displaced alike, which is so for nearly all pairs.
-inline bool are_shifted_alike(const Disc& p, const Disc& q) {
+inline bool are_shifted_alike(const DiscState& p, const DiscState& q) {
     return p.image_x == q.image_x && p.image_y == q.image_y;
 }
 
 /// The image is less than 16000 boxes away along each axis (Periods::home).
-inline void set_image(Disc& disc, Image image) {
+inline void set_image(DiscState& disc, Image image) {
     disc.image_x = static_cast<std::int16_t>(image.x);
     disc.image_y = static_cast<std::int16_t>(image.y);
 }
 
-inline void move_image(Disc& disc, Image by) {
+inline void move_image(DiscState& disc, Image by) {
     set_image(disc, {image_of(disc).x + by.x, image_of(disc).y + by.y});
 }
 
@@ -119,43 +119,43 @@ struct Periods {
     }
     /// The shift from the image of `p` to that of `q`, beside the difference of their
     /// stored states. For (q, p) the numbers are the same with the other sign.
-    Shift between(const Disc& p, const Disc& q, double time) const {
+    Shift between(const DiscState& p, const DiscState& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
     /// For boxes at rest.
-    double x_between(const Disc& p, const Disc& q) const {
+    double x_between(const DiscState& p, const DiscState& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x;
     }
-    double y_between(const Disc& p, const Disc& q) const {
+    double y_between(const DiscState& p, const DiscState& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).y - image_of(p).y) * y;
     }
 
     /// Where the disc's image is, and how fast it flies along x.
-    [[gnu::always_inline]] double x_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double x_of(const DiscState& disc, double time) const {
         if (is_unshifted(disc)) return disc.x_at(time);
         const double at_rest = shifted_x(disc, time);
         return are_moving() ? moved(at_rest, disc, time) : at_rest;
     }
     /// For boxes at rest.
-    [[gnu::always_inline]] double x_at_rest(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double x_at_rest(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
     }
-    [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double y_of(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
     }
-    double vx_of(const Disc& disc) const { return disc.vx + image_of(disc).y * speed; }
+    double vx_of(const DiscState& disc) const { return disc.vx + image_of(disc).y * speed; }
 
-    double place_of(const Disc& disc, Axis axis, double time) const {
+    double place_of(const DiscState& disc, Axis axis, double time) const {
         return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
     }
 
     /// The image that is in the box, to within a rounding.
-    Image home(const Disc& disc, double time) const {
+    Image home(const DiscState& disc, double time) const {
         const int up = lengths(disc.y_at(time), y);
         return {lengths(disc.x_at(time) + up * offset_at(time), x), up};
     }
     /// Replaces a state at `time` by that of the image in the box.
-    void wrap(Disc& disc, double time) const {
+    void wrap(DiscState& disc, double time) const {
         double up = 0;
         disc.y = wrapped(disc.y, y, &up);
         if (up != 0 && are_moving()) {
@@ -185,16 +185,18 @@ struct Periods {
 
 private:
     // Not inlined, so that the common case, an unshifted disc, is.
-    [[gnu::noinline]] double shifted_x(const Disc& disc, double time) const {
+    [[gnu::noinline]] double shifted_x(const DiscState& disc, double time) const {
         return disc.x_at(time) + image_of(disc).x * x;
     }
-    [[gnu::noinline, gnu::cold]] double moved(double at_rest, const Disc& disc, double time) const {
+    [[gnu::noinline, gnu::cold]] double moved(double at_rest, const DiscState& disc,
+                                              double time) const {
         return at_rest + image_of(disc).y * offset_at(time);
     }
-    [[gnu::noinline]] double shifted_y(const Disc& disc, double time) const {
+    [[gnu::noinline]] double shifted_y(const DiscState& disc, double time) const {
         return disc.y_at(time) + image_of(disc).y * y;
     }
-    [[gnu::noinline]] Shift shifted_between(const Disc& p, const Disc& q, double time) const {
+    [[gnu::noinline]] Shift shifted_between(const DiscState& p, const DiscState& q,
+                                            double time) const {
         return shift_of({image_of(q).x - image_of(p).x, image_of(q).y - image_of(p).y}, time);
     }
     static int lengths(double place, double period) {

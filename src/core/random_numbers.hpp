@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

@@ -13,7 +13,7 @@ namespace carrom {
 
 static_assert(std::endian::native == std::endian::little, "the hashed record is little-endian");
 
-StateHash hash_of(const Disc& disc) {
+StateHash hash_of(const DiscState& disc) {
     // Adding +0 turns -0 into +0 and leaves every other number as it is.
     const std::array<std::uint64_t, 8> record = {
         disc.id,
@@ -28,9 +28,9 @@ StateHash hash_of(const Disc& disc) {
     return {hash.low64, hash.high64};
 }
 
-StateHash hash_of(std::span<const Disc> discs) {
+StateHash hash_of(std::span<const DiscState> discs) {
     StateHash sum;
-    for (const Disc& disc : discs) sum += hash_of(disc);
+    for (const DiscState& disc : discs) sum += hash_of(disc);
     return sum;
 }
 

@@ -10,13 +10,13 @@
 
 #include <carrom/totals.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 
 namespace carrom {
 
-StateHash hash_of(const Disc& disc);
-StateHash hash_of(std::span<const Disc> discs);
+StateHash hash_of(const DiscState& disc);
+StateHash hash_of(std::span<const DiscState> discs);
 
 /// What a disc's number in a side column adds to the hash, if the run has that column.
 StateHash hash_of(SideColumn column, DiscId id, double number);

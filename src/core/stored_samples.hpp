@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

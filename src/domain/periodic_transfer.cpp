@@ -71,7 +71,7 @@ std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks
 } // namespace
 
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
-                                     std::span<const Disc> own, double time, double farthest,
+                                     std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods) {
     TransferPlan plan;
     const Axis axis = strips.axis();
@@ -106,7 +106,7 @@ Inside interior(const Strips& strips, int rank, double reach, const Periods& per
     return {x_low + reach, x_high - reach, y_low + reach, y_high - reach};
 }
 
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> ranges, double time, double reach,
                                 const Periods& periods) {
     TransferPlan plan;
@@ -159,7 +159,7 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     return plan;
 }
 
-void append_images(const TransferPlan& plan, std::vector<Disc>& values) {
+void append_images(const TransferPlan& plan, std::vector<DiscState>& values) {
     for (std::size_t k = 0; k < plan.partners.size(); ++k) {
         std::size_t next = values.size();
         values.resize(next + plan.leaving[k].size());
@@ -171,8 +171,8 @@ void append_images(const TransferPlan& plan, std::vector<Disc>& values) {
 }
 
 void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
-                     std::span<const Disc> values, Received<Disc>& in) {
-    std::vector<std::vector<Disc>> out(plan.partners.size());
+                     std::span<const DiscState> values, Received<DiscState>& in) {
+    std::vector<std::vector<DiscState>> out(plan.partners.size());
     for (std::size_t k = 0; k < out.size(); ++k) {
         out[k].reserve(plan.leaving[k].size());
         for (std::size_t i = 0; i < plan.leaving[k].size(); ++i) {

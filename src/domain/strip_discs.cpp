@@ -16,7 +16,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// A disc's new state, and its place in the neighbour's halo.
 struct Update {
-    Disc disc;
+    DiscState disc;
     std::uint64_t place;
 };
 
@@ -41,8 +41,9 @@ Inside inner_part(const Strips& strips, int rank, double reach) {
 }
 
 /// The disc's place in the box along the strips' axis.
-double place_in_box(const Strips& strips, const Periods& periods, const Disc& disc, double time) {
-    Disc in_box = disc;
+double place_in_box(const Strips& strips, const Periods& periods, const DiscState& disc,
+                    double time) {
+    DiscState in_box = disc;
     in_box.x = disc.x_at(time);
     in_box.y = disc.y_at(time);
     periods.wrap(in_box, time);
@@ -83,8 +84,8 @@ void hand_to_owners(const Communicator& communicator, std::vector<T>& values,
 
 } // namespace
 
-StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
-                       const Periods& periods, SideColumns columns)
+StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
+                       std::vector<DiscState> discs, const Periods& periods, SideColumns columns)
     : communicator_(communicator), length_(along(cut_axis(box, periods), box)), periods_(periods),
       strips_(equal_strips(box, periods, communicator.size())), redistributed_strips_(strips_),
       exchange_(communicator) {
@@ -92,7 +93,7 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::ve
     columns_.resize(discs.size());
     columns_.for_each([&](SideColumn column) { departed_columns_.add(column); });
     if (communicator.size() > 1) {
-        const auto owner_of = [&](const Disc& disc) {
+        const auto owner_of = [&](const DiscState& disc) {
             return static_cast<std::size_t>(
                 strips_.owner(place_in_box(strips_, periods, disc, disc.tau)));
         };
@@ -110,7 +111,7 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::ve
 void StripDiscs::set_departed_aside() {
     forget_halo();
     // Not std::stable_partition: its buffer is aligned for less than a disc.
-    const auto has_departed = [](const Disc& disc) { return disc.has_departed(); };
+    const auto has_departed = [](const DiscState& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
     columns_.for_each([&](SideColumn column) {
         std::vector<double>&values = columns_[column], &departed = departed_columns_[column];
@@ -127,7 +128,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* companion) {
+void StripDiscs::migrate(double time, double farthest, std::vector<DiscState>* companion) {
     forget_halo();
     if (companion) companion->resize(n_own_);
     if (periods_.are_any()) set_home_images(time, farthest, companion);
@@ -168,7 +169,7 @@ std::vector<PlaceRange> StripDiscs::places_outside(const Inside& inner) const {
     return places;
 }
 
-Companions StripDiscs::companions(std::vector<Disc>* states) {
+Companions StripDiscs::companions(std::vector<DiscState>* states) {
     forget_halo();
     Companions with;
     if (states) with.states = std::span(*states).first(n_own_);
@@ -177,7 +178,7 @@ Companions StripDiscs::companions(std::vector<Disc>* states) {
 }
 
 void StripDiscs::sort(const GridGeometry& geometry, double anchor, double time, double duration,
-                      int n_threads, std::vector<Disc>* companion) {
+                      int n_threads, std::vector<DiscState>* companion) {
     const Companions with = companions(companion);
     grid_.sort(own(), geometry, anchor, time, duration, n_threads, periods_, with);
     is_sorted_ = true;
@@ -197,7 +198,7 @@ void StripDiscs::drop_grid() {
 /// A disc's companion stands for the same image, wherever the disc's own state takes
 /// it. Discs far from all sides at the time of sorting still have the right image.
 /// This holds because no frame may jump along a periodic axis (scene/rules.cpp).
-void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>* companion) {
+void StripDiscs::set_home_images(double time, double farthest, std::vector<DiscState>* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
                        inside.y_high - farthest};
@@ -205,7 +206,7 @@ void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>
     for (const PlaceRange range :
          are_all ? std::vector<PlaceRange>{{0, n_own_}} : places_outside(inner)) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            Disc& disc = discs_[i];
+            DiscState& disc = discs_[i];
             const Image image = image_of(disc);
             const bool is_at_home = inside.holds(periods_.x_of(disc, time),
                                                  periods_.y_of(disc, time)); // for nearly all discs
@@ -239,11 +240,11 @@ Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
 
 void StripDiscs::forget_images() {
     if (!periods_.are_any()) return;
-    for (Disc& disc : own()) set_image(disc, {});
+    for (DiscState& disc : own()) set_image(disc, {});
     has_images_ = false;
 }
 
-void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* companion) {
+void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* companion) {
     if (has_no_halo()) return;
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 0;
@@ -260,9 +261,9 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, reach));
         halo_plan_ = plan_halo(strips_, rank, own(), searched, time, reach);
     }
-    Received<Disc> halo;
+    Received<DiscState> halo;
     halo.offsets = {0};
-    for (std::vector<Disc>* values : {&discs_, companion}) {
+    for (std::vector<DiscState>* values : {&discs_, companion}) {
         if (!values) continue;
         if (communicator_.size() == 1) {
             append_images(halo_plan_, *values);
@@ -270,9 +271,9 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
             continue;
         }
         if (periods_.are_any())
-            transfer_images(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+            transfer_images(exchange_, halo_plan_, std::span<const DiscState>(*values), halo);
         else
-            transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+            transfer(exchange_, halo_plan_, std::span<const DiscState>(*values), halo);
         values->insert(values->end(), halo.items.begin(), halo.items.end());
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
@@ -282,7 +283,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 1;
     }
-    grid_.add_halo(std::span<const Disc>(discs_).subspan(n_own_));
+    grid_.add_halo(std::span<const DiscState>(discs_).subspan(n_own_));
 }
 
 void StripDiscs::send_updates(std::span<const LocalIndex> changed,
@@ -353,7 +354,7 @@ void StripDiscs::rebalance(double time, double above) {
     if (largest_share <= above * static_cast<double>(n_total_)) return;
     std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
     const auto n_bins = static_cast<double>(weights.size());
-    for (const Disc& disc : own()) {
+    for (const DiscState& disc : own()) {
         const double bin = place_in_box(strips_, periods_, disc, time) / length_ * n_bins;
         weights[static_cast<std::size_t>(std::clamp(bin, 0.0, n_bins - 1))] += 1;
     }
@@ -364,11 +365,11 @@ void StripDiscs::rebalance(double time, double above) {
 bool StripDiscs::is_valid(double time) const {
     std::uint64_t sums[] = {n_own_ + departed_.size(), 0, 0};
     bool in_strip = true;
-    for (const Disc& disc : departed_) {
+    for (const DiscState& disc : departed_) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
     }
-    for (const Disc& disc : own()) {
+    for (const DiscState& disc : own()) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
         in_strip = in_strip &&

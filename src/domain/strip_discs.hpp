@@ -13,7 +13,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 #include "domain/strips.hpp"
 #include "domain/transfer.hpp"
@@ -29,25 +29,25 @@ public:
     /// In a periodic box own discs get the images in the box when they migrate, and
     /// the halo has images of own discs, too. `columns` run along the discs; missing
     /// numbers are 0. **Collective.**
-    StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
+    StripDiscs(const Communicator& communicator, const Box& box, std::vector<DiscState> discs,
                const Periods& periods = {}, SideColumns columns = {});
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
     /// has moved by more than `farthest` since the last migration. `companion` runs along the own
     /// discs, or is null. **Collective.**
-    void migrate(double time, double farthest, std::vector<Disc>* companion);
+    void migrate(double time, double farthest, std::vector<DiscState>* companion);
 
     /// Brings the own discs, and all arrays along them, into the order of their cells
     /// at `anchor` (CellGrid::sort), without a halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
-              int n_threads, std::vector<Disc>* companion);
+              int n_threads, std::vector<DiscState>* companion);
     /// Sorts into cells without flights.
     void sort_cells(const GridGeometry& geometry, double time, int n_threads);
 
     /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
     /// puts them into cells. The own discs have migrated and been sorted for the same time.
     /// **Collective.**
-    void fetch_halo(double time, double reach, std::vector<Disc>* companion);
+    void fetch_halo(double time, double reach, std::vector<DiscState>* companion);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their
     /// halo. Takes over those of the own halo, and appends their places to `updates`.
@@ -78,9 +78,9 @@ public:
     CellGrid& grid() { return grid_; }
     /// Frees the memory of the cells.
     void drop_grid();
-    std::vector<Disc>& all() { return discs_; }
-    std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
-    std::span<Disc> own() { return std::span(discs_).first(n_own_); }
+    std::vector<DiscState>& all() { return discs_; }
+    std::span<const DiscState> own() const { return std::span(discs_).first(n_own_); }
+    std::span<DiscState> own() { return std::span(discs_).first(n_own_); }
     /// Along all discs, own and halo.
     SideColumns& columns() { return columns_; }
     const SideColumns& columns() const { return columns_; }
@@ -112,7 +112,7 @@ public:
     /// Takes discs that have left the box out of the own ones, for good, and forgets the halo.
     /// **Collective.**
     void set_departed_aside();
-    std::span<const Disc> departed() const { return departed_; }
+    std::span<const DiscState> departed() const { return departed_; }
     const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
     std::uint64_t n_with_departed() const { return n_with_departed_; }        ///< over all ranks
 
@@ -128,20 +128,20 @@ public:
 
 private:
     template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
-    void set_home_images(double time, double farthest, std::vector<Disc>* companion);
+    void set_home_images(double time, double farthest, std::vector<DiscState>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
-    Companions companions(std::vector<Disc>* states);
+    Companions companions(std::vector<DiscState>* states);
 
     Communicator communicator_;
     double length_; ///< length of the box along the strips' axis
     Periods periods_;
-    std::vector<Disc> discs_; ///< own, then halo
-    SideColumns columns_;     ///< along `discs_`
+    std::vector<DiscState> discs_; ///< own, then halo
+    SideColumns columns_;          ///< along `discs_`
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_departed_ = 0;
-    std::vector<Disc> departed_;   ///< discs at the places where they have left
-    SideColumns departed_columns_; ///< along `departed_`
+    std::vector<DiscState> departed_; ///< discs at the places where they have left
+    SideColumns departed_columns_;    ///< along `departed_`
     Strips strips_,
         redistributed_strips_; ///< the cuts now, and those of the last migration
     NeighbourExchange exchange_;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 
@@ -38,7 +38,7 @@ public:
 
     Axis axis() const { return axis_; }
     /// The disc's place along the strips' axis.
-    double place_of(const Disc& disc, double time) const {
+    double place_of(const DiscState& disc, double time) const {
         return axis_ == Axis::x ? disc.x_at(time) : disc.y_at(time);
     }
 

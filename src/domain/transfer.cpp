@@ -34,7 +34,7 @@ private:
 } // namespace
 
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
-                            std::span<const Disc> own, std::span<const PlaceRange> searched,
+                            std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest) {
     TransferPlan plan;
     plan.partners = movers_between(old_strips, strips, rank, farthest);
@@ -53,7 +53,7 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
     return plan;
 }
 
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own,
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
                        std::span<const PlaceRange> searched, double time, double reach) {
     TransferPlan plan;
     plan.partners = strips.neighbours_within(rank, reach);

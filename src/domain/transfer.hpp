@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/image.hpp"
 #include "domain/strips.hpp"
 #include "parallel/neighbour_exchange.hpp"
@@ -35,23 +35,23 @@ struct TransferPlan {
 /// rank's strip of `old_strips`, or at most `farthest` away. `searched` are ascending
 /// ranges of own discs that hold all discs outside of the strip.
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
-                            std::span<const Disc> own, std::span<const PlaceRange> searched,
+                            std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest);
 
 /// The discs within `reach` of another rank's strip at `time`. Empty strips get none.
 /// `searched` are ascending ranges of own discs that hold all discs not further than
 /// `reach` inside the strip.
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own,
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
                        std::span<const PlaceRange> searched, double time, double reach);
 
 /// Plans by the places of the discs' images in a box with periodic sides. After a
 /// migration these are the images in the box. In a halo a disc also goes to its own
 /// rank, as other images, and may go to a rank several times.
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
-                                     std::span<const Disc> own, double time, double farthest,
+                                     std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods);
 /// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> searched, double time, double reach,
                                 const Periods& periods);
 
@@ -75,10 +75,10 @@ void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<c
 
 /// Sends discs as the images that the plan names. **Collective.**
 void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
-                     std::span<const Disc> values, Received<Disc>& in);
+                     std::span<const DiscState> values, Received<DiscState>& in);
 
 /// Appends the images that a rank without others sends to itself.
-void append_images(const TransferPlan& plan, std::vector<Disc>& values);
+void append_images(const TransferPlan& plan, std::vector<DiscState>& values);
 
 /// Removes the discs that have left, and fills the gaps from the end.
 template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {

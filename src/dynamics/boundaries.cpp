@@ -81,7 +81,7 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
     return slowing * dragged_fall_delay(distance, slowing * rate, pull, effects_.drag);
 }
 
-double Boundaries::delay_to(const Disc& disc, std::size_t side) const {
+double Boundaries::delay_to(const DiscState& disc, std::size_t side) const {
     const Approach line = approach(disc, side);
     if (!oscillations_[side].is_any()) [[likely]]
         return delay_of(line, disc.tau);
@@ -90,7 +90,7 @@ double Boundaries::delay_to(const Disc& disc, std::size_t side) const {
     return oscillations_[side].contact_delay(line.distance, line.rate, from_wall, disc.tau);
 }
 
-Boundaries::Meeting Boundaries::meeting(const Disc& disc, Axis axis) const {
+Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis) const {
     if (disc.has_departed()) return {};
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const double to_low = delay_to(disc, low), to_high = delay_to(disc, low + 1);
@@ -100,7 +100,7 @@ Boundaries::Meeting Boundaries::meeting(const Disc& disc, Axis axis) const {
 
 /// Takes a straight flight and a pull towards the wall only. A pull away from it is
 /// ignored, to be on the safe side.
-bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
+bool Boundaries::may_meet(const DiscState& disc, double time, double margin) const {
     if (disc.has_departed()) return false;
     const double rest = time - disc.tau, fallen_for = rest / fall_.slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
@@ -118,7 +118,7 @@ bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
     return false;
 }
 
-void Boundaries::bounce_at(Disc& disc, Axis axis, double time, double* spin) const {
+void Boundaries::bounce_at(DiscState& disc, Axis axis, double time, double* spin) const {
     const std::size_t side = meeting(disc, axis).side;
     const double restitution = time - disc.tau < effects_.contact.contact_time
                                    ? 1
@@ -131,7 +131,7 @@ void Boundaries::bounce_at(Disc& disc, Axis axis, double time, double* spin) con
     disc.wall_collisions += 1;
 }
 
-void Boundaries::depart(Disc& disc, std::size_t side, double time, double* spin) const {
+void Boundaries::depart(DiscState& disc, std::size_t side, double time, double* spin) const {
     if (spin) *spin = 0;
     fall_.restart(disc, time);
     (side / 2 == 0 ? disc.x : disc.y) = departure(disc, side);
@@ -139,13 +139,13 @@ void Boundaries::depart(Disc& disc, std::size_t side, double time, double* spin)
     disc.wall_collisions += 1;
 }
 
-void Boundaries::reverse(Disc& disc, Axis axis, double* spin) const {
+void Boundaries::reverse(DiscState& disc, Axis axis, double* spin) const {
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const std::size_t side = velocity_of(disc, low / 2) < 0 ? low : low + 1;
     rebound(disc, side, effects_.boundaries[side].restitution, 0, spin);
 }
 
-void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, double time,
+void Boundaries::rebound(DiscState& disc, std::size_t side, double restitution, double time,
                          double* spin) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
     double& along = side / 2 == 0 ? disc.vy : disc.vx;

@@ -15,7 +15,7 @@
 #include <cstdint>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
 #include "dynamics/never.hpp"
@@ -38,15 +38,15 @@ public:
     /// bend in between.
     Extent walls_between(double begin, double end) const;
     /// When the disc meets a side of this axis, or `never`.
-    double wall_time(const Disc& disc, Axis axis) const { return meeting(disc, axis).time; }
+    double wall_time(const DiscState& disc, Axis axis) const { return meeting(disc, axis).time; }
     /// Carries out the collision of `time` = wall_time(disc, axis), the event-driven method.
     /// `spin`, here and below: null where discs do not turn.
-    void bounce_at(Disc& disc, Axis axis, double time, double* spin) const;
+    void bounce_at(DiscState& disc, Axis axis, double time, double* spin) const;
     /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
-    bool may_meet(const Disc& disc, double time, double margin) const;
+    bool may_meet(const DiscState& disc, double time, double margin) const;
 
     /// The side to which a velocity along `axis` leads; it must not be 0.
-    static std::size_t side_ahead(const Disc& disc, Axis axis) {
+    static std::size_t side_ahead(const DiscState& disc, Axis axis) {
         return 2 * static_cast<std::size_t>(axis) +
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
     }
@@ -55,15 +55,15 @@ public:
     }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
     /// The centre's coordinate across an open side, in the box, when the disc is just outside.
-    double departure(const Disc& disc, std::size_t side) const {
+    double departure(const DiscState& disc, std::size_t side) const {
         return departure_or_touch(side, species_.of(disc.id).radius);
     }
     /// What becomes of a disc that has come there, advanced to `time`.
-    void depart(Disc& disc, std::size_t side, double time, double* spin) const;
+    void depart(DiscState& disc, std::size_t side, double time, double* spin) const;
 
     /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being
     /// where it touches.
-    void reverse(Disc& disc, Axis axis, double* spin) const;
+    void reverse(DiscState& disc, Axis axis, double* spin) const;
 
 private:
     struct Meeting {
@@ -75,10 +75,10 @@ private:
         double distance, rate, pull;
     };
 
-    static double place_of(const Disc& disc, std::size_t axis) {
+    static double place_of(const DiscState& disc, std::size_t axis) {
         return axis == 0 ? disc.x : disc.y;
     }
-    static double velocity_of(const Disc& disc, std::size_t axis) {
+    static double velocity_of(const DiscState& disc, std::size_t axis) {
         return axis == 0 ? disc.vx : disc.vy;
     }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
@@ -112,7 +112,7 @@ private:
         return wall_velocity(side, time) + oscillations_[side].at(time).velocity;
     }
     Extent extent_of_lines(double time) const;
-    Approach approach(const Disc& disc, std::size_t side) const {
+    Approach approach(const DiscState& disc, std::size_t side) const {
         const double sign = sign_of(side);
         return {sign * (place_of(disc, side / 2) -
                         wall_at(side, disc.tau, species_.of(disc.id).radius)),
@@ -120,9 +120,10 @@ private:
                 sign * pull_at(side)};
     }
     double delay_of(const Approach& approach, double time) const;
-    double delay_to(const Disc& disc, std::size_t side) const;
-    Meeting meeting(const Disc& disc, Axis axis) const;
-    void rebound(Disc& disc, std::size_t side, double restitution, double time, double* spin) const;
+    double delay_to(const DiscState& disc, std::size_t side) const;
+    Meeting meeting(const DiscState& disc, Axis axis) const;
+    void rebound(DiscState& disc, std::size_t side, double restitution, double time,
+                 double* spin) const;
     /// The velocity of the surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
         return effects_.boundaries[side].surface.velocity / fall_.slowing_at(time) -

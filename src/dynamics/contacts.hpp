@@ -6,7 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 
 namespace carrom {
@@ -17,7 +17,7 @@ class ElasticContact {
 public:
     explicit ElasticContact(const ContactEffect&) {}
     double impulse() const { return 1; }
-    double impulse_at(const Disc&, const Disc&, double) const { return 1; }
+    double impulse_at(const DiscState&, const DiscState&, double) const { return 1; }
 };
 
 /// The share `restitution` of the normal relative velocity is left: 1 gives the elastic contact's
@@ -36,7 +36,7 @@ public:
     /// For the time-stepped method, in which a disc collides at most once in a micro-step.
     double impulse() const { return impulse_; }
     /// For the event-driven method; `p` and `q` are the stored states before the contact at `time`.
-    double impulse_at(const Disc& p, const Disc& q, double time) const {
+    double impulse_at(const DiscState& p, const DiscState& q, double time) const {
         return time - p.tau < contact_time_ || time - q.tau < contact_time_ ? 1 : impulse_;
     }
 
@@ -58,7 +58,7 @@ public:
     }
 
     /// Within the contact time discs part elastically, like smooth ones: see InelasticContact.
-    bool is_guarded(const Disc& p, const Disc& q, double time) const {
+    bool is_guarded(const DiscState& p, const DiscState& q, double time) const {
         return time - p.tau < contact_time_ || time - q.tau < contact_time_;
     }
     double normal() const { return normal_; }

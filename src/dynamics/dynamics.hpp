@@ -20,8 +20,8 @@
 namespace carrom {
 
 template <class D>
-concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, Disc& q,
-                                                const Disc& disc, std::int64_t n, double time,
+concept Dynamics = std::copyable<D> && requires(D changing, const D d, DiscState& p, DiscState& q,
+                                                const DiscState& disc, std::int64_t n, double time,
                                                 double m, double t, double* spin, Axis axis) {
     // What can happen in a scene. Kernels compile no code for what cannot.
     { D::is_periodic } -> std::convertible_to<bool>;        // discs have images

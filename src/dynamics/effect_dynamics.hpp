@@ -44,7 +44,7 @@ public:
     bool has_obstacles() const { return obstacles_ != nullptr; }
     bool has_open_sides() const { return boundaries_.are_any_open(); }
     const SpeciesTable& species_table() const { return species_; }
-    double mass_of(const Disc& disc) const {
+    double mass_of(const DiscState& disc) const {
         if constexpr (is_mixed) return species_.of(disc.id).mass;
         return 1;
     }
@@ -57,47 +57,48 @@ public:
     double slowing_at(double time) const { return fall_.slowing_at(time); }
     FlightIntegral flight_integral_at(double time) const { return fall_.flight_integral_at(time); }
     double pair_weight_at(double time) const { return fall_.pair_weight_at(time); }
-    void restart_frame(Disc& disc, double time) const { fall_.restart(disc, time); }
+    void restart_frame(DiscState& disc, double time) const { fall_.restart(disc, time); }
     double jump_at(Axis axis, double time) const { return fall_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return fall_.speed_gained_at(time); }
     Extent extent_at(double time) const { return boundaries_.extent_at(time); }
 
-    PairContact<double> contact(const Disc& p, const Disc& q) const {
+    PairContact<double> contact(const DiscState& p, const DiscState& q) const {
         if (p.has_departed() || q.has_departed()) return {};
         return pair_dynamics(p, q).contact(p, q);
     }
-    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+    PairContact<double> event_contact(const DiscState& p, const DiscState& q) const {
         if (p.has_departed() || q.has_departed()) return {};
         return pair_dynamics(p, q).event_contact(p, q);
     }
 
-    void collide(Disc& p, Disc& q, double m, double t) const {
+    void collide(DiscState& p, DiscState& q, double m, double t) const {
         exchange_momentum(p, q, m + t, contact_.impulse());
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time) const {
+    void collide_at(DiscState& p, DiscState& q, double time) const {
         exchange_momentum(p, q, time, contact_.impulse_at(p, q, time));
     }
 
     /// The plain dynamics' answer, with obstacles.
-    MetWalls met_walls(const Disc& disc, double m, double t) const {
+    MetWalls met_walls(const DiscState& disc, double m, double t) const {
         if (has_obstacles() && t != side_time(disc, m)) return {};
         return wall_dynamics(disc).met_walls(disc, m, t);
     }
 
     /// For rough discs: spins are angles per micro-step, counterclockwise.
-    void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
+    void collide(DiscState& p, DiscState& q, double m, double t, double& p_spin,
+                 double& q_spin) const {
         exchange_spin(p, q, m + t, false, p_spin, q_spin);
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+    void collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
         exchange_spin(p, q, time, contact_.is_guarded(p, q, time), p_spin, q_spin);
     }
 
     /// A disc's candidate with a wall or an obstacle, whichever comes first.
-    double wall_time(const Disc& disc, double m) const {
+    double wall_time(const DiscState& disc, double m) const {
         const double at_wall = side_time(disc, m);
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
@@ -105,7 +106,7 @@ public:
     /// The plain dynamics' times; the sides decide what happens at them. In the time-stepped method
     /// walls are at rest.
     /// `spin`, here and below: that of a rough disc, null of others.
-    void bounce(Disc& disc, double m, double t, double* spin = nullptr) const {
+    void bounce(DiscState& disc, double m, double t, double* spin = nullptr) const {
         if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t, spin);
         const PlainDynamics walls = wall_dynamics(disc);
         const double tx = side_time(disc, Axis::x, m), ty = side_time(disc, Axis::y, m);
@@ -127,9 +128,9 @@ public:
         stop(disc, m, t);
     }
 
-    double x_wall_time(const Disc& disc) const { return boundaries_.wall_time(disc, Axis::x); }
-    double y_wall_time(const Disc& disc) const { return boundaries_.wall_time(disc, Axis::y); }
-    bool may_meet_wall(const Disc& disc, double time) const {
+    double x_wall_time(const DiscState& disc) const { return boundaries_.wall_time(disc, Axis::x); }
+    double y_wall_time(const DiscState& disc) const { return boundaries_.wall_time(disc, Axis::y); }
+    bool may_meet_wall(const DiscState& disc, double time) const {
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
                                speed_gained_at(time);
         return boundaries_.may_meet(disc, time, tolerance() + time_rounding * time * fastest);
@@ -137,18 +138,19 @@ public:
     Extent walls_between(double begin, double end) const {
         return boundaries_.walls_between(begin, end);
     }
-    void bounce_x_at(Disc& disc, double time, double* spin = nullptr) const {
+    void bounce_x_at(DiscState& disc, double time, double* spin = nullptr) const {
         boundaries_.bounce_at(disc, Axis::x, time, spin);
     }
-    void bounce_y_at(Disc& disc, double time, double* spin = nullptr) const {
+    void bounce_y_at(DiscState& disc, double time, double* spin = nullptr) const {
         boundaries_.bounce_at(disc, Axis::y, time, spin);
     }
     /// The first obstacle that the disc comes to.
-    ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const {
+    ObstacleContact first_obstacle(const DiscState& disc, const ContactTimes& times) const {
         return disc.has_departed() ? ObstacleContact{}
                                    : obstacles_->first_contact(disc, radius_of(disc), times);
     }
-    void bounce_off_at(Disc& disc, std::uint32_t body, double time, double* spin = nullptr) const {
+    void bounce_off_at(DiscState& disc, std::uint32_t body, double time,
+                       double* spin = nullptr) const {
         const bool is_touched = time - disc.tau < contact_time_;
         advance(disc, time);
         obstacles_->rebound(disc, body, time, is_touched, {spin, radius_of(disc)});
@@ -156,17 +158,17 @@ public:
     }
 
 protected:
-    void reverse(Disc& disc, Axis axis, double* spin) const {
+    void reverse(DiscState& disc, Axis axis, double* spin) const {
         boundaries_.reverse(disc, axis, spin);
     }
 
-    ObstacleContact obstacle_contact(const Disc& disc, double m) const {
+    ObstacleContact obstacle_contact(const DiscState& disc, double m) const {
         return first_obstacle(disc, {m, m + 1});
     }
 
     /// Reflects the disc from the obstacle that it comes to in the micro-step, and returns which
     /// that is.
-    std::uint32_t rebound_in(Disc& disc, double m, double* spin) const {
+    std::uint32_t rebound_in(DiscState& disc, double m, double* spin) const {
         const ObstacleContact contact = obstacle_contact(disc, m);
         advance(disc, contact.time);
         obstacles_->rebound(disc, contact.body, 0, false, {spin, radius_of(disc)});
@@ -176,7 +178,7 @@ protected:
 
     /// A disc that would run into an obstacle before the micro-step ends waits there. `at_wall`
     /// is the time at which a side stops it; `left` is the obstacle it has just left.
-    void stop_at(Disc& disc, double m, double at_wall, std::uint32_t left) const {
+    void stop_at(DiscState& disc, double m, double at_wall, std::uint32_t left) const {
         const ObstacleContact contact = has_obstacles()
                                             ? first_obstacle(disc, {disc.tau, m + 1, true, left})
                                             : ObstacleContact{};
@@ -191,18 +193,18 @@ protected:
     }
 
 private:
-    double radius_of(const Disc& disc) const {
+    double radius_of(const DiscState& disc) const {
         if constexpr (is_mixed) return species_.of(disc.id).radius;
         return radius_;
     }
 
-    bool is_open(const Disc& disc, Axis axis) const {
+    bool is_open(const DiscState& disc, Axis axis) const {
         return boundaries_.is_open(Boundaries::side_ahead(disc, axis));
     }
 
     /// The plain dynamics' answer for walls. Through an open side a disc leaves when
     /// its centre is a radius beyond it.
-    double side_time(const Disc& disc, Axis axis, double m) const {
+    double side_time(const DiscState& disc, Axis axis, double m) const {
         const double x = along(axis, disc.x, disc.y), v = along(axis, disc.vx, disc.vy);
         if (v == 0 || !is_open(disc, axis)) return wall_dynamics(disc).axis_time(axis, disc, m);
         const double line = boundaries_.departure(disc, Boundaries::side_ahead(disc, axis)),
@@ -210,39 +212,42 @@ private:
         if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
         return std::clamp((disc.tau - m) + (line - x) / v, 0.0, 1.0);
     }
-    double side_time(const Disc& disc, double m) const {
+    double side_time(const DiscState& disc, double m) const {
         return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m));
     }
-    double side_stop(const Disc& disc, Axis axis, double rest) const {
+    double side_stop(const DiscState& disc, Axis axis, double rest) const {
         return along(axis, disc.vx, disc.vy) == 0 || is_open(disc, axis)
                    ? never
                    : wall_dynamics(disc).axis_stop(axis, disc, rest);
     }
 
-    void bounce_off(Disc& disc, double m, double t, double* spin) const {
+    void bounce_off(DiscState& disc, double m, double t, double* spin) const {
         stop(disc, m, t, rebound_in(disc, m, spin));
     }
 
-    void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
+    void stop(DiscState& disc, double m, double t,
+              std::uint32_t left = ObstacleContact::no_body) const {
         if (!has_obstacles() && !boundaries_.are_any_open())
             return wall_dynamics(disc).stop_at_wall(disc, m, t);
         stop_at(disc, m, std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t)),
                 left);
     }
 
-    [[gnu::always_inline]] PlainDynamics pair_dynamics(const Disc& p, const Disc& q) const {
+    [[gnu::always_inline]] PlainDynamics pair_dynamics(const DiscState& p,
+                                                       const DiscState& q) const {
         if constexpr (is_mixed) return with_sizes(radius_, pair_diameter(p, q));
         return *this;
     }
 
-    [[gnu::always_inline]] void exchange_momentum(Disc& p, Disc& q, double time,
+    [[gnu::always_inline]] void exchange_momentum(DiscState& p, DiscState& q, double time,
                                                   double impulse) const {
         advance(p, time);
         advance(q, time);
         exchange_momentum_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), impulse);
     }
-    [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded,
-                                              double& p_spin, double& q_spin) const {
+    [[gnu::always_inline]] void exchange_spin(DiscState& p, DiscState& q, double time,
+                                              bool is_guarded, double& p_spin,
+                                              double& q_spin) const {
         advance(p, time);
         advance(q, time);
         exchange_spin_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), is_guarded, p_spin, q_spin);
@@ -253,19 +258,20 @@ protected:
     // touch.
 
     /// Sums of two numbers are the same in any order.
-    [[gnu::always_inline]] double pair_diameter(const Disc& p, const Disc& q) const {
+    [[gnu::always_inline]] double pair_diameter(const DiscState& p, const DiscState& q) const {
         if constexpr (is_mixed) return species_.of(p.id).radius + species_.of(q.id).radius;
         return diameter_;
     }
     /// The plain dynamics of this disc at walls.
-    [[gnu::always_inline]] PlainDynamics wall_dynamics(const Disc& disc) const {
+    [[gnu::always_inline]] PlainDynamics wall_dynamics(const DiscState& disc) const {
         if constexpr (is_mixed) return with_sizes(species_.of(disc.id).radius, diameter_);
         return *this;
     }
 
     /// The momentum that equal discs would exchange, times 2 m' / (m + m') for each disc's
     /// velocity, m' being the other's mass. The factor is 1 if the masses are equal.
-    [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, const Encounter& encounter,
+    [[gnu::always_inline]] void exchange_momentum_at(DiscState& p, DiscState& q,
+                                                     const Encounter& encounter,
                                                      double impulse) const {
         if constexpr (is_mixed) {
             const double p_mass = species_.of(p.id).mass, q_mass = species_.of(q.id).mass;
@@ -278,9 +284,9 @@ protected:
 
     /// Also adds an impulse s along the surfaces, which acts on both spins alike, in units of
     /// the distance of centres, like k. With s = 0 the bits are those of exchange_momentum_at.
-    [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, const Encounter& encounter,
-                                                 bool is_guarded, double& p_spin,
-                                                 double& q_spin) const {
+    [[gnu::always_inline]] void exchange_spin_at(DiscState& p, DiscState& q,
+                                                 const Encounter& encounter, bool is_guarded,
+                                                 double& p_spin, double& q_spin) const {
         const SizeAndMass &p_has = species_.of(p.id), &q_has = species_.of(q.id);
         const auto [ex, ey, wx, wy] = encounter;
         const double square = ex * ex + ey * ey, distance = std::sqrt(square);

@@ -16,7 +16,7 @@
 #include <cmath>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
@@ -89,7 +89,7 @@ public:
         return at_rest;
     }
     /// Turns a state advanced to `time` into one in a frame that starts there at rest in the box.
-    void restart(Disc& disc, double time) const { disc = at(time).in_box(disc, time); }
+    void restart(DiscState& disc, double time) const { disc = at(time).in_box(disc, time); }
     /// How far the frame jumps along `axis` at a sync at `time`.
     double jump_at(Axis axis, double time) const {
         return std::fabs(fallen(along(axis, gravity_.x, gravity_.y), time));

@@ -40,7 +40,7 @@ public:
     }
     double growth_at(double time) const { return at_sync_ + rate_ * time; }
 
-    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+    PairContact<double> event_contact(const DiscState& p, const DiscState& q) const {
         const double base = std::max(p.tau, q.tau), size = growth_at(base);
         const double dx = (q.x_at(base) - p.x_at(base)) + periods().x_between(p, q);
         const double dy = (q.y_at(base) - p.y_at(base)) + periods().y_between(p, q);
@@ -48,7 +48,7 @@ public:
                                             pair_diameter(p, q) * size, rate_ / size, never)};
     }
     /// Along the line of centres the surfaces' relative velocity is reversed.
-    void collide_at(Disc& p, Disc& q, double time) const {
+    void collide_at(DiscState& p, DiscState& q, double time) const {
         const double impulse = contact_.impulse_at(p, q, time), growth = rate_ / growth_at(time);
         advance(p, time);
         advance(q, time);
@@ -66,15 +66,15 @@ public:
         q.pair_collisions += 1;
     }
 
-    double x_wall_time(const Disc& disc) const { return meeting(disc, Axis::x).time; }
-    double y_wall_time(const Disc& disc) const { return meeting(disc, Axis::y).time; }
-    void bounce_x_at(Disc& disc, double time, double* /*spin*/ = nullptr) const {
+    double x_wall_time(const DiscState& disc) const { return meeting(disc, Axis::x).time; }
+    double y_wall_time(const DiscState& disc) const { return meeting(disc, Axis::y).time; }
+    void bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) const {
         bounce_at(disc, Axis::x, time);
     }
-    void bounce_y_at(Disc& disc, double time, double* /*spin*/ = nullptr) const {
+    void bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) const {
         bounce_at(disc, Axis::y, time);
     }
-    bool may_meet_wall(const Disc& disc, double time) const {
+    bool may_meet_wall(const DiscState& disc, double time) const {
         const double first_radius = species_table().of(disc.id).radius,
                      radius = first_radius * growth_at(time);
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
@@ -98,7 +98,7 @@ private:
         if (!(closing > 0)) return never;
         return gap > 0 ? gap / closing : 0;
     }
-    Meeting meeting(const Disc& disc, Axis axis) const {
+    Meeting meeting(const DiscState& disc, Axis axis) const {
         const bool is_x = axis == Axis::x;
         if ((is_x ? periods().x : periods().y) != 0) return {};
         const double place = is_x ? disc.x : disc.y, velocity = is_x ? disc.vx : disc.vy;
@@ -110,7 +110,7 @@ private:
                                  : Meeting{disc.tau + to_high, true};
     }
     /// Like a bounce at a wall that comes in as fast as the disc grows.
-    void bounce_at(Disc& disc, Axis axis, double time) const {
+    void bounce_at(DiscState& disc, Axis axis, double time) const {
         const bool is_high = meeting(disc, axis).is_high;
         const double restitution =
             time - disc.tau < guard_

@@ -188,7 +188,7 @@ double Obstacles::line_delay(const Body& line, double radius, double dx, double 
 }
 
 /// A function of the state only: the first time at which the distance is not positive and falls.
-double Obstacles::contact_time(const Disc& disc, const Body& body, double radius,
+double Obstacles::contact_time(const DiscState& disc, const Body& body, double radius,
                                Shift shift) const {
     const bool falls = gravity_[0] != 0 || gravity_[1] != 0;
     const double dx = ((disc.x + fallen(0, disc.tau)) - body.x) - shift.x,
@@ -202,7 +202,7 @@ double Obstacles::contact_time(const Disc& disc, const Body& body, double radius
 }
 
 /// The part of the box that a flight covers. A parabola is within an eighth of its pull.
-Extent Obstacles::path_of(const Disc& disc, double begin, double end) const {
+Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const {
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
     const double eighth = (end - begin) * (end - begin) / 8;
@@ -212,7 +212,7 @@ Extent Obstacles::path_of(const Disc& disc, double begin, double end) const {
 }
 
 /// The number of parts of a flight in which it goes no further than about a cell.
-double Obstacles::slices_of(const Disc& disc, double begin, double end) const {
+double Obstacles::slices_of(const DiscState& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
         return std::max(std::fabs(v + gravity_[axis] * begin), std::fabs(v + gravity_[axis] * end));
     };
@@ -220,7 +220,7 @@ double Obstacles::slices_of(const Disc& disc, double begin, double end) const {
     return std::clamp(std::ceil(way / std::min(columns_.width, rows_.width)), 1.0, 1e6);
 }
 
-ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
+ObstacleContact Obstacles::first_contact(const DiscState& disc, double radius,
                                          const ContactTimes& times) const {
     const double begin = std::max(times.from, disc.tau);
     ObstacleContact best;
@@ -252,7 +252,7 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
     return best;
 }
 
-void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_touched,
+void Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, bool is_touched,
                         const Turning& turning) const {
     const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
     const Entry image = image_of(code, x, y);

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/extent.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/rubbing.hpp"
@@ -50,12 +50,13 @@ public:
 
     /// The first body that a disc of that radius meets at such a time; the one of the
     /// lower number if it meets two at once.
-    ObstacleContact first_contact(const Disc& disc, double radius, const ContactTimes& times) const;
+    ObstacleContact first_contact(const DiscState& disc, double radius,
+                                  const ContactTimes& times) const;
 
     /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at
     /// `time`, its own now; `is_touched` says whether it has been touched within the contact time
     /// before.
-    void rebound(Disc& disc, std::uint32_t code, double time, bool is_touched,
+    void rebound(DiscState& disc, std::uint32_t code, double time, bool is_touched,
                  const Turning& turning = {}) const;
 
     struct Overlap {
@@ -95,12 +96,12 @@ private:
         std::int64_t box_of(std::int64_t cell) const;
     };
 
-    double contact_time(const Disc& disc, const Body& body, double radius, Shift shift) const;
+    double contact_time(const DiscState& disc, const Body& body, double radius, Shift shift) const;
     double line_delay(const Body& line, double radius, double dx, double dy, double wx,
                       double wy) const;
     Extent extent_of(const Body& body, double radius, Shift shift) const;
-    Extent path_of(const Disc& disc, double begin, double end) const;
-    double slices_of(const Disc& disc, double begin, double end) const;
+    Extent path_of(const DiscState& disc, double begin, double end) const;
+    double slices_of(const DiscState& disc, double begin, double end) const;
     bool may_hold(const Body& body, std::int64_t column, std::int64_t row) const;
     Cells cells_of(const Extent& extent) const;
     void sort_into_cells();

@@ -27,51 +27,52 @@ public:
     double slack() const { return 0x1p-36 * this->box().longest(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }
 
-    Separation separation(const Disc& p, const Disc& q) const {
+    Separation separation(const DiscState& p, const DiscState& q) const {
         return {(q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q)};
     }
-    Separation separation_at(const Disc& p, const Disc& q, double time) const {
+    Separation separation_at(const DiscState& p, const DiscState& q, double time) const {
         const Separation stored = Walled::separation_at(p, q, time);
         return {stored.x + periods_.x_between(p, q), stored.y + periods_.y_between(p, q)};
     }
 
-    PairContact<double> contact(const Disc& p, const Disc& q) const {
+    PairContact<double> contact(const DiscState& p, const DiscState& q) const {
         return contact(p, q, this->tolerance());
     }
-    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+    PairContact<double> event_contact(const DiscState& p, const DiscState& q) const {
         return contact(p, q, Walled::never);
     }
 
-    void collide(Disc& p, Disc& q, double m, double t) const {
+    void collide(DiscState& p, DiscState& q, double m, double t) const {
         exchange_momentum(p, q, m + t, this->contact_.impulse());
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time) const {
+    void collide_at(DiscState& p, DiscState& q, double time) const {
         exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
     }
 
     /// For rough discs.
-    void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
+    void collide(DiscState& p, DiscState& q, double m, double t, double& p_spin,
+                 double& q_spin) const {
         exchange_spin(p, q, m + t, false, p_spin, q_spin);
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+    void collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
         exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
     }
 
-    double wall_time(const Disc& disc, double m) const {
+    double wall_time(const DiscState& disc, double m) const {
         const double at_wall = side_time(disc, m);
         return this->has_obstacles() ? std::min(at_wall, this->obstacle_contact(disc, m).time - m)
                                      : at_wall;
     }
-    MetWalls met_walls(const Disc& disc, double m, double t) const {
+    MetWalls met_walls(const DiscState& disc, double m, double t) const {
         if (this->has_obstacles() && t != side_time(disc, m)) return {};
         return {periods_.x == 0, periods_.y == 0};
     }
     /// There is one axis with walls at most, and so no corner.
-    void bounce(Disc& disc, double m, double t, double* spin = nullptr) const {
+    void bounce(DiscState& disc, double m, double t, double* spin = nullptr) const {
         if (this->has_obstacles() && t != side_time(disc, m))
             return stop(disc, m, t, this->rebound_in(disc, m, spin));
         this->advance(disc, m + t);
@@ -81,13 +82,13 @@ public:
     }
 
     /// Brings a state that a sync has just rewritten into the box.
-    void wrap(Disc& disc) const { periods_.wrap(disc, disc.tau); }
+    void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
 
 protected:
     Periods periods_;
 
 private:
-    [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q,
+    [[gnu::flatten]] PairContact<double> contact(const DiscState& p, const DiscState& q,
                                                  double deepest_overlap) const {
         const double base = std::max(p.tau, q.tau);
         const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);
@@ -96,13 +97,13 @@ private:
                                     deepest_overlap)};
     }
 
-    void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+    void exchange_momentum(DiscState& p, DiscState& q, double time, double impulse) const {
         this->advance(p, time);
         this->advance(q, time);
         const Separation to = separation(p, q);
         this->exchange_momentum_at(p, q, this->encounter(p, q, to.x, to.y), impulse);
     }
-    void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin,
+    void exchange_spin(DiscState& p, DiscState& q, double time, bool is_guarded, double& p_spin,
                        double& q_spin) const {
         this->advance(p, time);
         this->advance(q, time);
@@ -110,13 +111,14 @@ private:
         this->exchange_spin_at(p, q, this->encounter(p, q, to.x, to.y), is_guarded, p_spin, q_spin);
     }
 
-    double side_time(const Disc& disc, double m) const {
+    double side_time(const DiscState& disc, double m) const {
         if (periods_.x == 0) return this->wall_dynamics(disc).axis_time(Axis::x, disc, m);
         return periods_.y == 0 ? this->wall_dynamics(disc).axis_time(Axis::y, disc, m)
                                : Walled::never;
     }
 
-    void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
+    void stop(DiscState& disc, double m, double t,
+              std::uint32_t left = ObstacleContact::no_body) const {
         const bool has_sides = periods_.x == 0 || periods_.y == 0;
         if (!has_sides && !this->has_obstacles()) return;
         const double rest = 1 - t;

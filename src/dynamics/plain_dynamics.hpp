@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
@@ -80,12 +80,12 @@ public:
     static constexpr double slowing_at(double /*time*/) { return 1; }
     static FlightIntegral flight_integral_at(double time) { return {time, 0, 0, 0, 0}; }
     static constexpr double pair_weight_at(double time) { return time; }
-    static void restart_frame(Disc& /*disc*/, double /*time*/) {}
+    static void restart_frame(DiscState& /*disc*/, double /*time*/) {}
     static constexpr double jump_at(Axis /*axis*/, double /*time*/) { return 0; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }
     Extent extent_at(double /*time*/) const { return {0, box_.x, 0, box_.y}; }
 
-    static void advance(Disc& disc, double time) {
+    static void advance(DiscState& disc, double time) {
         const double x = disc.x_at(time), y = disc.y_at(time);
         disc.x = x;
         disc.y = y;
@@ -93,61 +93,64 @@ public:
     }
 
     /// From p to q, which are both at the place of their collision.
-    static Separation separation(const Disc& p, const Disc& q) { return {q.x - p.x, q.y - p.y}; }
+    static Separation separation(const DiscState& p, const DiscState& q) {
+        return {q.x - p.x, q.y - p.y};
+    }
     /// From p to q, which are both at `time`, or fly there.
-    static Separation separation_at(const Disc& p, const Disc& q, double time) {
+    static Separation separation_at(const DiscState& p, const DiscState& q, double time) {
         return {q.x_at(time) - p.x_at(time), q.y_at(time) - p.y_at(time)};
     }
-    static constexpr double mass_of(const Disc& /*disc*/) { return 1; }
+    static constexpr double mass_of(const DiscState& /*disc*/) { return 1; }
     /// The squared speed that searches have to allow for: the disc's own, now and at `time`.
-    static double squared_speed(const Disc& disc) { return squared_speed_of(disc); }
-    static double squared_speed_at(const Disc& disc, double /*time*/) {
+    static double squared_speed(const DiscState& disc) { return squared_speed_of(disc); }
+    static double squared_speed_at(const DiscState& disc, double /*time*/) {
         return squared_speed_of(disc);
     }
 
     // The time-stepped method.
 
-    PairContact<double> contact(const Disc& p, const Disc& q) const {
+    PairContact<double> contact(const DiscState& p, const DiscState& q) const {
         return pair_contact(p, q, diameter_, tolerance_);
     }
-    void collide(Disc& p, Disc& q, double m, double t) const {
+    void collide(DiscState& p, DiscState& q, double m, double t) const {
         collide_at(p, q, m + t);
         stop_at_wall(p, m, t);
         stop_at_wall(q, m, t);
     }
-    double wall_time(const Disc& disc, double m) const {
+    double wall_time(const DiscState& disc, double m) const {
         return std::min(axis_time(Axis::x, disc, m), axis_time(Axis::y, disc, m));
     }
     /// A corner reverses both velocities and counts once.
-    void bounce(Disc& disc, double m, double t, double* /*spin*/ = nullptr) const {
+    void bounce(DiscState& disc, double m, double t, double* /*spin*/ = nullptr) const {
         const MetWalls met = reach_walls(disc, m, t);
         if (met.at_x) disc.vx = -disc.vx;
         if (met.at_y) disc.vy = -disc.vy;
         disc.wall_collisions += 1;
         stop_at_wall(disc, m, t);
     }
-    MetWalls met_walls(const Disc& before, double m, double t) const {
-        Disc disc = before;
+    MetWalls met_walls(const DiscState& before, double m, double t) const {
+        DiscState disc = before;
         return reach_walls(disc, m, t);
     }
 
     // The event-driven method.
 
-    [[gnu::always_inline]] PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+    [[gnu::always_inline]] PairContact<double> event_contact(const DiscState& p,
+                                                             const DiscState& q) const {
         return pair_contact(p, q, diameter_, never);
     }
-    static void collide_at(Disc& p, Disc& q, double time) {
+    static void collide_at(DiscState& p, DiscState& q, double time) {
         advance(p, time);
         advance(q, time);
         push_apart(p, q, encounter(p, q, q.x - p.x, q.y - p.y), 1);
     }
-    double x_wall_time(const Disc& disc) const {
+    double x_wall_time(const DiscState& disc) const {
         return disc.tau + walls(Axis::x).delay(disc.x, disc.vx);
     }
-    double y_wall_time(const Disc& disc) const {
+    double y_wall_time(const DiscState& disc) const {
         return disc.tau + walls(Axis::y).delay(disc.y, disc.vy);
     }
-    bool may_meet_wall(const Disc& disc, double time) const {
+    bool may_meet_wall(const DiscState& disc, double time) const {
         const double x = disc.x_at(time), y = disc.y_at(time);
         // The last term allows for rounded times, in which a fast disc flies some way.
         const double margin = tolerance_ + time_rounding * time *
@@ -157,12 +160,12 @@ public:
                  y < at_y.high() - margin);
     }
     Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_.x, 0, box_.y}; }
-    static void bounce_x_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
+    static void bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vx = -disc.vx;
         disc.wall_collisions += 1;
     }
-    static void bounce_y_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
+    static void bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vy = -disc.vy;
         disc.wall_collisions += 1;
@@ -179,20 +182,20 @@ public:
         return dynamics;
     }
 
-    [[gnu::always_inline]] double axis_time(Axis axis, const Disc& disc, double m) const {
+    [[gnu::always_inline]] double axis_time(Axis axis, const DiscState& disc, double m) const {
         return walls(axis).time(along(axis, disc.x, disc.y), along(axis, disc.vx, disc.vy),
                                 disc.tau, m);
     }
-    [[gnu::always_inline]] double axis_stop(Axis axis, const Disc& disc, double rest) const {
+    [[gnu::always_inline]] double axis_stop(Axis axis, const DiscState& disc, double rest) const {
         return walls(axis).stop(along(axis, disc.x, disc.y), along(axis, disc.vx, disc.vy), rest);
     }
-    bool touches_wall(Axis axis, const Disc& disc) const {
+    bool touches_wall(Axis axis, const DiscState& disc) const {
         return walls(axis).touches(along(axis, disc.x, disc.y), along(axis, disc.vx, disc.vy));
     }
 
     /// A disc that would leave the box before the micro-step ends waits at the wall. It bounces in
     /// the next one.
-    [[gnu::always_inline]] void stop_at_wall(Disc& disc, double m, double t) const {
+    [[gnu::always_inline]] void stop_at_wall(DiscState& disc, double m, double t) const {
         const double rest = 1 - t;
         const double stop = std::min(axis_stop(Axis::x, disc, rest),
                                      axis_stop(Axis::y, disc, rest));
@@ -206,17 +209,17 @@ protected:
     static constexpr double time_rounding = 0x1p-50;
 
     /// The encounter of two discs at a separation (ex, ey) from p to q.
-    [[gnu::always_inline]] static Encounter encounter(const Disc& p, const Disc& q, double ex,
-                                                      double ey) {
+    [[gnu::always_inline]] static Encounter encounter(const DiscState& p, const DiscState& q,
+                                                      double ex, double ey) {
         return {ex, ey, q.vx - p.vx, q.vy - p.vy};
     }
 
     /// Gives new velocities to discs that touch. `impulse` is in units of that of an
     /// elastic contact of equal masses, of which p and q take their shares.
     /// Multiplying by 1 changes no bit, and takes no instruction.
-    [[gnu::always_inline]] static void push_apart(Disc& p, Disc& q, const Encounter& encounter,
-                                                  double impulse, double p_share = 1,
-                                                  double q_share = 1) {
+    [[gnu::always_inline]] static void push_apart(DiscState& p, DiscState& q,
+                                                  const Encounter& encounter, double impulse,
+                                                  double p_share = 1, double q_share = 1) {
         const auto [ex, ey, wx, wy] = encounter;
         const double k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
         p.vx = p.vx + k * p_share * ex;
@@ -236,7 +239,7 @@ protected:
 
 private:
     /// Advances the disc to in-step time t = wall_time(disc, m).
-    [[gnu::always_inline]] MetWalls reach_walls(Disc& disc, double m, double t) const {
+    [[gnu::always_inline]] MetWalls reach_walls(DiscState& disc, double m, double t) const {
         const double x_time = axis_time(Axis::x, disc, m), y_time = axis_time(Axis::y, disc, m);
         advance(disc, m + t);
         return {x_time == t || touches_wall(Axis::x, disc),

@@ -39,51 +39,52 @@ public:
     static constexpr double pair_weight_at(double /*time*/) { return 0; }
 
     /// For discs that are both at the place of their collision.
-    Separation separation(const Disc& p, const Disc& q) const {
+    Separation separation(const DiscState& p, const DiscState& q) const {
         const Shift shift = this->periods_.between(p, q, p.tau);
         return {(q.x - p.x) + shift.x, (q.y - p.y) + shift.y};
     }
-    Separation separation_at(const Disc& p, const Disc& q, double time) const {
+    Separation separation_at(const DiscState& p, const DiscState& q, double time) const {
         const Separation stored = Walled::separation_at(p, q, time);
         const Shift shift = this->periods_.between(p, q, time);
         return {stored.x + shift.x, stored.y + shift.y};
     }
 
-    PairContact<double> contact(const Disc& p, const Disc& q) const {
+    PairContact<double> contact(const DiscState& p, const DiscState& q) const {
         return contact(p, q, this->tolerance());
     }
-    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+    PairContact<double> event_contact(const DiscState& p, const DiscState& q) const {
         return contact(p, q, Walled::never);
     }
 
     /// Nothing in the box is fixed, so no disc has to stop.
-    void collide(Disc& p, Disc& q, double m, double t) const {
+    void collide(DiscState& p, DiscState& q, double m, double t) const {
         exchange_momentum(p, q, m + t, this->contact_.impulse());
     }
-    void collide_at(Disc& p, Disc& q, double time) const {
+    void collide_at(DiscState& p, DiscState& q, double time) const {
         exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
     }
     /// For rough discs.
-    void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
+    void collide(DiscState& p, DiscState& q, double m, double t, double& p_spin,
+                 double& q_spin) const {
         exchange_spin(p, q, m + t, false, p_spin, q_spin);
     }
-    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+    void collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
         exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
     }
 
     /// The squared speed of the fastest image next to the disc's own one.
-    double squared_speed(const Disc& disc) const {
+    double squared_speed(const DiscState& disc) const {
         const double vx = std::fabs(this->periods_.vx_of(disc)) + std::fabs(this->periods_.speed);
         return vx * vx + disc.vy * disc.vy;
     }
-    double squared_speed_at(const Disc& disc, double time) const {
-        Disc at_home = disc;
+    double squared_speed_at(const DiscState& disc, double time) const {
+        DiscState at_home = disc;
         set_image(at_home, this->periods_.home(disc, time));
         return squared_speed(at_home);
     }
 
 private:
-    [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q,
+    [[gnu::flatten]] PairContact<double> contact(const DiscState& p, const DiscState& q,
                                                  double deepest_overlap) const {
         const double base = std::max(p.tau, q.tau);
         const Shift shift = this->periods_.between(p, q, base);
@@ -93,17 +94,17 @@ private:
                                     this->pair_diameter(p, q), deepest_overlap)};
     }
     /// Advances both discs to where they collide; q is seen as its image.
-    Encounter encounter_at(Disc& p, Disc& q, double time) const {
+    Encounter encounter_at(DiscState& p, DiscState& q, double time) const {
         this->advance(p, time);
         this->advance(q, time);
         const Shift shift = this->periods_.between(p, q, time);
         return {(q.x - p.x) + shift.x, (q.y - p.y) + shift.y, (q.vx - p.vx) + shift.vx,
                 q.vy - p.vy};
     }
-    void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+    void exchange_momentum(DiscState& p, DiscState& q, double time, double impulse) const {
         this->exchange_momentum_at(p, q, encounter_at(p, q, time), impulse);
     }
-    void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin,
+    void exchange_spin(DiscState& p, DiscState& q, double time, bool is_guarded, double& p_spin,
                        double& q_spin) const {
         this->exchange_spin_at(p, q, encounter_at(p, q, time), is_guarded, p_spin, q_spin);
     }

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

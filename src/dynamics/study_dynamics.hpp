@@ -30,7 +30,7 @@ enum class ContactFormula { stable, naive, naive_contracted };
 template <class Real> struct RoundedState {
     Real x, y, vx, vy, tau;
 
-    explicit RoundedState(const Disc& disc)
+    explicit RoundedState(const DiscState& disc)
         : x(static_cast<Real>(disc.x)), y(static_cast<Real>(disc.y)),
           vx(static_cast<Real>(disc.vx)), vy(static_cast<Real>(disc.vy)),
           tau(static_cast<Real>(disc.tau)) {}
@@ -61,47 +61,47 @@ public:
     double search_diameter() const { return diameter() + 2 * slack_; }
 
     /// Rounds a state to its precision.
-    static void round(Disc& disc) {
+    static void round(DiscState& disc) {
         for (double* number : {&disc.x, &disc.y, &disc.vx, &disc.vy, &disc.tau})
             *number = real(*number);
     }
-    static void advance(Disc& disc, double time) {
+    static void advance(DiscState& disc, double time) {
         const RoundedState<Real> flight(disc);
         disc.x = flight.x_at(real(time));
         disc.y = flight.y_at(real(time));
         disc.tau = real(time);
     }
 
-    PairContact<Real> contact(const Disc& p, const Disc& q) const {
+    PairContact<Real> contact(const DiscState& p, const DiscState& q) const {
         const PairContact<Real> found = contact_of(p, q, overlap_);
         const double time = static_cast<double>(found.base) + static_cast<double>(found.delay);
         return is_near(p, q, time) ? found : PairContact<Real>{};
     }
-    void collide(Disc& p, Disc& q, double m, double t) const {
+    void collide(DiscState& p, DiscState& q, double m, double t) const {
         collide_at(p, q, real(m) + real(t));
         stop_at_wall(p, m, t);
         stop_at_wall(q, m, t);
     }
-    double wall_time(const Disc& disc, double m) const {
+    double wall_time(const DiscState& disc, double m) const {
         return std::min(x_time(disc, m), y_time(disc, m));
     }
-    void bounce(Disc& disc, double m, double t, double* /*spin*/ = nullptr) const {
+    void bounce(DiscState& disc, double m, double t, double* /*spin*/ = nullptr) const {
         const MetWalls met = reach_walls(disc, m, t);
         if (met.at_x) disc.vx = -disc.vx;
         if (met.at_y) disc.vy = -disc.vy;
         disc.wall_collisions += 1;
         stop_at_wall(disc, m, t);
     }
-    MetWalls met_walls(const Disc& before, double m, double t) const {
-        Disc disc = before;
+    MetWalls met_walls(const DiscState& before, double m, double t) const {
+        DiscState disc = before;
         return reach_walls(disc, m, t);
     }
 
-    PairContact<Real> event_contact(const Disc& p, const Disc& q) const {
+    PairContact<Real> event_contact(const DiscState& p, const DiscState& q) const {
         const PairContact<Real> found = contact_of(p, q, RestingWalls<Real>::never);
         return is_near(p, q, found.base + found.delay) ? found : PairContact<Real>{};
     }
-    static void collide_at(Disc& p, Disc& q, double time) {
+    static void collide_at(DiscState& p, DiscState& q, double time) {
         advance(p, time);
         advance(q, time);
         const RoundedState<Real> a(p), b(q);
@@ -114,15 +114,15 @@ public:
         p.pair_collisions += 1;
         q.pair_collisions += 1;
     }
-    double x_wall_time(const Disc& disc) const {
+    double x_wall_time(const DiscState& disc) const {
         const RoundedState<Real> d(disc);
         return d.tau + x_walls_.delay(d.x, d.vx);
     }
-    double y_wall_time(const Disc& disc) const {
+    double y_wall_time(const DiscState& disc) const {
         const RoundedState<Real> d(disc);
         return d.tau + y_walls_.delay(d.y, d.vy);
     }
-    bool may_meet_wall(const Disc& disc, double time) const {
+    bool may_meet_wall(const DiscState& disc, double time) const {
         constexpr double rounding_of_time = is_rounded ? 0x1p-21 : time_rounding;
         const double x = disc.x_at(time), y = disc.y_at(time);
         const double margin = tolerance() + rounding() +
@@ -131,12 +131,12 @@ public:
         return !(x > x_walls_.low() + margin && x < x_walls_.high() - margin &&
                  y > y_walls_.low() + margin && y < y_walls_.high() - margin);
     }
-    static void bounce_x_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
+    static void bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vx = -disc.vx;
         disc.wall_collisions += 1;
     }
-    static void bounce_y_at(Disc& disc, double time, double* /*spin*/ = nullptr) {
+    static void bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vy = -disc.vy;
         disc.wall_collisions += 1;
@@ -158,7 +158,8 @@ private:
         return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);
     }
 
-    PairContact<Real> contact_of(const Disc& p, const Disc& q, Real deepest_overlap) const {
+    PairContact<Real> contact_of(const DiscState& p, const DiscState& q,
+                                 Real deepest_overlap) const {
         const RoundedState<Real> a(p), b(q);
         if (formula_ == ContactFormula::stable) return pair_contact(a, b, sigma_, deepest_overlap);
         const Real base = std::max(a.tau, b.tau);
@@ -168,28 +169,28 @@ private:
     }
 
     /// Whether the discs, advanced to that time in double precision, are within the margin.
-    bool is_near(const Disc& p, const Disc& q, double time) const {
+    bool is_near(const DiscState& p, const DiscState& q, double time) const {
         const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
         const double farthest = search_diameter() - rounding();
         return dx * dx + dy * dy <= farthest * farthest;
     }
 
-    Real x_time(const Disc& disc, double m) const {
+    Real x_time(const DiscState& disc, double m) const {
         const RoundedState<Real> d(disc);
         return x_walls_.time(d.x, d.vx, d.tau, real(m));
     }
-    Real y_time(const Disc& disc, double m) const {
+    Real y_time(const DiscState& disc, double m) const {
         const RoundedState<Real> d(disc);
         return y_walls_.time(d.y, d.vy, d.tau, real(m));
     }
-    MetWalls reach_walls(Disc& disc, double m, double t) const {
+    MetWalls reach_walls(DiscState& disc, double m, double t) const {
         const Real to_x = x_time(disc, m), to_y = y_time(disc, m);
         advance(disc, real(m) + real(t));
         const RoundedState<Real> d(disc);
         return {to_x == real(t) || x_walls_.touches(d.x, d.vx),
                 to_y == real(t) || y_walls_.touches(d.y, d.vy)};
     }
-    void stop_at_wall(Disc& disc, double m, double t) const {
+    void stop_at_wall(DiscState& disc, double m, double t) const {
         const RoundedState<Real> d(disc);
         const Real rest = 1 - real(t);
         const Real stop = std::min(x_walls_.stop(d.x, d.vx, rest), y_walls_.stop(d.y, d.vy, rest));

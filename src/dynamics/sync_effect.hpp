@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/exact_sum.hpp"
 #include "core/random_numbers.hpp"
 #include "dynamics/species.hpp"
@@ -28,10 +28,10 @@ namespace carrom {
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
 /// they are taken about the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
-    const SpeciesTable& species;  ///< the radius and the mass of each disc
-    std::span<Disc> discs = {};   ///< some may have departed: effects leave those alone
-    std::span<double> spins = {}; ///< along the discs; empty unless discs are rough
-    std::int64_t n_syncs = 0;     ///< since the scene's start, this one included
+    const SpeciesTable& species;     ///< the radius and the mass of each disc
+    std::span<DiscState> discs = {}; ///< some may have departed: effects leave those alone
+    std::span<double> spins = {};    ///< along the discs; empty unless discs are rough
+    std::int64_t n_syncs = 0;        ///< since the scene's start, this one included
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

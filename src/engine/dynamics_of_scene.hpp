@@ -6,14 +6,14 @@
 #include <type_traits>
 
 #include "dynamics/all_dynamics.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 /// Calls `make.template operator()<D>()` with the scene's dynamics and returns its
 /// result, which has the same type for every dynamics. Effects have the default
 /// precision and arithmetic, because the reader of scenes refuses others.
-template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make) {
+template <class Make> auto with_dynamics_of(const SceneParameters& scene, const Make& make) {
     const Effects& effects = scene.effects;
     const bool is_periodic = effects.are_periodic();
     if (effects.growth != 0) return make.template operator()<GrowingDynamics>();
@@ -39,13 +39,13 @@ template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make
                : make.template operator()<StudyDynamics<double>>();
 }
 
-inline ContactFormula contact_formula_of(const Scene& scene) {
+inline ContactFormula contact_formula_of(const SceneParameters& scene) {
     if (scene.arithmetic == Arithmetic::stable) return ContactFormula::stable;
     return scene.contraction ? ContactFormula::naive_contracted : ContactFormula::naive;
 }
 
 /// The dynamics with the scene's numbers.
-template <class D> D dynamics_of(const Scene& scene) {
+template <class D> D dynamics_of(const SceneParameters& scene) {
     if constexpr (D::is_for_study)
         return D(scene.box, scene.radius, contact_formula_of(scene));
     else if constexpr (std::is_constructible_v<D, const Box&, double, const Effects&>)

@@ -9,7 +9,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/frame.hpp"
 #include "domain/strips.hpp"
 #include "dynamics/species.hpp"
@@ -41,7 +41,7 @@ public:
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
-    /// See Simulation::advance_towards. **Collective.**
+    /// See DiscSystem::advance_towards. **Collective.**
     virtual void advance_towards(std::int64_t last_step) = 0;
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows.
     /// **Collective.**
@@ -56,8 +56,8 @@ public:
     virtual RollbackCounts rollback_counts() const { return {}; }
 
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
-    virtual std::span<const Disc> own() const = 0;
-    virtual std::span<const Disc> departed()
+    virtual std::span<const DiscState> own() const = 0;
+    virtual std::span<const DiscState> departed()
         const = 0; ///< the discs of this rank that have left the box, which own() does not have
     virtual SideSpans side_columns() const { return {}; }     ///< along `own()`
     virtual SideSpans departed_columns() const { return {}; } ///< along `departed()`
@@ -69,7 +69,7 @@ public:
     virtual double energy_given() const { return 0; }
     virtual PhaseSeconds phase_seconds() const = 0;
 
-    /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.
+    /// See DiscSystem::log_to. Engines append what they carry out while `log_` is not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
     /// They are given this rank's collisions of pairs, or with the box's sides, in no particular
     /// order.
@@ -88,7 +88,7 @@ public:
     }
     /// The integrals over flights that no sum has yet.
     virtual FlightIntegral flight_integral() const { return {}; }
-    /// See Simulation::note_crossings_in.
+    /// See DiscSystem::note_crossings_in.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);
@@ -96,7 +96,7 @@ public:
 
 protected:
     /// Notes the flight from (x, y) to where the disc is now. Threads may call it at once.
-    void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
+    void note_crossing(const DiscState& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
         return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();
     }

@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& periods) {
+void Engine::note_crossing(const DiscState& disc, double x, double y, const Periods& periods) {
     const auto lengths = [](double far, double period) {
         return period == 0 ? 0 : std::round(far / period);
     };
@@ -28,7 +28,8 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
 namespace {
 
 /// Includes columns of the scene that no collision changes, because they go where the discs go.
-template <class Dynamics> SideColumns stored_columns(const Scene& scene, StoredState& state) {
+template <class Dynamics>
+SideColumns stored_columns(const SceneParameters& scene, StoredState& state) {
     SideColumnSet wanted = side_columns_of<Dynamics>().present();
     side_columns_of(scene).for_each([&](SideColumn column) {
         if (!info_of(column).is_of_dynamics) wanted.add(column);
@@ -50,7 +51,7 @@ template <class Dynamics> SpeciesTable species_of(const Dynamics& dynamics) {
 } // namespace
 
 template <class Dynamics>
-EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
+EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state,
                                  const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
@@ -64,10 +65,10 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
     if constexpr (Dynamics::is_for_study) {
-        for (Disc& disc : discs_.all()) Dynamics::round(disc);
+        for (DiscState& disc : discs_.all()) Dynamics::round(disc);
     }
     if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
-    for (const Disc& disc : own())
+    for (const DiscState& disc : own())
         largest_speed_ = std::max(largest_speed_,
                                   std::sqrt(dynamics_.squared_speed_at(disc, time_)));
 }
@@ -160,7 +161,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
 /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
 template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     discs_.forget_halo();
-    std::vector<Disc>& discs = discs_.all();
+    std::vector<DiscState>& discs = discs_.all();
     const auto n = static_cast<std::int64_t>(discs.size());
     const bool frame_moves = dynamics_.frame_at(time_).is_moving;
     const FlightIntegral flight = flight_integral();
@@ -175,7 +176,7 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         StressTerms terms;
 #pragma omp for schedule(static)
         for (std::int64_t i = 0; i < n; ++i) {
-            Disc& disc = discs[static_cast<std::size_t>(i)];
+            DiscState& disc = discs[static_cast<std::size_t>(i)];
             if (Dynamics::may_lose_discs && disc.has_departed()) continue;
             if (ends_flights) terms.add_flight(dynamics_.mass_of(disc), disc, flight, flights);
             Dynamics::advance(disc, time_);
@@ -194,20 +195,22 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     if (sync_action_.has_effects()) {
         sync_action_.act(discs_, n_micro_done_ / sync_every_);
         fastest = 0;
-        for (const Disc& disc : own()) fastest = std::max(fastest, dynamics_.squared_speed(disc));
+        for (const DiscState& disc : own())
+            fastest = std::max(fastest, dynamics_.squared_speed(disc));
     }
     return std::sqrt(fastest);
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {
     double energy = 0;
-    for (const Disc& disc : own()) energy += 0.5 * dynamics_.mass_of(disc) * squared_speed_of(disc);
+    for (const DiscState& disc : own())
+        energy += 0.5 * dynamics_.mass_of(disc) * squared_speed_of(disc);
     return energy;
 }
 
 /// Replaces a state that a sync has rewritten by its image in the box. Threads call it
 /// for different discs at once.
-template <class Dynamics> void EngineBase<Dynamics>::wrap(Disc& disc) {
+template <class Dynamics> void EngineBase<Dynamics>::wrap(DiscState& disc) {
     if constexpr (Dynamics::is_periodic) {
         const double x = disc.x, y = disc.y;
         dynamics_.wrap(disc);

@@ -15,7 +15,7 @@
 #include "engine/engine.hpp"
 #include "engine/phase_clock.hpp"
 #include "engine/sync_action.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -27,8 +27,8 @@ public:
     void forget_images() final { discs_.forget_images(); }
 
     std::int64_t micro_steps_done() const final { return n_micro_done_; }
-    std::span<const Disc> own() const final { return discs_.own(); }
-    std::span<const Disc> departed() const final { return discs_.departed(); }
+    std::span<const DiscState> own() const final { return discs_.own(); }
+    std::span<const DiscState> departed() const final { return discs_.departed(); }
     SideSpans side_columns() const final { return discs_.own_columns(); }
     SideSpans departed_columns() const final { return discs_.departed_columns().spans(); }
     const SpeciesTable& species_table() const final { return species_; }
@@ -45,7 +45,7 @@ public:
 
 protected:
     /// Takes over the state. The method distributes it when its own members are ready.
-    EngineBase(const Scene& scene, StoredState state, const Communicator& communicator,
+    EngineBase(const SceneParameters& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
 
     /// Runs windows until `n_micro_done_` is `target`, which is not beyond the next
@@ -98,7 +98,7 @@ protected:
 private:
     void sync();
     double restart_states();
-    void wrap(Disc& disc);
+    void wrap(DiscState& disc);
     double energy_of_own() const;
     std::int64_t flight_length(const Effects& effects) const;
 

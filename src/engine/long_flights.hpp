@@ -8,7 +8,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/image.hpp"
 
 namespace carrom {
@@ -22,9 +22,9 @@ inline double most_lengths(const Periods& periods, double speed, double up, doub
 }
 
 /// The largest speed along y of some discs.
-inline double fastest_up(std::span<const Disc> discs) {
+inline double fastest_up(std::span<const DiscState> discs) {
     double fastest = 0;
-    for (const Disc& disc : discs) fastest = std::max(fastest, std::fabs(disc.vy));
+    for (const DiscState& disc : discs) fastest = std::max(fastest, std::fabs(disc.vy));
     return fastest;
 }
 

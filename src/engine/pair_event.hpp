@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/frame.hpp"
 #include "dynamics/plain_dynamics.hpp"
 #include "engine/followers.hpp"
@@ -56,9 +56,10 @@ template <class Dynamics>
 /// `unit` turns stored velocities into those per step. Filled in its place, which saves a copy.
 template <class Dynamics>
 [[gnu::always_inline]] inline void note_in(PairEvent& event, const Dynamics& dynamics,
-                                           const Disc& place, const Separation& to, const Disc& p,
-                                           const Disc& q, double vx_before, double vy_before,
-                                           double time, double unit, std::int64_t last_sync) {
+                                           const DiscState& place, const Separation& to,
+                                           const DiscState& p, const DiscState& q, double vx_before,
+                                           double vy_before, double time, double unit,
+                                           std::int64_t last_sync) {
     const double momentum = dynamics.mass_of(p) * unit;
     event.p = p.id;
     event.q = q.id;

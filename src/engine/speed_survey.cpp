@@ -6,10 +6,10 @@
 
 namespace carrom {
 
-SpeedSpread survey_speeds(std::span<const Disc> own, double largest_speed,
+SpeedSpread survey_speeds(std::span<const DiscState> own, double largest_speed,
                           const Communicator& communicator) {
     SpeedSpread::Counts counts{};
-    for (const Disc& disc : own) {
+    for (const DiscState& disc : own) {
         const double speed = std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy);
         const double part = speed / largest_speed * SpeedSpread::n_parts;
         counts[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;

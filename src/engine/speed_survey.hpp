@@ -4,14 +4,14 @@
 
 #include <span>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "engine/window_choice.hpp"
 #include "parallel/communicator.hpp"
 
 namespace carrom {
 
 /// `largest_speed` > 0 is the largest on all ranks. **Collective.**
-SpeedSpread survey_speeds(std::span<const Disc> own, double largest_speed,
+SpeedSpread survey_speeds(std::span<const DiscState> own, double largest_speed,
                           const Communicator& communicator);
 
 } // namespace carrom

@@ -14,10 +14,10 @@
 
 namespace carrom {
 
-void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
+void measure_collisions(std::span<const DiscState> own, const SideSpans& columns,
                         const Communicator& communicator, Totals& totals) {
     std::uint64_t walls = 0, pairs = 0;
-    for (const Disc& disc : own) {
+    for (const DiscState& disc : own) {
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
     }
@@ -34,9 +34,9 @@ void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
 
 /// A departed disc stands a radius outside its side, exactly. The coordinate that is furthest out
 /// shows which side it is.
-void measure_departures(std::span<const Disc> own, const Box& box, const Communicator& communicator,
-                        Totals& totals) {
-    for (const Disc& disc : own) {
+void measure_departures(std::span<const DiscState> own, const Box& box,
+                        const Communicator& communicator, Totals& totals) {
+    for (const DiscState& disc : own) {
         if (!disc.has_departed()) continue;
         const std::array<double, 4> outside{-disc.x, disc.x - box.x, -disc.y, disc.y - box.y};
         totals.departed[static_cast<std::size_t>(std::max_element(outside.begin(), outside.end()) -
@@ -45,10 +45,11 @@ void measure_departures(std::span<const Disc> own, const Box& box, const Communi
     communicator.sum(totals.departed);
 }
 
-std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects,
-                                   const Extent& box, double time, std::vector<Disc>& kept) {
+std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
+                                        const Extent& box, double time,
+                                        std::vector<DiscState>& kept) {
     if (!effects.have_open_boundaries()) return discs;
-    std::copy_if(discs.begin(), discs.end(), std::back_inserter(kept), [&](const Disc& disc) {
+    std::copy_if(discs.begin(), discs.end(), std::back_inserter(kept), [&](const DiscState& disc) {
         const double x = disc.x_at(time), y = disc.y_at(time);
         return x >= box.x_low && x <= box.x_high && y >= box.y_low && y <= box.y_high;
     });
@@ -57,31 +58,31 @@ std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& e
 
 namespace {
 
-double mass_of(const Disc& disc, const SpeciesTable* species_table) {
+double mass_of(const DiscState& disc, const SpeciesTable* species_table) {
     return species_table ? species_table->of(disc.id).mass : 1;
 }
 
-double largest_mass(std::span<const Disc> own, const SpeciesTable* species_table,
+double largest_mass(std::span<const DiscState> own, const SpeciesTable* species_table,
                     const Communicator& communicator) {
     if (!species_table) return 1;
     double largest = 0;
-    for (const Disc& disc : own) largest = std::max(largest, species_table->of(disc.id).mass);
+    for (const DiscState& disc : own) largest = std::max(largest, species_table->of(disc.id).mass);
     return communicator.max(largest);
 }
 
 } // namespace
 
-void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals) {
     double largest = 0; // the largest component of a velocity
-    for (const Disc& disc : own)
+    for (const DiscState& disc : own)
         largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
     largest = communicator.max(largest) * velocity_unit;
     const double n = static_cast<double>(totals.n_discs),
                  heaviest = largest_mass(own, species_table, communicator);
     ExactSum energy(n * heaviest * largest * largest), momentum_x(n * heaviest * largest),
         momentum_y(n * heaviest * largest);
-    for (const Disc& disc : own) {
+    for (const DiscState& disc : own) {
         const double vx = disc.vx * velocity_unit, vy = disc.vy * velocity_unit;
         const double mass = mass_of(disc, species_table);
         energy.add(0.5 * mass * (vx * vx + vy * vy));
@@ -94,7 +95,7 @@ void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table
     totals.momentum_y = momentum_y.value();
 }
 
-void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
+void measure_rotation(std::span<const DiscState> own, std::span<const double> spins,
                       const SpeciesTable& species_table, double inertia, double velocity_unit,
                       const Communicator& communicator, Totals& totals) {
     const auto energy_of = [&](std::size_t i) {
@@ -110,7 +111,7 @@ void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
     totals.rotational_energy = energy.value();
 }
 
-void measure_height(std::span<const Disc> own, const SpeciesTable* species_table,
+void measure_height(std::span<const DiscState> own, const SpeciesTable* species_table,
                     const Gravity& gravity, const Box& box, const Communicator& communicator,
                     Totals& totals) {
     const auto height = [](double place, double pull, double length) {
@@ -119,7 +120,7 @@ void measure_height(std::span<const Disc> own, const SpeciesTable* species_table
     const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
     ExactSum energy(2 * static_cast<double>(totals.n_discs) *
                     largest_mass(own, species_table, communicator) * (gx + gy) * box.longest());
-    for (const Disc& disc : own)
+    for (const DiscState& disc : own)
         if (!disc.has_departed())
             energy.add(mass_of(disc, species_table) * (gx * height(disc.x, gravity.x, box.x) +
                                                        gy * height(disc.y, gravity.y, box.y)));
@@ -155,9 +156,9 @@ public:
     }
 
 private:
-    const Disc& disc(LocalIndex index) const { return population_.discs[index]; }
+    const DiscState& disc(LocalIndex index) const { return population_.discs[index]; }
     std::pair<double, double> separation(LocalIndex a, LocalIndex b) const {
-        const Disc &p = disc(a), &q = disc(b);
+        const DiscState &p = disc(a), &q = disc(b);
         const double dx = q.x_at(time_) - p.x_at(time_), dy = q.y_at(time_) - p.y_at(time_);
         const Shift shift = touching_.periods.between(p, q, time_);
         return {dx + shift.x, dy + shift.y};

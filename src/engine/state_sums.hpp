@@ -7,7 +7,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/totals.hpp"
@@ -17,30 +17,31 @@ namespace carrom {
 
 /// Fills in the collision counts and the state hash; `columns` run along the discs.
 /// **Collective.**
-void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
+void measure_collisions(std::span<const DiscState> own, const SideSpans& columns,
                         const Communicator& communicator, Totals& totals);
 
 /// Fills in how many discs have left through which side. **Collective.**
-void measure_departures(std::span<const Disc> own, const Box& box, const Communicator& communicator,
-                        Totals& totals);
+void measure_departures(std::span<const DiscState> own, const Box& box,
+                        const Communicator& communicator, Totals& totals);
 
 /// Fills in energy and momentum. `velocity_unit` turns stored velocities into
 /// velocities per step. `species_table` is null if all masses are 1. **Collective.**
-void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals);
 
 /// Returns the discs themselves, or, if `effects` open sides, copies in `kept` of
 /// those whose centres are in the box at `time`.
-std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects,
-                                   const Extent& box, double time, std::vector<Disc>& kept);
+std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
+                                        const Extent& box, double time,
+                                        std::vector<DiscState>& kept);
 
 /// Fills in the energy of spins; moments of inertia are `inertia` m r^2. **Collective.**
-void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
+void measure_rotation(std::span<const DiscState> own, std::span<const double> spins,
                       const SpeciesTable& species_table, double inertia, double velocity_unit,
                       const Communicator& communicator, Totals& totals);
 
 /// Fills in the potential energy of discs as the box sees them. **Collective.**
-void measure_height(std::span<const Disc> own, const SpeciesTable* species_table,
+void measure_height(std::span<const DiscState> own, const SpeciesTable* species_table,
                     const Gravity& gravity, const Box& box, const Communicator& communicator,
                     Totals& totals);
 
@@ -50,7 +51,7 @@ struct Touching {
     const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
     double growth = 1;                           ///< by which the table's radii have grown
 
-    double diameter_of(const Disc& p, const Disc& q) const {
+    double diameter_of(const DiscState& p, const DiscState& q) const {
         return species_table
                    ? growth * (species_table->of(p.id).radius + species_table->of(q.id).radius)
                    : diameter;

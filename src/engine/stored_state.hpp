@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 
 namespace carrom {
@@ -13,7 +13,7 @@ namespace carrom {
 /// Discs as they are stored at the end of a step: velocities per micro-step, times since the last
 /// sync. `micro_steps_done` counts from the scene's start.
 struct StoredState {
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     std::int64_t micro_steps_done = 0;
     SideColumns columns{}; ///< along the discs; missing numbers are 0
 };

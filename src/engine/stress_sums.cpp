@@ -28,7 +28,7 @@ StressSums& StressSums::operator-=(const StressSums& other) {
     return *this;
 }
 
-void StressSums::add_flight(double mass, const Disc& disc, const FlightIntegral& integral) {
+void StressSums::add_flight(double mass, const DiscState& disc, const FlightIntegral& integral) {
     const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y,
                  weight = integral.weight;
     const double term_xx = mass * (weight * vx * vx + integral.rest_x * integral.rest_x),
@@ -39,7 +39,7 @@ void StressSums::add_flight(double mass, const Disc& disc, const FlightIntegral&
     energy.add(term_xx + term_yy);
 }
 
-void StressTerms::add_flight(double mass, const Disc& disc, const FlightIntegral& integral,
+void StressTerms::add_flight(double mass, const DiscState& disc, const FlightIntegral& integral,
                              StressSums& sum) {
     const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y;
     add(-mass * vx, -mass * vy, {integral.weight * vx, integral.weight * vy}, sum);

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/exact_sum.hpp"
 #include "core/flight_integral.hpp"
 #include "dynamics/plain_dynamics.hpp"
@@ -42,7 +42,7 @@ struct StressSums {
 
     /// Adds the integral that a disc of this mass has gathered at its present velocity. That is
     /// all of its flight where it leaves the box.
-    void add_flight(double mass, const Disc& disc, const FlightIntegral& integral);
+    void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
     ExactSum energy; ///< the integral of the sum of m v^2
@@ -61,7 +61,8 @@ public:
         if (++n_ == most) add_to(sum);
     }
     /// Does what StressSums::add_flight does, but not for the energy.
-    void add_flight(double mass, const Disc& disc, const FlightIntegral& integral, StressSums& sum);
+    void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral,
+                    StressSums& sum);
     /// Adds the terms that are left, and forgets them.
     void add_to(StressSums& sum);
 
@@ -80,7 +81,7 @@ private:
 /// form of impulse times distance for another distance, so both parts are one term.
 template <class Dynamics> class PairStress {
 public:
-    PairStress(const Disc& p, const Disc& q) : vx_(p.vx), vy_(p.vy) {
+    PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
         if constexpr (Dynamics::has_species) wx_ = q.vx - p.vx, wy_ = q.vy - p.vy;
     }
 
@@ -90,8 +91,9 @@ public:
     /// Called after it, at `time`, with the separation from p to q. Flights have gathered stress
     /// for `flown` before the last sync. Returns p's impulse along x.
     [[gnu::always_inline]] double add_to(StressTerms& terms, StressSums& sum,
-                                         const Dynamics& dynamics, const Disc& p, const Disc& q,
-                                         const Separation& to, double time, double flown) const {
+                                         const Dynamics& dynamics, const DiscState& p,
+                                         const DiscState& q, const Separation& to, double time,
+                                         double flown) const {
         const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
         // If masses are equal, q has lost what p has gained, so half of u is known afterwards.
         double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
@@ -120,17 +122,17 @@ private:
 /// whose other disc does not move.
 template <class Dynamics> class WallStress {
 public:
-    explicit WallStress(const Disc& disc) : vx_(disc.vx), vy_(disc.vy) {}
+    explicit WallStress(const DiscState& disc) : vx_(disc.vx), vy_(disc.vy) {}
 
     /// After it, as PairStress::add_to.
     [[gnu::always_inline]] void add_to(StressTerms& terms, StressSums& sum,
-                                       const Dynamics& dynamics, const Disc& disc, double time,
+                                       const Dynamics& dynamics, const DiscState& disc, double time,
                                        double flown) const {
         FlightIntegral integral = dynamics.flight_integral_at(time);
         integral.weight += flown;
         const double mass = dynamics.mass_of(disc);
         if (Dynamics::may_lose_discs && disc.has_departed()) {
-            Disc before = disc;
+            DiscState before = disc;
             before.vx = vx_, before.vy = vy_;
             return sum.add_flight(mass, before, integral);
         }

@@ -7,7 +7,7 @@
 
 namespace carrom {
 
-SyncAction::SyncAction(const Scene& scene, const SpeciesTable& species,
+SyncAction::SyncAction(const SceneParameters& scene, const SpeciesTable& species,
                        const Communicator& communicator, int n_threads)
     : effects_(sync_effects_of(scene)), species_(species), inertia_(scene.effects.contact.inertia),
       box_(scene.box), shear_(scene.effects.are_sheared()
@@ -44,7 +44,7 @@ void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
 /// vx = rate (y - Ly / 2) turns clockwise at half the rate.
 void SyncAction::add_flow(const SyncDiscs& at, double times) const {
     const double rate = times * shear_;
-    for (Disc& disc : at.discs) disc.vx += rate * (disc.y - box_.y / 2);
+    for (DiscState& disc : at.discs) disc.vx += rate * (disc.y - box_.y / 2);
     for (double& spin : at.spins) spin -= rate / 2;
 }
 

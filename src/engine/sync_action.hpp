@@ -5,14 +5,14 @@
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 class SyncAction {
 public:
-    SyncAction(const Scene& scene, const SpeciesTable& species, const Communicator& communicator,
-               int n_threads);
+    SyncAction(const SceneParameters& scene, const SpeciesTable& species,
+               const Communicator& communicator, int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/frame.hpp"
 #include "engine/followers.hpp"
 
@@ -25,8 +25,9 @@ using WallFollower = EventFollower<WallEvent>;
 /// `after` is the disc's stored state and (dx, dy) is the change of its stored velocity.
 /// Axis 0 means left and right. A disc in a corner meets two sides at once, and each of them has
 /// the part that is normal to it: `is_corner`.
-inline WallEvent wall_event(const Frame& frame, std::size_t axis, double mass, const Disc& after,
-                            double dx, double dy, double unit, bool is_corner) {
+inline WallEvent wall_event(const Frame& frame, std::size_t axis, double mass,
+                            const DiscState& after, double dx, double dy, double unit,
+                            bool is_corner) {
     const double per_step = frame.slowing * unit, gained_x = dx * per_step,
                  gained_y = dy * per_step,
                  mean_x = after.vx * per_step + frame.vx * unit - gained_x / 2,

@@ -180,7 +180,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     if (x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
         y_end - radius > y_inner_low && y_end + radius < y_inner_high)
         return;
-    const Disc& disc = discs[slot];
+    const DiscState& disc = discs[slot];
     if (!dynamics.may_meet_wall(disc, ground.window.end)) return;
     push(dynamics.x_wall_time(disc), slot, x_wall);
     push(dynamics.y_wall_time(disc), slot, y_wall);
@@ -264,7 +264,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
 
 /// Changes the states of an event's discs, and adds the event to their histories and the sums.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Event& event) {
-    Disc& p = discs[event.p];
+    DiscState& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
     const WallStress<Dynamics> before(p);
     if (event.q == x_wall) {
@@ -293,7 +293,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 
 /// Collides two discs, with the second one at the place of the event's image.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
-    Disc &p = discs[event.p], &q = discs[event.q];
+    DiscState &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
     if constexpr (Dynamics::has_spin)
@@ -325,7 +325,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::u
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
                                        const Event& event) {
-    const Disc& disc = discs[slot];
+    const DiscState& disc = discs[slot];
     EventHistory& past_events = past_events_of[slot];
     past_events.generation = event.generation;
     past_events.partner = partner;
@@ -354,7 +354,7 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
 /// collides again while it is too far away.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
-    const Disc &disc = discs[slot], &at_start = ground.discs[indices[slot]];
+    const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];
     const BlockWindow& window = ground.window;
     const double elapsed = time - window.begin;
     double dx = disc.x - at_start.x_at(window.begin);
@@ -376,7 +376,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
 
 template <class Dynamics> std::size_t BlockRun<Dynamics>::bytes() const {
     const Scratch& s = *scratch_;
-    return s.discs.capacity() * (sizeof(Disc) + sizeof(EventHistory) + 4 * sizeof(float)) +
+    return s.discs.capacity() * (sizeof(DiscState) + sizeof(EventHistory) + 4 * sizeof(float)) +
            s.queue.bytes();
 }
 

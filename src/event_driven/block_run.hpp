@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
 #include "engine/pair_event.hpp"
@@ -49,7 +49,7 @@ double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
 /// The data that all blocks of a rank share.
 struct BlockGround {
-    std::span<const Disc> discs; ///< the rank's own discs, then the halo
+    std::span<const DiscState> discs; ///< the rank's own discs, then the halo
     std::size_t n_own = 0;
     const CellGrid* grid = nullptr; ///< holds the discs at the window's start
     CellBlock own_cells; ///< an own disc that rounding puts outside belongs to the nearest cell
@@ -94,14 +94,14 @@ struct LoggedEvent {
 class NewState {
 public:
     NewState() = default;
-    explicit NewState(const Disc& disc)
+    explicit NewState(const DiscState& disc)
         : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
           wall_collisions_(disc.wall_collisions & wall_bits), is_departed_(disc.is_departed),
           pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
 
     /// Requires that `disc` is as it was at the window's start, and that its counters grow by less
     /// than 2^31.
-    void overwrite(Disc& disc) const {
+    void overwrite(DiscState& disc) const {
         disc.x = x_;
         disc.y = y_;
         disc.vx = vx_;

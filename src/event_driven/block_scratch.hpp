@@ -26,7 +26,7 @@ struct EventHistory {
     /// Adds a collision: its time, the other's id and the velocities after it. The
     /// place follows from these and the state before.
     template <bool has_spin>
-    void add(double time, const Disc& disc, std::uint64_t partner_id, double spin) {
+    void add(double time, const DiscState& disc, std::uint64_t partner_id, double spin) {
         const auto mixed = [](double value, std::uint64_t factor) {
             return std::rotl(std::bit_cast<std::uint64_t>(value) * factor, 31);
         };
@@ -80,7 +80,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void mark_own_of_all(const CellBlock& own);
     /// Stores a disc's flight: where it would have been at the window's start, in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
-        const Disc& disc = discs[slot];
+        const DiscState& disc = discs[slot];
         const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
         const auto [v_along, v_across] = turned(axis, vx_of(disc), disc.vy);
         x[slot] = static_cast<float>((along - x_corner) * cells_per_length);
@@ -194,7 +194,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         return level;
     }
     /// Before it has grown.
-    double first_radius_of(const Disc& disc) const {
+    double first_radius_of(const DiscState& disc) const {
         if constexpr (has_sizes)
             return dynamics.species_table().of(disc.id).radius;
         else
@@ -234,19 +234,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                    time == discs[a].tau;
         }
     }
-    [[gnu::always_inline]] double x_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double x_of(const DiscState& disc, double time) const {
         if constexpr (Dynamics::is_periodic)
             return dynamics.periods().x_of(disc, time);
         else
             return disc.x_at(time);
     }
-    [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double y_of(const DiscState& disc, double time) const {
         if constexpr (Dynamics::is_periodic)
             return dynamics.periods().y_of(disc, time);
         else
             return disc.y_at(time);
     }
-    [[gnu::always_inline]] double vx_of(const Disc& disc) const {
+    [[gnu::always_inline]] double vx_of(const DiscState& disc) const {
         if constexpr (Dynamics::has_moving_images)
             return dynamics.periods().vx_of(disc);
         else
@@ -291,7 +291,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                                      const Separation& to) {
         if (!outcome->pairs.has_room()) [[unlikely]] // apart, so that no register is saved for it
             return note_pair_in_more_room(event, before, to);
-        const Disc &p = discs[event.p], &q = discs[event.q];
+        const DiscState &p = discs[event.p], &q = discs[event.q];
         note_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
                 ground.velocity_unit, ground.last_sync);
     }
@@ -331,7 +331,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::size_t cell_rows = 0;              ///< entries of `cell_starts` for a column
     std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     SideColumns columns = side_columns_of<Dynamics>();
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;

@@ -35,7 +35,7 @@ BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach
     return cells;
 }
 
-void BoxLayout::lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
+void BoxLayout::lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
                     const Periods& periods, double time) {
     clear();
     list_once(discs, n_own);
@@ -51,9 +51,10 @@ void BoxLayout::clear() {
     first_ghost_.clear();
 }
 
-std::size_t BoxLayout::add_level(std::span<const Disc> discs, std::span<const LocalIndex> listed,
-                                 std::size_t n_own, const BoxCells& cells, const Periods& periods,
-                                 double time, double lane_unit) {
+std::size_t BoxLayout::add_level(std::span<const DiscState> discs,
+                                 std::span<const LocalIndex> listed, std::size_t n_own,
+                                 const BoxCells& cells, const Periods& periods, double time,
+                                 double lane_unit) {
     sort(discs, listed, n_own, cells, periods, time);
     const std::size_t first_start = starts_.size();
     const std::vector<Line> columns = lines(cells.n_columns, cells.n_beside),
@@ -73,7 +74,7 @@ std::size_t BoxLayout::add_level(std::span<const Disc> discs, std::span<const Lo
 
 /// Lists each disc of the box once: the rank's own discs, and the first copy of each other disc. A
 /// hash table of ids finds further copies.
-const std::vector<LocalIndex>& BoxLayout::list_once(std::span<const Disc> discs,
+const std::vector<LocalIndex>& BoxLayout::list_once(std::span<const DiscState> discs,
                                                     std::size_t n_own) {
     listed_.resize(n_own);
     std::iota(listed_.begin(), listed_.end(), LocalIndex{0});
@@ -93,7 +94,7 @@ const std::vector<LocalIndex>& BoxLayout::list_once(std::span<const Disc> discs,
 }
 
 /// Sorts the listed discs into the order of the cells of the box, by column and row.
-void BoxLayout::sort(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+void BoxLayout::sort(std::span<const DiscState> discs, std::span<const LocalIndex> listed,
                      std::size_t n_own, const BoxCells& cells, const Periods& periods,
                      double time) {
     const auto n_rows = static_cast<std::uint32_t>(cells.n_rows);
@@ -105,7 +106,7 @@ void BoxLayout::sort(std::span<const Disc> discs, std::span<const LocalIndex> li
     box_starts_.assign(static_cast<std::size_t>(cells.n_columns) * n_rows + 1, 0);
     cell_of_.resize(listed.size());
     for (std::size_t k = 0; k < listed.size(); ++k) {
-        const Disc& disc = discs[listed[k]];
+        const DiscState& disc = discs[listed[k]];
         const bool is_at_home = listed[k] < n_own || !periods.are_any();
         const Image home = is_at_home ? image_of(disc) : periods.home(disc, time);
         const Shift shift = periods.shift_of(home, time);

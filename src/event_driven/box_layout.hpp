@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/extent.hpp"
 #include "core/image.hpp"
 
@@ -47,18 +47,18 @@ public:
     /// Gives slots to all discs of the box and to their ghosts, by the column and row in which they
     /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. The copies of
     /// other ranks' discs follow. There may be several copies of a disc, one for each image.
-    void lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
+    void lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
     /// These three lay discs in levels, one after the other, each with its own cells. This forgets
     /// the last layout.
     void clear();
     /// Returns the indices of the own discs, and of one copy of each other disc.
-    const std::vector<LocalIndex>& list_once(std::span<const Disc> discs, std::size_t n_own);
+    const std::vector<LocalIndex>& list_once(std::span<const DiscState> discs, std::size_t n_own);
     /// Gives slots to the discs with the indices `listed`; those before `n_own` lie in the box.
     /// Shifts of ghosts are in units of `lane_unit`, which all levels share. Returns where the
     /// level begins in `cell_starts`.
-    std::size_t add_level(std::span<const Disc> discs, std::span<const LocalIndex> listed,
+    std::size_t add_level(std::span<const DiscState> discs, std::span<const LocalIndex> listed,
                           std::size_t n_own, const BoxCells& cells, const Periods& periods,
                           double time, double lane_unit);
     /// For each slot of the last level, the place in its list.
@@ -86,11 +86,11 @@ private:
         int home = 0; ///< the line of cells in the box whose images lie there
     };
 
-    void sort(std::span<const Disc> discs, std::span<const LocalIndex> listed, std::size_t n_own,
-              const BoxCells& cells, const Periods& periods, double time);
+    void sort(std::span<const DiscState> discs, std::span<const LocalIndex> listed,
+              std::size_t n_own, const BoxCells& cells, const Periods& periods, double time);
     void add_ghosts(const BoxCells& cells, std::size_t first_start, std::span<const Line> columns,
                     std::span<const Line> rows, double lane_unit);
-    void lay_sliding(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
+    void lay_sliding(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
                      const Periods& periods, double time);
     static std::vector<Line> lines(int n_cells, int n_beyond);
 

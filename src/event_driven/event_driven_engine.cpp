@@ -29,7 +29,7 @@ constexpr double most_discs_alone = 30000;
 } // namespace
 
 template <class Dynamics>
-EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState state,
+EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, StoredState state,
                                                const Communicator& communicator,
                                                const Tuning& tuning,
                                                const BlockTuning& block_tuning)
@@ -271,7 +271,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     const PhaseClock::Scope scope(phases_, Phase::move);
-    Disc* const discs = discs_.all().data();
+    DiscState* const discs = discs_.all().data();
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
@@ -317,7 +317,7 @@ template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_c
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
 
-std::unique_ptr<Engine> make_event_driven_engine(const Scene& scene, StoredState state,
+std::unique_ptr<Engine> make_event_driven_engine(const SceneParameters& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning) {
     return with_dynamics_of(scene, [&]<class Dynamics>() -> std::unique_ptr<Engine> {

@@ -49,8 +49,9 @@ struct BlockWork {
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
 public:
     /// Overlapping discs are an error. **Collective.**
-    EventDrivenEngine(const Scene& scene, StoredState state, const Communicator& communicator,
-                      const Tuning& tuning, const BlockTuning& block_tuning = {});
+    EventDrivenEngine(const SceneParameters& scene, StoredState state,
+                      const Communicator& communicator, const Tuning& tuning,
+                      const BlockTuning& block_tuning = {});
 
     RollbackCounts rollback_counts() const override;
 
@@ -155,7 +156,7 @@ private:
 };
 
 /// The engine of the event-driven method with the scene's dynamics. **Collective.**
-std::unique_ptr<Engine> make_event_driven_engine(const Scene& scene, StoredState state,
+std::unique_ptr<Engine> make_event_driven_engine(const SceneParameters& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning);
 

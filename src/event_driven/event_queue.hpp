@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/image.hpp"
 
 namespace carrom {
@@ -47,7 +47,7 @@ static_assert(sizeof(Event) == 32);
 
 class EventOrder {
 public:
-    explicit EventOrder(std::span<const Disc> discs) : discs_(discs) {}
+    explicit EventOrder(std::span<const DiscState> discs) : discs_(discs) {}
 
     bool operator()(const Event& a, const Event& b) const {
         if (a.time != b.time) [[likely]]
@@ -64,7 +64,7 @@ private:
         return discs_[a.q].id < discs_[b.q].id;
     }
 
-    std::span<const Disc> discs_;
+    std::span<const DiscState> discs_;
 };
 
 /// The reverse order, for heaps with the first event on top.

@@ -47,8 +47,8 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
     visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
         if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
         if (a >= population.n_own) return; // the rank that owns the lower id counts the pair
-        const Disc& p = population.discs[a];
-        const Disc& q = population.discs[b];
+        const DiscState& p = population.discs[a];
+        const DiscState& q = population.discs[b];
         const Shift shift = touching.periods.between(p, q, time);
         const double dx = (q.x_at(time) - p.x_at(time)) + shift.x;
         const double dy = (q.y_at(time) - p.y_at(time)) + shift.y;

@@ -13,7 +13,7 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
         const double per_step = static_cast<double>(this->micro_steps_),
                      unit = mass * (frame.slowing * per_step);
         if (this->wall_followers_.are_any() && event.is_wall && event.q <= 1) {
-            Disc after;
+            DiscState after;
             after.vx = event.vx, after.vy = event.vy;
             this->wall_followers_.note() = wall_event(frame, event.q, mass, after, event.gained_x,
                                                       event.gained_y, per_step, false);

@@ -31,7 +31,8 @@ public:
         return static_cast<std::size_t>(cells_.n_columns + 2 * cells_.n_beside) * column_length();
     }
 
-    void list(const Disc& disc, Image home, std::size_t listed, std::vector<Entry>& entries) const {
+    void list(const DiscState& disc, Image home, std::size_t listed,
+              std::vector<Entry>& entries) const {
         const Shift shift = periods_.shift_of(home, time_);
         const double x = disc.x_at(time_) + shift.x, y = disc.y_at(time_) + shift.y;
         const int row = std::clamp(static_cast<int>(std::floor(y / cells_.height)), 0,
@@ -68,12 +69,12 @@ private:
 
 } // namespace
 
-void BoxLayout::lay_sliding(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
-                            const Periods& periods, double time) {
+void BoxLayout::lay_sliding(std::span<const DiscState> discs, std::size_t n_own,
+                            const BoxCells& cells, const Periods& periods, double time) {
     const Places places(cells, periods, time);
     std::vector<Entry> entries;
     for (std::size_t k = 0; k < listed_.size(); ++k) {
-        const Disc& disc = discs[listed_[k]];
+        const DiscState& disc = discs[listed_[k]];
         places.list(disc, listed_[k] < n_own ? image_of(disc) : periods.home(disc, time), k,
                     entries);
     }

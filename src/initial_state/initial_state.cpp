@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t chunk_size = std::size_t{1} << 16;
 
 /// Sends rank 0's chunk to the ranks whose share of ids holds its discs. **Collective.**
-void hand_out(const std::vector<InputDisc>& chunk, const Scene& scene,
+void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
               const Communicator& communicator, std::vector<InputDisc>& discs) {
     std::vector<std::vector<InputDisc>> out(static_cast<std::size_t>(communicator.size()));
     for (const InputDisc& disc : chunk)
@@ -34,7 +34,7 @@ void hand_out(const std::vector<InputDisc>& chunk, const Scene& scene,
     discs.insert(discs.end(), in.items.begin(), in.items.end());
 }
 
-std::vector<InputDisc> read_discs(const Scene& scene, std::istream* lines,
+std::vector<InputDisc> read_discs(const SceneParameters& scene, std::istream* lines,
                                   const Communicator& communicator) {
     std::vector<InputDisc> discs, chunk;
     std::vector<Problem> problems;
@@ -55,11 +55,12 @@ std::vector<InputDisc> read_discs(const Scene& scene, std::istream* lines,
 }
 
 /// The ids that this rank makes if places are functions of the id.
-Slab share_of(const Scene& scene, const Communicator& communicator) {
+Slab share_of(const SceneParameters& scene, const Communicator& communicator) {
     return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
 }
 
-std::vector<InputDisc> listed_discs(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> listed_discs(const SceneParameters& scene,
+                                    const Communicator& communicator) {
     const auto [first, last] = share_of(scene, communicator);
     const auto begin = scene.listed_discs.begin();
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
@@ -75,8 +76,8 @@ std::uint64_t mixing_stride(std::uint64_t n) {
 
 /// Places one disc on each site; `place_of` gives the place of a site.
 template <class PlaceOf>
-std::vector<InputDisc> discs_on_sites(const Scene& scene, const Communicator& communicator,
-                                      const PlaceOf& place_of) {
+std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
+                                      const Communicator& communicator, const PlaceOf& place_of) {
     const auto [first, last] = share_of(scene, communicator);
     std::vector<InputDisc> discs;
     discs.reserve(last - first);
@@ -88,7 +89,8 @@ std::vector<InputDisc> discs_on_sites(const Scene& scene, const Communicator& co
     return discs;
 }
 
-std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> lattice_discs(const SceneParameters& scene,
+                                     const Communicator& communicator) {
     const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
     ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
     return discs_on_sites(scene, communicator, [&](std::uint64_t site) {
@@ -96,7 +98,8 @@ std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& com
     });
 }
 
-std::vector<InputDisc> triangular_discs(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> triangular_discs(const SceneParameters& scene,
+                                        const Communicator& communicator) {
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     ensure(lattice.has_value(), "the scene was checked, yet its triangular lattice does not fit");
     return discs_on_sites(scene, communicator,
@@ -104,13 +107,15 @@ std::vector<InputDisc> triangular_discs(const Scene& scene, const Communicator& 
 }
 
 /// The generated discs with places, but without velocities.
-std::vector<InputDisc> generated_discs(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> generated_discs(const SceneParameters& scene,
+                                       const Communicator& communicator) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
     return insert_at_random(scene, communicator);
 }
 
-std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> legacy_discs(const SceneParameters& scene,
+                                    const Communicator& communicator) {
     LegacyRandom random(static_cast<unsigned>(scene.seed));
     std::vector<Point> places;
     std::vector<Problem> problems;
@@ -138,7 +143,7 @@ std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& comm
 
 /// Refuses listed discs that are not clear of all obstacles; the message names the
 /// first few. **Collective.**
-void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs,
+void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator) {
     constexpr std::size_t most_named = 5;
     if (!scene.effects.obstacles.are_any()) return;
@@ -160,7 +165,7 @@ void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs
 
 } // namespace
 
-std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
+std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
                                      const Communicator& communicator) {
     if (scene.generator == Generator::file) {
         std::vector<InputDisc> listed = scene.reads_disc_lines()

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -16,7 +16,7 @@ namespace carrom {
 /// stream of listed discs on rank 0 (null where the scene generates); its problems become an
 /// InputError on every rank. Scenes with a generator give the same discs for any number of ranks.
 /// **Collective.**
-std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
+std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
                                      const Communicator& communicator);
 
 } // namespace carrom

@@ -23,7 +23,8 @@ double LegacyRandom::uniform(double low, double high) {
     return low + (high - low) * (number / static_cast<double>(RAND_MAX));
 }
 
-std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRandom& random) {
+std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
+                                                   LegacyRandom& random) {
     const double low = scene.radius, high = scene.box.x - scene.radius, diameter = 2 * scene.radius;
     PointGrid grid(0, scene.box.x, scene.box.x, diameter, static_cast<double>(scene.n_discs));
     std::vector<Point> places;
@@ -48,7 +49,7 @@ std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRan
     return places;
 }
 
-InputDisc legacy_disc(const Scene& scene, LegacyRandom& random, DiscId id, Point place) {
+InputDisc legacy_disc(const SceneParameters& scene, LegacyRandom& random, DiscId id, Point place) {
     const double speed = random.uniform(scene.box.x / (8 * scene.radius), scene.box.x / 4);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const RoundedSine direction = rounded_sine(angle);

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "lattices/lattice.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -35,9 +35,10 @@ private:
 
 /// All positions by id; nothing if the box is too full to find them in a bounded
 /// number of draws.
-std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRandom& random);
+std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
+                                                   LegacyRandom& random);
 
 /// The next disc's velocity per step. To be called in the order of ids, after the positions.
-InputDisc legacy_disc(const Scene& scene, LegacyRandom& random, DiscId id, Point place);
+InputDisc legacy_disc(const SceneParameters& scene, LegacyRandom& random, DiscId id, Point place);
 
 } // namespace carrom

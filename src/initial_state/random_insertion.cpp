@@ -39,7 +39,7 @@ struct Notice {
 /// Works in a box that lies down: x is along the longer side, which strips cut.
 class Insertion {
 public:
-    Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
+    Insertion(const SceneParameters& scene, const Communicator& communicator, std::uint64_t start)
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
           species_(scene.effects.species, scene.radius), axis_(longer_axis(scene.box)),
           box_(scene.box.longest(), scene.box.shortest()),
@@ -251,7 +251,7 @@ private:
         updates_.push_back(notice);
     }
 
-    const Scene& scene_;
+    const SceneParameters& scene_;
     std::optional<Obstacles> obstacles_;
     const Communicator& communicator_;
     std::uint64_t start_;
@@ -269,7 +269,8 @@ private:
 
 } // namespace
 
-std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator) {
+std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
+                                        const Communicator& communicator) {
     for (std::uint64_t start = 0; start < most_starts; ++start)
         if (auto discs = Insertion(scene, communicator, start).run()) return std::move(*discs);
     const std::string remedy = scene.effects.obstacles.are_any()

@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 /// Returns the scene's discs with places and without velocities, each on the rank whose
 /// strip holds it. InputError on every rank if no arrangement is found. **Collective.**
-std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator);
+std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
+                                        const Communicator& communicator);
 
 } // namespace carrom

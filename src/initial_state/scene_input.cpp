@@ -30,7 +30,8 @@ void broadcast(SceneText& text, const Communicator& ranks) {
     text.discs_follow = discs_follow == 1;
 }
 
-DiscColumns load_columns(const Scene& scene, std::istream* following, const Communicator& ranks) {
+DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
+                         const Communicator& ranks) {
     DiscColumns columns;
     columns.is_whole = false;
     if (ranks.is_root()) {
@@ -52,7 +53,7 @@ DiscColumns load_columns(const Scene& scene, std::istream* following, const Comm
     return columns;
 }
 
-std::vector<InputDisc> load_discs(const Scene& scene, std::istream* following,
+std::vector<InputDisc> load_discs(const SceneParameters& scene, std::istream* following,
                                   const Communicator& ranks) {
     if (!scene.reads_disc_lines() || scene.discs_file.empty())
         return initial_state(scene, scene.reads_disc_lines() ? following : nullptr, ranks);

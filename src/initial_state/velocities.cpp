@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-Velocity drawn_velocity(const Scene& scene, DiscId id) {
+Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     DiscRandom random(scene.seed, Purpose::velocity, id);
     const Direction direction = random_direction(random);
     const double speed = scene.velocities == VelocityKind::maxwell
@@ -23,7 +23,7 @@ Velocity drawn_velocity(const Scene& scene, DiscId id) {
     return {vx, vy};
 }
 
-Velocity stream_velocity(const Scene& scene, Point place) {
+Velocity stream_velocity(const SceneParameters& scene, Point place) {
     Velocity sum;
     for (const Stream& stream : scene.streams) {
         const bool is_inside = place.x >= stream.x_low && place.x <= stream.x_high &&
@@ -35,7 +35,7 @@ Velocity stream_velocity(const Scene& scene, Point place) {
     return sum;
 }
 
-void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
+void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs) {
     if (scene.streams.empty() && !scene.effects.are_sheared()) return;
     for (InputDisc& disc : discs) {
         const Velocity stream = stream_velocity(scene, {disc.x, disc.y});
@@ -49,7 +49,8 @@ namespace {
 /// Masses are divided by the heaviest one, so that sums of any masses stay within range.
 class Motion {
 public:
-    Motion(const Scene& scene, const std::vector<InputDisc>& discs, const Communicator& ranks)
+    Motion(const SceneParameters& scene, const std::vector<InputDisc>& discs,
+           const Communicator& ranks)
         : ranks_(ranks), n_discs_(static_cast<double>(scene.n_discs)),
           species_(scene.effects.species, scene.radius) {
         double heaviest = 0;
@@ -112,7 +113,8 @@ private:
     double heaviest_ = 1, total_ = 0;
 };
 
-void subtract_drift(const Scene& scene, std::vector<InputDisc>& discs, const Motion& motion) {
+void subtract_drift(const SceneParameters& scene, std::vector<InputDisc>& discs,
+                    const Motion& motion) {
     const Periods periods = scene.effects.periods(scene.box);
     if (!periods.are_any() || scene.n_discs == 1) return;
     Velocity drift = motion.mean_velocity(discs);
@@ -126,7 +128,8 @@ void subtract_drift(const Scene& scene, std::vector<InputDisc>& discs, const Mot
 
 /// The factor for speeds. With a temperature, drawn discs have speeds of sqrt(heaviest
 /// / m) before it is applied, so that all species have one kT on average.
-double scale_of(const Scene& scene, const std::vector<InputDisc>& discs, const Motion& motion) {
+double scale_of(const SceneParameters& scene, const std::vector<InputDisc>& discs,
+                const Motion& motion) {
     const double root = std::sqrt(motion.mean_square(discs));
     if (root == 0) return 0;
     if (!scene.temperature) return scene.speed / root;
@@ -136,7 +139,7 @@ double scale_of(const Scene& scene, const std::vector<InputDisc>& discs, const M
 
 } // namespace
 
-void give_velocities(const Scene& scene, std::vector<InputDisc>& discs,
+void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
                      const Communicator& communicator) {
     const Motion motion(scene, discs, communicator);
     for (InputDisc& disc : discs) {

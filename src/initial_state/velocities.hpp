@@ -11,10 +11,10 @@
 
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "lattices/lattice.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -25,21 +25,21 @@ struct Velocity {
 };
 
 /// The velocity drawn for disc `id`, of root mean square 1.
-Velocity drawn_velocity(const Scene& scene, DiscId id);
+Velocity drawn_velocity(const SceneParameters& scene, DiscId id);
 
 /// The velocity that streams add to a disc at `place`: the sum over all regions that
 /// hold it, edges included.
-Velocity stream_velocity(const Scene& scene, Point place);
+Velocity stream_velocity(const SceneParameters& scene, Point place);
 
 /// Adds streams, and the flow of sheared sides, to all discs, which have their places.
-void add_streams(const Scene& scene, std::vector<InputDisc>& discs);
+void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs);
 
 /// Gives velocities per step to the discs that the scene generates, in any distribution over the
 /// ranks. The energy of all discs is N kT with `discs.temperature`, and half their mass times
 /// `discs.speed` squared otherwise, both to rounding. Along periodic axes their momentum is zero to
 /// rounding; a disc that is alone keeps it, because it would be at rest. Streams are added last.
 /// **Collective.**
-void give_velocities(const Scene& scene, std::vector<InputDisc>& discs,
+void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
                      const Communicator& communicator);
 
 } // namespace carrom

@@ -23,7 +23,7 @@
 
 #include <carrom/box.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/frame.hpp"
 #include "core/side_columns.hpp"
 #include "core/stored_samples.hpp"
@@ -80,14 +80,15 @@ struct WriteSettings {
 /// first, brought to disk, then renamed. `columns` run along the discs, if the header has
 /// some. Fills in the header's counters and hash. If it fails on any rank, every rank throws
 /// CollectiveError, code 4, and an older file of that name is unchanged. **Collective.**
-void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                      const Communicator& communicator, const WriteSettings& settings = {},
-                      const StoredSamples& samples = {}, const SideSpans& columns = {});
+void write_checkpoint(const std::string& path, CheckpointHeader header,
+                      std::span<const DiscState> discs, const Communicator& communicator,
+                      const WriteSettings& settings = {}, const StoredSamples& samples = {},
+                      const SideSpans& columns = {});
 
 struct Checkpoint {
     CheckpointHeader header;
-    std::vector<Disc> discs; ///< this rank's share of the ids, see slabs.hpp
-    SideColumns columns;     ///< along the discs
+    std::vector<DiscState> discs; ///< this rank's share of the ids, see slabs.hpp
+    SideColumns columns;          ///< along the discs
     StoredSamples samples;
 };
 

@@ -93,9 +93,9 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
                                      const SideOfPieces& columns) {
     std::vector<DiscTarget> targets;
     const auto add = [&](std::string path, hid_t type, std::string unit, auto number_of) {
-        constexpr std::size_t size = sizeof number_of(Disc{});
-        const auto put = [number_of](std::span<const Disc> discs, std::byte* out) {
-            for (const Disc& disc : discs) {
+        constexpr std::size_t size = sizeof number_of(DiscState{});
+        const auto put = [number_of](std::span<const DiscState> discs, std::byte* out) {
+            for (const DiscState& disc : discs) {
                 const auto number = number_of(disc);
                 std::memcpy(out, &number, size);
                 out += size;
@@ -109,37 +109,37 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
     const Frame frame = header.frame;
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
     add("/particles/discs/position/value", H5T_NATIVE_FLOAT, h5md::unit_of(header.shown, 1, 0),
-        [=](const Disc& disc) {
-            const Disc shown = frame.in_box(disc, clock);
+        [=](const DiscState& disc) {
+            const DiscState shown = frame.in_box(disc, clock);
             return vector_of(shown.x, shown.y);
         });
     add("/particles/discs/velocity/value", H5T_NATIVE_FLOAT, h5md::unit_of(header.shown, 1, -1),
-        [=](const Disc& disc) {
-            const Disc shown = frame.in_box(disc, clock);
+        [=](const DiscState& disc) {
+            const DiscState shown = frame.in_box(disc, clock);
             return vector_of(shown.vx * k, shown.vy * k);
         });
     if (!header.shown.species.empty()) {
         // A search in a list of species, because a table of all discs takes memory.
-        const auto number_of = [ends = ends_of(header.shown.species)](const Disc& disc) {
+        const auto number_of = [ends = ends_of(header.shown.species)](const DiscState& disc) {
             return std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin();
         };
         add(radius_path, H5T_NATIVE_DOUBLE, h5md::unit_of(header.shown, 1, 0),
-            [=, species = header.shown.species](const Disc& disc) {
+            [=, species = header.shown.species](const DiscState& disc) {
                 return species[static_cast<std::size_t>(number_of(disc))].radius;
             });
         add(species_number_path, H5T_NATIVE_INT32, "",
-            [=](const Disc& disc) { return static_cast<std::int32_t>(number_of(disc)); });
+            [=](const DiscState& disc) { return static_cast<std::int32_t>(number_of(disc)); });
     }
     for (const StateColumn& column : disc_columns)
         targets.push_back({path_of(column), type_of(column), 8, "", column.put});
     header.columns.for_each([&](SideColumn column) {
         add(path_of(column), H5T_NATIVE_DOUBLE, "",
-            [column, &columns](const Disc& disc) { return columns.of(column, disc); });
+            [column, &columns](const DiscState& disc) { return columns.of(column, disc); });
     });
     for (const SampleColumn& column : sample_columns)
         if (samples.*column.is_there)
             add(column.path, H5T_NATIVE_DOUBLE, "",
-                [&column, &places = samples.first_places](const Disc& disc) {
+                [&column, &places = samples.first_places](const DiscState& disc) {
                     return places[disc.id - places.front().id].*column.field;
                 });
     return targets;

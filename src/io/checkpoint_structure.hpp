@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/state_hash.hpp"
 #include "dynamics/species.hpp"
 #include "io/checkpoint.hpp"
@@ -23,7 +23,7 @@ struct DiscTarget {
     hid_t type; ///< the numbers' type
     std::uint64_t bytes_per_row = 0;
     std::string unit; ///< for other programs; empty for data sets that they do not read
-    std::function<void(std::span<const Disc>, std::byte*)> put;
+    std::function<void(std::span<const DiscState>, std::byte*)> put;
 };
 
 /// Side columns of the discs in this rank's pieces (pieces.hpp), in the order of ids.
@@ -31,7 +31,7 @@ struct SideOfPieces {
     DiscId first = 0;
     SideColumns columns;
 
-    double of(SideColumn column, const Disc& disc) const {
+    double of(SideColumn column, const DiscState& disc) const {
         return columns[column][disc.id - first];
     }
 };

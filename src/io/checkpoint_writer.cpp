@@ -139,12 +139,12 @@ private:
     std::uint64_t n_batches_ = 0;
 };
 
-void add(std::span<const Disc> discs, const SideOfPieces& side, StateSums& sums) {
-    for (const Disc& disc : discs)
+void add(std::span<const DiscState> discs, const SideOfPieces& side, StateSums& sums) {
+    for (const DiscState& disc : discs)
         sums[place_of_collisions] += {disc.wall_collisions, disc.pair_collisions};
     sums[place_of_hash] += hash_of(discs);
     side.columns.for_each([&](SideColumn column) {
-        for (const Disc& disc : discs)
+        for (const DiscState& disc : discs)
             sums[place_of_hash] += hash_of(column, disc.id, side.of(column, disc));
     });
 }
@@ -153,7 +153,7 @@ void add(std::span<const Disc> discs, const SideOfPieces& side, StateSums& sums)
 /// blocks. Meanwhile this thread, which alone may call MPI, does `first_of_all`. They wait for each
 /// other asleep: ranks may share their cores.
 template <class Act>
-void pack(std::span<const Disc> piece, std::uint64_t first, const SideOfPieces& side,
+void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPieces& side,
           const std::vector<DiscTarget>& targets, Batch& batch, StateSums& sums, int n_threads,
           const Act& first_of_all) {
     const std::size_t before = batch.n_rows;
@@ -168,7 +168,7 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SideOfPieces& 
         StateSums mine(sums.size());
         for (std::size_t block = next++; block < n_blocks; block = next++) {
             const std::size_t row = block * rows_per_block;
-            const std::span<const Disc> discs = piece.subspan(
+            const std::span<const DiscState> discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
             add(discs, side, mine);
             for (std::size_t k = 0; k < targets.size(); ++k) {
@@ -199,7 +199,7 @@ struct NumberOfDisc {
 };
 
 /// Sends each disc's numbers to the rank whose pieces have the disc. **Collective.**
-SideOfPieces in_pieces(std::span<const Disc> discs, const SideColumnSet& wanted,
+SideOfPieces in_pieces(std::span<const DiscState> discs, const SideColumnSet& wanted,
                        const SideSpans& spans, std::uint64_t n_discs,
                        const Communicator& communicator) {
     const Pieces pieces(n_discs, communicator.size());
@@ -222,10 +222,11 @@ SideOfPieces in_pieces(std::span<const Disc> discs, const SideColumnSet& wanted,
 /// Fills the data sets with the ranks' pieces. Each piece is written while the next one is packed;
 /// collective transfers come at the end instead, one for each data set. **Collective.**
 StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
-                      std::span<const Disc> discs, const SideOfPieces& side, std::uint64_t n_discs,
-                      const WriteSettings& settings, const Communicator& communicator) {
+                      std::span<const DiscState> discs, const SideOfPieces& side,
+                      std::uint64_t n_discs, const WriteSettings& settings,
+                      const Communicator& communicator) {
     RankWriter writer(path, targets, settings.is_collective, communicator);
-    PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
+    PieceStream stream(communicator, discs, n_discs, [](const DiscState& disc) { return disc.id; });
     StateSums sums(first_checksum + targets.size());
     Batch next, last;
     next.buffers.resize(targets.size());
@@ -235,7 +236,7 @@ StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& ta
         last.n_rows = 0;
     };
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
-        const std::span<const Disc> piece = stream.next();
+        const std::span<const DiscState> piece = stream.next();
         if (piece.empty()) continue;
         pack(piece, stream.begin(), side, targets, next, sums, settings.n_threads, write_last);
         if (!settings.is_collective) std::swap(next, last);
@@ -249,9 +250,10 @@ StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& ta
 
 } // namespace
 
-void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                      const Communicator& communicator, const WriteSettings& settings,
-                      const StoredSamples& samples, const SideSpans& columns) {
+void write_checkpoint(const std::string& path, CheckpointHeader header,
+                      std::span<const DiscState> discs, const Communicator& communicator,
+                      const WriteSettings& settings, const StoredSamples& samples,
+                      const SideSpans& columns) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
     const SideOfPieces side = in_pieces(discs, header.columns, columns, header.n_discs,
                                         communicator);

@@ -289,7 +289,7 @@ void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) c
     const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();
     const double clock = header.clock(), unit = static_cast<double>(header.micro_steps);
-    std::vector<Disc> discs(end - begin);
+    std::vector<DiscState> discs(end - begin);
     std::vector<std::uint64_t> bits(discs.size());
     for (const StateColumn& column : disc_columns) {
         const h5::Dataset dataset = h5::open_checked(file, path_of(column),
@@ -298,8 +298,8 @@ void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) c
         for (std::size_t i = 0; i < discs.size(); ++i) column.set(discs[i], bits[i]);
     }
     for (auto& column : rows) column.clear();
-    for (const Disc& stored : discs) {
-        const Disc disc = header.frame.in_box(stored, clock);
+    for (const DiscState& stored : discs) {
+        const DiscState disc = header.frame.in_box(stored, clock);
         const std::array<double, 6> shown = {disc.x,
                                              disc.y,
                                              disc.vx * unit,

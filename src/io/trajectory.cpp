@@ -106,7 +106,7 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
 /// Collects the discs of all ranks on rank 0, slab after slab of ids.
 class SlabStream {
 public:
-    SlabStream(std::span<const Disc> discs, const SideSpans& columns,
+    SlabStream(std::span<const DiscState> discs, const SideSpans& columns,
                std::span<const BondOrder> orders, std::span<const DiscImage> images, double clock,
                const TrajectoryLayout& layout, const Communicator& communicator)
         : discs_(discs), columns_(columns), orders_(orders), images_(images), clock_(clock),
@@ -147,7 +147,7 @@ private:
     }
 
     ShownDisc shown(LocalIndex i) const {
-        const Disc& disc = discs_[i];
+        const DiscState& disc = discs_[i];
         const double unit = layout_.velocity_unit;
         ShownDisc shown;
         shown.id = disc.id;
@@ -169,7 +169,7 @@ private:
         return shown;
     }
 
-    std::span<const Disc> discs_;
+    std::span<const DiscState> discs_;
     SideSpans columns_;
     std::span<const BondOrder> orders_;
     std::span<const DiscImage> images_; ///< those with ids to come
@@ -227,7 +227,7 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
     return steps_.empty() ? -1 : steps_.back();
 }
 
-void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock,
+void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, double clock,
                         const SideSpans& columns, std::span<const BondOrder> orders,
                         std::span<const DiscImage> images) {
     ensure(orders.size() == discs.size() || !(layout_.has_psi6 || layout_.has_neighbours),

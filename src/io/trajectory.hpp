@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/bond_order.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 #include "core/stored_samples.hpp"
 #include "io/checkpoint.hpp"
@@ -56,7 +56,7 @@ public:
     /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, with the
     /// layout's columns along them, and orders, if it has psi6 or neighbours. `images`,
     /// if it has them, are those of a run of ids; the next rank's follow. **Collective.**
-    void append(std::int64_t step, std::span<const Disc> discs, double clock,
+    void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {}, std::span<const BondOrder> orders = {},
                 std::span<const DiscImage> images = {});
 

@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 

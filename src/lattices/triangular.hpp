@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/axis.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "lattices/lattice.hpp"
 
 namespace carrom {

@@ -10,9 +10,9 @@
 #include "engine/tuning.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/read_scene.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 /// Runs `read`. In the problems of its InputError keys are named as the program has
 /// set them, not as options of the command line.
@@ -28,10 +28,10 @@ template <class Read> auto with_named_keys(const Read& read) {
     }
 }
 
-SceneFacts facts_of(const carrom::Scene& scene);
+SceneFacts facts_of(const SceneParameters& scene);
 
 struct FirstState {
-    carrom::Scene scene;
+    SceneParameters scene;
     std::vector<InputDisc> discs;
 };
 
@@ -39,4 +39,4 @@ struct FirstState {
 /// problems. **Collective.**
 FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuning& tuning);
 
-} // namespace carrom::api
+} // namespace carrom

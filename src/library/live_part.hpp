@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 /// Throws InputError if the object of that class has no inside.
 template <class State>
@@ -17,4 +17,4 @@ State& live_part(const std::unique_ptr<State>& state, const std::string& name) {
     return *state;
 }
 
-} // namespace carrom::api
+} // namespace carrom

@@ -18,7 +18,7 @@
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 namespace {
 
@@ -96,7 +96,7 @@ SceneFacts Scene::check() const {
         with_named_keys([&] { return read_scene(text_of(source_), source_.settings); }));
 }
 
-SceneFacts facts_of(const carrom::Scene& scene) {
+SceneFacts facts_of(const SceneParameters& scene) {
     SceneFacts facts;
     facts.box = scene.box;
     facts.radius = scene.radius;
@@ -143,4 +143,4 @@ FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuni
     return first;
 }
 
-} // namespace carrom::api
+} // namespace carrom

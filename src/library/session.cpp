@@ -5,7 +5,7 @@
 #include "library/session_state.hpp"
 #include "parallel/meeting.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 namespace {
 
@@ -60,4 +60,4 @@ int Session::run(const std::function<int()>& body) const {
     });
 }
 
-} // namespace carrom::api
+} // namespace carrom

@@ -10,7 +10,7 @@
 #include "parallel/meeting.hpp"
 #include "parallel/mpi.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 struct Session::State {
     std::unique_ptr<Mpi> mpi; ///< if the session has started MPI; ends last
@@ -20,4 +20,4 @@ struct Session::State {
 
 inline const Communicator& ranks_of(const Session& session) { return session.state().ranks; }
 
-} // namespace carrom::api
+} // namespace carrom

@@ -19,7 +19,7 @@
 #include "run/start/load.hpp"
 #include "run/start/restart.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 namespace {
 
@@ -55,7 +55,7 @@ bool is_earlier(const Disc& a, const Disc& b) { return a.id < b.id; }
 
 } // namespace
 
-Simulation::State::State(carrom::Scene checked, RunStart start, const Communicator& ranks,
+Simulation::State::State(SceneParameters checked, RunStart start, const Communicator& ranks,
                          const Tuning& tuning, const Messages& messages)
     : run(std::move(checked), std::move(start), ranks, tuning, messages),
       facts(facts_of(run.scene())) {}
@@ -105,12 +105,12 @@ void Simulation::advance_to(std::int64_t step) {
 }
 
 std::vector<Disc> Simulation::discs() const {
-    const carrom::Simulation& simulation = live().run.simulation();
-    const double unit = simulation.velocity_unit(), clock = simulation.clock();
-    const std::span<const double> spins = simulation.spins();
+    const DiscSystem& system = live().run.system();
+    const double unit = system.velocity_unit(), clock = system.clock();
+    const std::span<const double> spins = system.spins();
     std::vector<Disc> discs;
-    discs.reserve(simulation.discs().size());
-    for (const carrom::Disc& shown : simulation.shown()) {
+    discs.reserve(system.discs().size());
+    for (const DiscState& shown : system.shown()) {
         Disc& disc = discs.emplace_back();
         disc.id = shown.id;
         disc.x = shown.x_at(clock);
@@ -132,7 +132,7 @@ std::vector<Disc> Simulation::gathered_discs() const {
 
 Totals Simulation::totals() const {
     meet(live().run.ranks(), "Simulation::totals");
-    return live().run.simulation().totals();
+    return live().run.system().totals();
 }
 Averages Simulation::averages() const {
     meet(live().run.ranks(), "Simulation::averages");
@@ -184,4 +184,4 @@ void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
     live().run.add(*live().checkpoints);
 }
 
-} // namespace carrom::api
+} // namespace carrom

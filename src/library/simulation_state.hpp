@@ -9,13 +9,13 @@
 #include "parallel/communicator.hpp"
 #include "run/checkpoints.hpp"
 #include "run/run.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 struct Simulation::State {
     /// **Collective.**
-    State(carrom::Scene checked, RunStart start, const Communicator& ranks, const Tuning& tuning,
+    State(SceneParameters checked, RunStart start, const Communicator& ranks, const Tuning& tuning,
           const Messages& messages);
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -25,4 +25,4 @@ struct Simulation::State {
     std::optional<Checkpoints> checkpoints; ///< from keep_checkpoints on
 };
 
-} // namespace carrom::api
+} // namespace carrom

@@ -13,11 +13,11 @@
 #include "parallel/meeting.hpp"
 #include "stored_scene/stored_scene.hpp"
 
-namespace carrom::api {
+namespace carrom {
 
 namespace {
 
-TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& scene,
+TrajectoryOutput wanted_of(const TrajectoryFields& fields, const SceneParameters& scene,
                            const std::string& path) {
     std::vector<Problem> problems;
     if (fields.spins && !scene.effects.have_spins())
@@ -79,12 +79,11 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 void TrajectoryWriter::append() {
     State& state = live_part(state_, "TrajectoryWriter");
     meet(state.run.ranks(), "TrajectoryWriter::append");
-    const carrom::Simulation& simulation = state.run.simulation();
-    const std::int64_t step = simulation.step();
+    const DiscSystem& system = state.run.system();
+    const std::int64_t step = system.step();
     if (step <= state.last_step)
         throw InputError({{state.file, 0, fmt::format("step {} has a frame already", step)}});
-    state.trajectory.append(step, simulation.shown(), simulation.clock(),
-                            simulation.side_columns());
+    state.trajectory.append(step, system.shown(), system.clock(), system.side_columns());
     state.trajectory.commit();
     state.last_step = step;
 }
@@ -158,4 +157,4 @@ std::vector<Disc> FrameReader::read(std::size_t frame, std::uint64_t begin,
     return discs;
 }
 
-} // namespace carrom::api
+} // namespace carrom

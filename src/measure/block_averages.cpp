@@ -26,11 +26,11 @@ BlockAverages::Block& BlockAverages::Block::operator+=(const Block& other) {
 }
 
 BlockAverages::BlockAverages(MeasuredRun& run)
-    : Measurement(run), system_(run.simulation.averaged_system()) {}
+    : Measurement(run), system_(run.system.averaged_system()) {}
 
 void BlockAverages::begin() {
-    first_step_ = block_step_ = sample_step_ = run_.simulation.step();
-    interval_.emplace(run_.simulation, run_.ranks);
+    first_step_ = block_step_ = sample_step_ = run_.system.step();
+    interval_.emplace(run_.system, run_.ranks);
     present_ = {};
     // Each sample costs some nanoseconds a disc, and another window of the event-driven
     // method if it is between syncs. A run whose energy changes needs more of them.
@@ -48,7 +48,7 @@ std::int64_t BlockAverages::next_due(std::int64_t step) const {
 }
 
 void BlockAverages::sample_if_due() {
-    const std::int64_t step = run_.simulation.step();
+    const std::int64_t step = run_.system.step();
     if (has_begun() && step >= sample_step_ + steps_per_sample_)
         sample({});
     else if (!has_begun() && step >= run_.scene.averages_from)
@@ -57,7 +57,7 @@ void BlockAverages::sample_if_due() {
 
 /// Does not use `state`, because the sums of the simulation have all that averages need.
 void BlockAverages::sample(const SampledState& /*state*/) {
-    const std::int64_t step = run_.simulation.step();
+    const std::int64_t step = run_.system.step();
     const MotionSample now = interval_->now();
     add(step, block_up_to(step, now));
     interval_->begin(now);
@@ -132,7 +132,7 @@ void BlockAverages::keep(KeptNumbers& kept) {
                           steps_per_sample_ >= 1 && steps_per_block_ >= steps_per_sample_ &&
                           blocks_.size() < most_blocks;
     if (!is_valid) kept.refuse();
-    if (kept.is_right()) interval_.emplace(run_.simulation, run_.ranks, pending, last);
+    if (kept.is_right()) interval_.emplace(run_.system, run_.ranks, pending, last);
 }
 
 /// The blocks are the last numbers, so their count is not stored.
@@ -230,7 +230,7 @@ Estimate inverse_of(const Estimate& rate) {
 Averages BlockAverages::averages() const {
     Averages result;
     if (!has_begun()) return result;
-    const std::int64_t step = run_.simulation.step();
+    const std::int64_t step = run_.system.step();
     result.first_step = first_step_;
     result.steps = step - first_step_;
     if (result.steps == 0) return result;

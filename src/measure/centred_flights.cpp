@@ -35,7 +35,7 @@ void subtract_mean(std::vector<Flight>& flights, std::array<double, 2> Flight::*
 } // namespace
 
 std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,
-                                   const Scene& scene, const Communicator& ranks) {
+                                   const SceneParameters& scene, const Communicator& ranks) {
     const double n = static_cast<double>(ranks.sum(std::uint64_t{flights.size()}));
     double heaviest = 0;
     for (const Flight& flight : flights) heaviest = std::max(heaviest, flight.mass);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -31,6 +31,6 @@ struct FlightBounds {
 /// Mean squares of displacements along x and y, and the mean product of velocities, over all ranks'
 /// flights. The sums are exact. **Collective.**
 std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,
-                                   const Scene& scene, const Communicator& ranks);
+                                   const SceneParameters& scene, const Communicator& ranks);
 
 } // namespace carrom

@@ -14,20 +14,20 @@ namespace carrom {
 /// Syncs bring discs back that fly on through periodic sides. These lengths are part
 /// of their displacement.
 void Flights::follow() {
-    if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.simulation, run_.ranks);
+    if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.system, run_.ranks);
 }
 
-std::span<const Disc> Flights::flown(std::span<const Disc> shown) {
+std::span<const DiscState> Flights::flown(std::span<const DiscState> shown) {
     if (!follows_lengths()) return shown;
-    flown_ = flown_on(run_.simulation);
+    flown_ = flown_on(run_.system);
     return flown_;
 }
 
 /// Flights begin here.
-void Flights::begin(std::span<const Disc> discs) {
-    const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
+void Flights::begin(std::span<const DiscState> discs) {
+    const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     std::vector<FirstPlace> places;
-    for (const Disc& disc : discs)
+    for (const DiscState& disc : discs)
         places.push_back(
             {disc.id, disc.x_at(time), disc.y_at(time), 0, 0, disc.vx * unit, disc.vy * unit});
     place_first(places);
@@ -35,28 +35,28 @@ void Flights::begin(std::span<const Disc> discs) {
 }
 
 /// Largest component of a velocity now, or when flights began.
-double Flights::fastest_of(std::span<const Disc> discs) const {
-    const double unit = run_.simulation.velocity_unit();
+double Flights::fastest_of(std::span<const DiscState> discs) const {
+    const double unit = run_.system.velocity_unit();
     double fastest = 0;
     for (const auto& [vx, vy] : first_velocities_)
         fastest = std::max({fastest, std::fabs(vx), std::fabs(vy)});
-    for (const Disc& disc : discs)
+    for (const DiscState& disc : discs)
         fastest = std::max({fastest, std::fabs(disc.vx * unit), std::fabs(disc.vy * unit)});
     return run_.ranks.max(fastest);
 }
 
 /// Mean squares of displacements along x and y since then, and the mean product of velocities.
-std::array<double, 3> Flights::means(std::span<const Disc> discs, std::uint64_t n_discs) {
-    const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
+std::array<double, 3> Flights::means(std::span<const DiscState> discs, std::uint64_t n_discs) {
+    const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()
                                                         : std::span<const DiscImage>{};
     const FlightBounds bounds{(follows_lengths() ? 0x1p22 : 4) * run_.scene.box.longest(),
                               have_velocities_ ? fastest_of(discs) : 0};
-    const SpeciesTable& species = run_.simulation.species_table();
+    const SpeciesTable& species = run_.system.species_table();
     std::vector<Flight> flights;
-    PieceStream stream(run_.ranks, discs, n_discs, [](const Disc& disc) { return disc.id; });
+    PieceStream stream(run_.ranks, discs, n_discs, [](const DiscState& disc) { return disc.id; });
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
-        for (const Disc& disc : stream.next()) {
+        for (const DiscState& disc : stream.next()) {
             const std::size_t place = disc.id - first_id_;
             const auto& [x0, y0] = first_places_[place];
             double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;

@@ -22,19 +22,19 @@ public:
     /// To be called before the first step, or at a restart. **Collective.**
     void follow();
     /// The discs where they would be if no periodic side had brought them back since the last sync.
-    std::span<const Disc> flown(std::span<const Disc> shown);
+    std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Begins all flights here. **Collective.**
-    void begin(std::span<const Disc> flown);
+    void begin(std::span<const DiscState> flown);
     /// Mean squares of displacements along x and y since the beginning, and the mean
     /// product of velocities. **Collective.**
-    std::array<double, 3> means(std::span<const Disc> flown, std::uint64_t n_discs);
+    std::array<double, 3> means(std::span<const DiscState> flown, std::uint64_t n_discs);
 
     void store(StoredSamples& stored);         ///< **Collective.**
     void restore(const StoredSamples& stored); ///< **Collective.**
 
 private:
     bool follows_lengths() const { return run_.scene.effects.are_periodic(); }
-    double fastest_of(std::span<const Disc> discs) const;
+    double fastest_of(std::span<const DiscState> discs) const;
     void place_first(std::span<const FirstPlace> places);
 
     MeasuredRun& run_;
@@ -43,7 +43,7 @@ private:
     std::vector<std::array<double, 2>> first_places_; ///< for this rank's run of ids
     std::vector<std::array<double, 2>> first_velocities_;
     std::optional<ImageCounts> lengths_; ///< since the beginning, in a periodic box
-    std::vector<Disc> flown_;
+    std::vector<DiscState> flown_;
 };
 
 } // namespace carrom

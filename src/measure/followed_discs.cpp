@@ -10,31 +10,31 @@
 
 namespace carrom {
 
-FollowedDiscs::FollowedDiscs(MeasuredRun& run)
-    : run_(run), species_(run.simulation.species_table()) {}
+FollowedDiscs::FollowedDiscs(MeasuredRun& run) : run_(run), species_(run.system.species_table()) {}
 
 void FollowedDiscs::begin() {
-    n_discs_ = run_.ranks.sum(std::uint64_t{run_.simulation.discs().size()});
+    n_discs_ = run_.ranks.sum(std::uint64_t{run_.system.discs().size()});
     const Pieces pieces(n_discs_, run_.ranks.size());
     first_id_ = pieces.begin(pieces.first_of(run_.ranks.rank()));
     n_own_ = pieces.begin(pieces.first_of(run_.ranks.rank() + 1)) - first_id_;
     speed_ = std::max(usual_speed(run_), 0x1p-200);
     if (run_.scene.effects.are_periodic())
-        lengths_.emplace(run_.scene.box, run_.simulation, run_.ranks);
+        lengths_.emplace(run_.scene.box, run_.system, run_.ranks);
 }
 
 const FollowedStates& FollowedDiscs::now() {
-    const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
-    const std::vector<Disc> flown = lengths_ ? flown_on(run_.simulation) : std::vector<Disc>{};
-    const std::span<const Disc> discs = lengths_ ? std::span<const Disc>(flown)
-                                                 : run_.simulation.shown();
+    const double time = run_.system.clock(), unit = run_.system.velocity_unit();
+    const std::vector<DiscState> flown = lengths_ ? flown_on(run_.system)
+                                                  : std::vector<DiscState>{};
+    const std::span<const DiscState> discs = lengths_ ? std::span<const DiscState>(flown)
+                                                      : run_.system.shown();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()
                                                         : std::span<const DiscImage>{};
-    PieceStream stream(run_.ranks, discs, n_discs_, [](const Disc& disc) { return disc.id; });
+    PieceStream stream(run_.ranks, discs, n_discs_, [](const DiscState& disc) { return disc.id; });
     for (std::vector<double>* column : states_.columns()) column->resize(n_own_);
     std::size_t i = 0;
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round)
-        for (const Disc& disc : stream.next()) {
+        for (const DiscState& disc : stream.next()) {
             states_.x[i] = disc.x_at(time), states_.y[i] = disc.y_at(time);
             states_.vx[i] = disc.vx * unit, states_.vy[i] = disc.vy * unit;
             if (!lengths.empty()) {

@@ -9,23 +9,23 @@
 
 namespace carrom {
 
-std::vector<Disc> flown_on(const Simulation& simulation) {
-    Frame frame = simulation.frame();
+std::vector<DiscState> flown_on(const DiscSystem& system) {
+    Frame frame = system.frame();
     frame.periods = {};
-    std::vector<Disc> discs;
-    discs.reserve(simulation.discs().size());
-    for (const Disc& disc : simulation.discs())
-        discs.push_back(frame.in_box(disc, simulation.clock()));
+    std::vector<DiscState> discs;
+    discs.reserve(system.discs().size());
+    for (const DiscState& disc : system.discs())
+        discs.push_back(frame.in_box(disc, system.clock()));
     return discs;
 }
 
-ImageCounts::ImageCounts(const Box& box, Simulation& simulation, const Communicator& ranks)
-    : box_(box), simulation_(simulation), ranks_(ranks),
-      pieces_(ranks.sum(std::uint64_t{simulation.discs().size()}), ranks.size()) {
+ImageCounts::ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks)
+    : box_(box), system_(system), ranks_(ranks),
+      pieces_(ranks.sum(std::uint64_t{system.discs().size()}), ranks.size()) {
     const std::uint64_t end = pieces_.begin(pieces_.first_of(ranks_.rank() + 1));
     for (DiscId id = pieces_.begin(pieces_.first_of(ranks_.rank())); id < end; ++id)
         counts_.push_back({id, 0, 0});
-    simulation_.note_crossings_in(crossings_);
+    system_.note_crossings_in(crossings_);
 }
 
 void ImageCounts::go_on(std::span<const FirstPlace> stored, double FirstPlace::* x,
@@ -63,8 +63,8 @@ void ImageCounts::store(std::vector<FirstPlace>& places, double FirstPlace::* x,
 std::vector<DiscImage> ImageCounts::now() {
     static_cast<void>(counts());
     std::vector<DiscImage> images = counts_;
-    const std::vector<Disc> flown = flown_on(simulation_);
-    const std::span<const Disc> shown = simulation_.shown();
+    const std::vector<DiscState> flown = flown_on(system_);
+    const std::span<const DiscState> shown = system_.shown();
     std::vector<Crossing> in_flight;
     for (std::size_t i = 0; i < flown.size(); ++i)
         if (flown[i].x != shown[i].x || flown[i].y != shown[i].y)

@@ -13,18 +13,18 @@
 #include "core/stored_samples.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/pieces.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
 /// The own discs where they would be if no sync had brought them back since the last one.
-std::vector<Disc> flown_on(const Simulation& simulation);
+std::vector<DiscState> flown_on(const DiscSystem& system);
 
 class ImageCounts {
 public:
     /// Counts from 0 at the present step on. Both arguments must outlive this.
-    ImageCounts(const Box& box, Simulation& simulation, const Communicator& ranks);
-    ~ImageCounts() { simulation_.forget_crossings_in(crossings_); }
+    ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks);
+    ~ImageCounts() { system_.forget_crossings_in(crossings_); }
     ImageCounts(const ImageCounts&) = delete;
     ImageCounts& operator=(const ImageCounts&) = delete;
 
@@ -46,7 +46,7 @@ private:
     void add(std::vector<DiscImage>& counts, std::span<const Crossing> crossings) const;
 
     Box box_;
-    Simulation& simulation_;
+    DiscSystem& system_;
     const Communicator& ranks_;
     Pieces pieces_;
     std::vector<DiscImage> counts_;

@@ -20,13 +20,13 @@
 
 #include <carrom/measured_table.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/stored_samples.hpp"
 #include "measure/kept_numbers.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/quantity.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -40,9 +40,9 @@ struct SampleCounts {
 
 /// The run that is measured; it outlives the measurements.
 struct MeasuredRun {
-    const Scene& scene;
+    const SceneParameters& scene;
     const MeasurementOutput& output;
-    Simulation& simulation;
+    DiscSystem& system;
     const Communicator& ranks;
     SampleCounts counts = {};
 
@@ -58,9 +58,9 @@ struct MeasuredRun {
 
 /// The state at a sample. Discs are those of this rank, and valid in `Measurement::sample` only.
 struct SampledState {
-    std::span<const Disc> shown;  ///< by their states as the box sees them
-    std::span<const Disc> inside; ///< the shown discs that are in the box
-    std::uint64_t n_discs = 0;    ///< number of shown discs on all ranks
+    std::span<const DiscState> shown;  ///< by their states as the box sees them
+    std::span<const DiscState> inside; ///< the shown discs that are in the box
+    std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
     Extent box;
     bool is_first = false; ///< there is no interval before it
 };

@@ -6,22 +6,22 @@ namespace carrom {
 namespace {
 
 /// The simulation, which sums stress in the unit that a checkpoint's sums have.
-Simulation& in_unit(Simulation& simulation, double bound) {
-    simulation.begin_stress_sums(bound);
-    return simulation;
+DiscSystem& in_unit(DiscSystem& system, double bound) {
+    system.begin_stress_sums(bound);
+    return system;
 }
 
 } // namespace
 
-MotionInterval::MotionInterval(Simulation& simulation, const Communicator& ranks)
-    : simulation_(&simulation), ranks_(&ranks), last_sums_(simulation.stress_sums()) {
-    begin(simulation.motion_sample());
+MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks)
+    : system_(&system), ranks_(&ranks), last_sums_(system.stress_sums()) {
+    begin(system.motion_sample());
 }
 
-MotionInterval::MotionInterval(Simulation& simulation, const Communicator& ranks,
+MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks,
                                const Pending& pending, const MotionSample& last)
-    : simulation_(&simulation), ranks_(&ranks),
-      last_sums_(in_unit(simulation, pending.bound).stress_sums()), last_(last) {
+    : system_(&system), ranks_(&ranks), last_sums_(in_unit(system, pending.bound).stress_sums()),
+      last_(last) {
     if (!ranks.is_root()) return; // only the sum over all ranks matters
     StressSums sums(pending.bound);
     std::size_t next = 0;
@@ -34,27 +34,27 @@ MotionInterval::MotionInterval(Simulation& simulation, const Communicator& ranks
 
 /// The sums on this rank since the last sample.
 StressSums MotionInterval::since_last() const {
-    StressSums since = simulation_->stress_sums();
+    StressSums since = system_->stress_sums();
     since -= last_sums_;
     return since;
 }
 
 MotionSample MotionInterval::now() const {
-    MotionSample now = simulation_->motion_sample();
-    simulation_->integrate(since_last(), now);
+    MotionSample now = system_->motion_sample();
+    system_->integrate(since_last(), now);
     return now;
 }
 
 void MotionInterval::begin(const MotionSample& now) {
-    last_sums_ = simulation_->stress_sums();
+    last_sums_ = system_->stress_sums();
     last_ = now;
     last_.stress = {};
     last_.energy = 0;
-    simulation_->integrate_flights(last_);
+    system_->integrate_flights(last_);
 }
 
 MotionInterval::Pending MotionInterval::pending() const {
-    Pending pending{simulation_->stress_bound(), {}};
+    Pending pending{system_->stress_bound(), {}};
     StressSums since = since_last();
     std::size_t next = 0;
     for (ExactSum* part : since.parts()) {

@@ -12,7 +12,7 @@
 
 #include "engine/stress_sums.hpp"
 #include "parallel/communicator.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 #include "statistics/motion.hpp"
 
 namespace carrom {
@@ -28,9 +28,9 @@ public:
     };
 
     /// The interval begins at the present step. **Collective.**
-    MotionInterval(Simulation& simulation, const Communicator& ranks);
+    MotionInterval(DiscSystem& system, const Communicator& ranks);
     /// The interval goes on from a checkpoint's data, before any step. **Collective.**
-    MotionInterval(Simulation& simulation, const Communicator& ranks, const Pending& pending,
+    MotionInterval(DiscSystem& system, const Communicator& ranks, const Pending& pending,
                    const MotionSample& last);
 
     /// The last sample, whose integrals are those of flights since the sync before it.
@@ -47,7 +47,7 @@ public:
 private:
     StressSums since_last() const;
 
-    Simulation* simulation_;
+    DiscSystem* system_;
     const Communicator* ranks_;
     StressSums last_sums_; ///< on this rank, at the last sample
     MotionSample last_;

@@ -20,7 +20,7 @@ Key largest_distance_key() {
 }
 
 void check_largest_distance(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps),
                                        1);
     const double wide = std::min(scene.box.x, end.x_high - end.x_low);
@@ -50,7 +50,7 @@ void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& di
                                    "that come in until the last step leave room for {:g}: "
                                    "run to an earlier step, or begin anew with "
                                    "output.measurements.from_step = {}",
-                                   distance, asked, run.simulation.step())}});
+                                   distance, asked, run.system.step())}});
 }
 
 } // namespace carrom

@@ -36,7 +36,7 @@ namespace {
 
 /// The root mean square of a component of the discs' velocities, or of the thermal
 /// walls'; 0 if all is at rest.
-double thermal_speed(const Scene& scene, const Totals& totals) {
+double thermal_speed(const SceneParameters& scene, const Totals& totals) {
     double temperature = totals.kinetic_energy / static_cast<double>(totals.n_discs);
     for (const Boundary& side : scene.effects.boundaries)
         temperature = std::max(temperature, side.temperature);
@@ -47,7 +47,7 @@ double thermal_speed(const Scene& scene, const Totals& totals) {
 
 } // namespace
 
-double driven_speed(const Scene& scene) {
+double driven_speed(const SceneParameters& scene) {
     double speed = std::sqrt(
         2 * (std::fabs(scene.effects.gravity.x) + std::fabs(scene.effects.gravity.y)) *
         scene.box.longest());
@@ -58,7 +58,7 @@ double driven_speed(const Scene& scene) {
 }
 
 double usual_speed(const MeasuredRun& run) {
-    const double thermal = thermal_speed(run.scene, run.simulation.energies()),
+    const double thermal = thermal_speed(run.scene, run.system.energies()),
                  driven = driven_speed(run.scene);
     return thermal > 0 ? thermal : driven > 0 ? driven : 1;
 }

@@ -34,11 +34,10 @@ MotionSample sample_of(const std::vector<double>& numbers) {
 
 void PressureSampler::sample(double steps) {
     const MotionSample now = interval_.now(), &last = interval_.last();
-    const double unit = simulation_->velocity_unit();
+    const double unit = system_->velocity_unit();
     last_integral_ = unit * Tensor{now.stress.xx - last.stress.xx, now.stress.xy - last.stress.xy,
                                    now.stress.yy - last.stress.yy};
-    const MotionIntegrals mean = integrals_between(simulation_->averaged_system(), last, now,
-                                                   steps);
+    const MotionIntegrals mean = integrals_between(system_->averaged_system(), last, now, steps);
     pressures_.insert(pressures_.end(),
                       {mean.pressure(&Tensor::xx), mean.pressure(&Tensor::xy),
                        mean.pressure(&Tensor::yy), mean.temperature(), mean.energy() / mean.area});
@@ -46,11 +45,11 @@ void PressureSampler::sample(double steps) {
 }
 
 double PressureSampler::temperature() const {
-    return temperature_at(simulation_->averaged_system(), last());
+    return temperature_at(system_->averaged_system(), last());
 }
 
 void PressureSampler::keep(KeptNumbers& kept, std::optional<PressureSampler>& sampler,
-                           Simulation& simulation, const Communicator& ranks) {
+                           DiscSystem& system, const Communicator& ranks) {
     MotionInterval::Pending pending;
     std::vector<std::uint64_t> words;
     std::vector<double> pressures, last;
@@ -66,8 +65,8 @@ void PressureSampler::keep(KeptNumbers& kept, std::optional<PressureSampler>& sa
         last.size() != n_numbers_of_sample)
         return kept.refuse();
     std::ranges::copy(words, pending.words.begin());
-    sampler = PressureSampler(simulation, std::move(pressures),
-                              MotionInterval(simulation, ranks, pending, sample_of(last)));
+    sampler = PressureSampler(system, std::move(pressures),
+                              MotionInterval(system, ranks, pending, sample_of(last)));
 }
 
 } // namespace carrom

@@ -19,8 +19,8 @@ public:
     static constexpr std::size_t n_numbers = 5;
 
     /// Begins at the present step. **Collective.**
-    PressureSampler(Simulation& simulation, const Communicator& ranks)
-        : simulation_(&simulation), interval_(simulation, ranks) {}
+    PressureSampler(DiscSystem& system, const Communicator& ranks)
+        : system_(&system), interval_(system, ranks) {}
 
     /// Adds an interval of `steps` steps. **Collective.**
     void sample(double steps);
@@ -34,14 +34,14 @@ public:
 
     /// Stores the data of `sampler`, or makes a sampler of stored data before any step.
     /// **Collective.**
-    static void keep(KeptNumbers& kept, std::optional<PressureSampler>& sampler,
-                     Simulation& simulation, const Communicator& ranks);
+    static void keep(KeptNumbers& kept, std::optional<PressureSampler>& sampler, DiscSystem& system,
+                     const Communicator& ranks);
 
 private:
-    PressureSampler(Simulation& simulation, std::vector<double> pressures, MotionInterval interval)
-        : simulation_(&simulation), pressures_(std::move(pressures)), interval_(interval) {}
+    PressureSampler(DiscSystem& system, std::vector<double> pressures, MotionInterval interval)
+        : system_(&system), pressures_(std::move(pressures)), interval_(interval) {}
 
-    Simulation* simulation_;
+    DiscSystem* system_;
     std::vector<double> pressures_;
     MotionInterval interval_;
     Tensor last_integral_;

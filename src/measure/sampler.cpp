@@ -20,8 +20,8 @@ const MeasurementOutput nothing;
 
 } // namespace
 
-Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)
-    : run_{scene, scene.measurements ? *scene.measurements : nothing, simulation, ranks},
+Sampler::Sampler(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks)
+    : run_{scene, scene.measurements ? *scene.measurements : nothing, system, ranks},
       averages_(run_) {
     for (const MeasuredQuantity& quantity : measured_quantities()) {
         if (!run_.output.measures(quantity.declared.name)) continue;
@@ -53,7 +53,7 @@ void Sampler::go_on(const StoredSamples& stored) {
 }
 
 void Sampler::go_on_measuring(const StoredSamples& stored) {
-    const std::int64_t step = run_.simulation.step();
+    const std::int64_t step = run_.system.step();
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     const std::vector<std::int64_t> words = in_present_form(stored.sums, step);
     KeptNumbers kept(words);
@@ -96,7 +96,7 @@ void Sampler::sample_if_due() {
 }
 
 void Sampler::measure_if_due() {
-    const std::int64_t step = run_.simulation.step();
+    const std::int64_t step = run_.system.step();
     if (!has_begun_ && step >= run_.output.from_step) {
         run_.counts.first_step = step;
         for (const auto& measurement : measurements_) measurement->begin();
@@ -109,15 +109,14 @@ void Sampler::measure_if_due() {
 }
 
 void Sampler::sample(std::int64_t step) {
-    const Scene& scene = run_.scene;
+    const SceneParameters& scene = run_.scene;
     SampledState state;
-    state.shown = run_.simulation.shown();
+    state.shown = run_.system.shown();
     state.n_discs = run_.ranks.sum(std::uint64_t{state.shown.size()});
     state.box = extent_at(scene.effects, scene.box, static_cast<double>(step));
     state.is_first = run_.counts.n_samples == 0;
-    std::vector<Disc> kept;
-    state.inside = discs_in_box(state.shown, scene.effects, state.box, run_.simulation.clock(),
-                                kept);
+    std::vector<DiscState> kept;
+    state.inside = discs_in_box(state.shown, scene.effects, state.box, run_.system.clock(), kept);
     run_.counts.n_discs += run_.ranks.sum(std::uint64_t{state.inside.size()});
     run_.counts.area += (state.box.x_high - state.box.x_low) * (state.box.y_high - state.box.y_low);
     for (const bool moves_discs : {false, true})

@@ -15,9 +15,9 @@
 #include "measure/block_averages.hpp"
 #include "measure/measurement.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "simulation/advance.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -26,7 +26,7 @@ class Sampler : public StepAction {
 public:
     /// Samples from the present step on if the scene's `from_step` has come. All
     /// arguments must outlive this. **Collective.**
-    Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks);
+    Sampler(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
 

@@ -7,7 +7,7 @@
 namespace carrom {
 
 /// An estimate of speeds that discs get by falling or by being pushed.
-double driven_speed(const Scene& scene);
+double driven_speed(const SceneParameters& scene);
 
 /// The root mean square of a component, or driven_speed if all discs are at rest. **Collective.**
 double usual_speed(const MeasuredRun& run);

@@ -7,7 +7,7 @@
 
 namespace carrom {
 
-double length_of_side(const Scene& scene, std::size_t side, double step) {
+double length_of_side(const SceneParameters& scene, std::size_t side, double step) {
     const Extent box = extent_of_lines(scene.effects, scene.box, step);
     return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
 }

@@ -57,7 +57,7 @@ private:
 };
 
 /// The length of a side at a step. Between oscillating walls it is the mean.
-double length_of_side(const Scene& scene, std::size_t side, double step);
+double length_of_side(const SceneParameters& scene, std::size_t side, double step);
 
 /// A row for each interval between samples: its first and its last step, and what each side was
 /// given over its length and that time; NaN for a periodic side. `given` has `per_interval` numbers
@@ -74,14 +74,14 @@ struct MeanAndError {
 std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
 
 /// Walls are there at all times and on at least two sides.
-template <bool (*is_measured)(const Scene&)>
+template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_walls(std::string_view quantity) {
     return {{.one = quantity,
              .other = "a box that is periodic all round",
              .why = "it has no walls",
              .keys = {quantities_key},
              .is_broken =
-                 [](const Scene& s) {
+                 [](const SceneParameters& s) {
                      return is_measured(s) && s.effects.is_periodic_x() &&
                             s.effects.is_periodic_y();
                  }},
@@ -89,7 +89,7 @@ std::vector<Rule> rules_of_walls(std::string_view quantity) {
              .other = "an open side",
              .why = "with open sides velocities and densities alone are measured",
              .keys = {quantities_key},
-             .is_broken = [](const Scene& s) {
+             .is_broken = [](const SceneParameters& s) {
                  return is_measured(s) && s.effects.have_open_boundaries();
              }}};
 }

@@ -22,7 +22,7 @@ Key largest_wavenumber_key() {
 
 void check_wavenumber(const SceneDraft& draft) {
     constexpr double most_vectors = 1e6, most_by_default = 1e5;
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const double lx = scene.box.x, ly = scene.box.y;
     const auto reach = [=](double n_vectors) {
         return std::sqrt(8 * std::numbers::pi * n_vectors / (lx * ly));
@@ -70,9 +70,9 @@ std::vector<double> WaveBins::means(std::span<const double> numbers) const {
     return means;
 }
 
-DensityModes WaveBins::modes(const MeasuredRun& run, std::span<const Disc> discs) const {
-    DensityModes modes = density_modes(discs, run.simulation.clock(), run.scene.n_discs, box_.x,
-                                       box_.y, vectors_, run.simulation.n_threads());
+DensityModes WaveBins::modes(const MeasuredRun& run, std::span<const DiscState> discs) const {
+    DensityModes modes = density_modes(discs, run.system.clock(), run.scene.n_discs, box_.x, box_.y,
+                                       vectors_, run.system.n_threads());
     run.ranks.sum(std::span(modes.real));
     run.ranks.sum(std::span(modes.imaginary));
     return modes;

@@ -18,21 +18,23 @@ Key largest_wavenumber_key();
 /// At least one wave vector, and at most a million, because each is evaluated for each disc.
 void check_wavenumber(const SceneDraft& draft);
 /// Wave vectors are those of a box that is periodic all round and whose images are at rest.
-template <bool (*is_measured)(const Scene&)>
+template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_waves(std::string_view quantity) {
-    return {{.one = "sheared sides",
-             .other = quantity,
-             .why = "the flow bends waves",
-             .keys = {quantities_key},
-             .is_broken = [](const Scene& s) { return is_measured(s) && s.effects.are_sheared(); }},
-            {.one = quantity,
-             .other = "a side that is not periodic",
-             .why = "wave vectors are those of a box that repeats itself; make all four sides "
-                    "periodic",
-             .keys = {quantities_key},
-             .is_broken = [](const Scene& s) {
-                 return is_measured(s) && !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
-             }}};
+    return {
+        {.one = "sheared sides",
+         .other = quantity,
+         .why = "the flow bends waves",
+         .keys = {quantities_key},
+         .is_broken =
+             [](const SceneParameters& s) { return is_measured(s) && s.effects.are_sheared(); }},
+        {.one = quantity,
+         .other = "a side that is not periodic",
+         .why = "wave vectors are those of a box that repeats itself; make all four sides "
+                "periodic",
+         .keys = {quantities_key},
+         .is_broken = [](const SceneParameters& s) {
+             return is_measured(s) && !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
+         }}};
 }
 
 class WaveBins {
@@ -51,7 +53,7 @@ public:
     /// Each bin's mean of `numbers`, one for each vector; NaN in a bin without any.
     std::vector<double> means(std::span<const double> numbers) const;
     /// This rank's part of the modes of some discs, added over ranks. **Collective.**
-    DensityModes modes(const MeasuredRun& run, std::span<const Disc> discs) const;
+    DensityModes modes(const MeasuredRun& run, std::span<const DiscState> discs) const;
 
 private:
     std::size_t bin_of(const WaveVector& vector) const;

@@ -97,11 +97,11 @@ Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
 
 void Checkpoints::copy() {
     if (!copy_) copy_.emplace();
-    const Simulation& simulation = run_.simulation();
-    const std::span<const Disc> discs = simulation.discs();
-    copy_->header = header_now(run_.scene(), simulation);
+    const DiscSystem& system = run_.system();
+    const std::span<const DiscState> discs = system.discs();
+    copy_->header = header_now(run_.scene(), system);
     copy_->discs.assign(discs.begin(), discs.end());
-    copy_->columns = SideColumns(simulation.side_columns());
+    copy_->columns = SideColumns(system.side_columns());
     copy_->samples = run_.stored_samples();
     stretch_watch_.lap();
     seconds_since_copied_ = 0;

@@ -21,8 +21,8 @@
 #include "io/checkpoint.hpp"
 #include "parallel/communicator.hpp"
 #include "run/run.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -54,7 +54,7 @@ public:
 private:
     struct Copy {
         CheckpointHeader header;
-        std::vector<Disc> discs;
+        std::vector<DiscState> discs;
         SideColumns columns;
         StoredSamples samples;
     };

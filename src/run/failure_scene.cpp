@@ -16,12 +16,12 @@ namespace carrom {
 namespace {
 
 /// The factor by which radii had grown when the failed step began.
-double growth_before(const Scene& scene, const CheckFailure& failure) {
+double growth_before(const SceneParameters& scene, const CheckFailure& failure) {
     return scene.effects.growth_at(static_cast<double>(failure.step - 1));
 }
 
 /// Text of a scene of one step that begins with the discs around, listed in `discs_file`.
-std::string text_around(const Scene& scene, const CheckFailure& failure,
+std::string text_around(const SceneParameters& scene, const CheckFailure& failure,
                         const std::string& discs_file) {
     std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:",
                                    failure.what(), failure.step - 1, scene.name);
@@ -30,7 +30,7 @@ std::string text_around(const Scene& scene, const CheckFailure& failure,
     text.back() = '.';
     if (has_boundary(scene.effects, BoundaryKind::moving))
         text += "\n# Moving walls begin at the box's sides here; they have moved there.";
-    Scene around = scene;
+    SceneParameters around = scene;
     constexpr double turn = 2 * std::numbers::pi;
     for (Boundary& side : around.effects.boundaries)
         if (side.kind == BoundaryKind::oscillating)
@@ -59,7 +59,7 @@ std::string text_around(const Scene& scene, const CheckFailure& failure,
     return text + '\n' + scene_text(around);
 }
 
-std::string disc_lines(const Scene& scene, const CheckFailure& failure) {
+std::string disc_lines(const SceneParameters& scene, const CheckFailure& failure) {
     const SpeciesTable species_table(scene.effects.species, scene.radius);
     const std::vector<InputDisc>& discs = failure.discs_around;
     std::string text;
@@ -74,7 +74,7 @@ std::string disc_lines(const Scene& scene, const CheckFailure& failure) {
 
 } // namespace
 
-std::string write_failure_scene(const std::string& folder, const Scene& scene,
+std::string write_failure_scene(const std::string& folder, const SceneParameters& scene,
                                 const CheckFailure& failure) {
     if (failure.discs_around.empty()) return "there are no discs around it to show";
     const std::string name = fmt::format("check_step_{}_disc_{}", failure.step, failure.disc);
@@ -88,7 +88,7 @@ std::string write_failure_scene(const std::string& folder, const Scene& scene,
                        failure.discs_around.size(), scene_path);
 }
 
-CollectiveError reported(const CheckFailure& failure, const Scene& scene,
+CollectiveError reported(const CheckFailure& failure, const SceneParameters& scene,
                          const Communicator& ranks) {
     std::string sentence;
     if (ranks.is_root()) sentence = write_failure_scene("", scene, failure);

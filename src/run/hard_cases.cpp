@@ -14,9 +14,9 @@ namespace carrom {
 namespace {
 
 /// The largest speed of all discs on all ranks, per micro-step. **Collective.**
-double largest_speed(const Simulation& simulation, const Communicator& ranks) {
+double largest_speed(const DiscSystem& system, const Communicator& ranks) {
     double square = 0;
-    for (const Disc& disc : simulation.discs())
+    for (const DiscState& disc : system.discs())
         square = std::max(square, disc.vx * disc.vx + disc.vy * disc.vy);
     return std::sqrt(ranks.max(square));
 }
@@ -25,7 +25,7 @@ double largest_speed(const Simulation& simulation, const Communicator& ranks) {
 /// the fastest disc twice as fast.
 constexpr double most_crossings = 8000;
 
-void refuse_long_flights(const Scene& scene, double speed, double up) {
+void refuse_long_flights(const SceneParameters& scene, double speed, double up) {
     if (!scene.effects.are_periodic()) return;
     const double interval = static_cast<double>(
         std::min(scene.sync_every, scene.steps * scene.micro_steps));
@@ -43,12 +43,12 @@ void refuse_long_flights(const Scene& scene, double speed, double up) {
 }
 
 /// How far a disc flies in the rounding of a time, which counts from the last sync.
-double blurred_flight(const Scene& scene, double speed) {
+double blurred_flight(const SceneParameters& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
 /// If discs are blurred by a radius, contacts cannot be told from other places.
-void refuse_blurred_places(const Scene& scene, double speed) {
+void refuse_blurred_places(const SceneParameters& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;
     throw InputError(
@@ -61,12 +61,12 @@ void refuse_blurred_places(const Scene& scene, double speed) {
 
 } // namespace
 
-void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks,
-                       const Messages& messages) {
-    const double speed = largest_speed(simulation, ranks);
+void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
+                       const Communicator& ranks, const Messages& messages) {
+    const double speed = largest_speed(system, ranks);
     refuse_blurred_places(scene, speed);
     const bool is_flow = scene.effects.are_sheared(); // along x, far from what collisions turn up
-    refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(simulation.discs())) : speed);
+    refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(system.discs())) : speed);
     const double blur = blurred_flight(scene, speed);
     // The width of the band before walls: from there on bounces and overlaps show the blur.
     if (blur <= 1e-8 * scene.radius) return;
@@ -77,7 +77,7 @@ void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const C
         scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
 }
 
-std::string warning_of_narrow_strips(const Scene& scene, int n_ranks, int n_threads) {
+std::string warning_of_narrow_strips(const SceneParameters& scene, int n_ranks, int n_threads) {
     // A strip of 15 mean distances of discs has as many discs in its halos
     // (docs/how-to/cluster.md). A few ranks are rather a test, or all that a small machine has.
     constexpr double least_width = 15;
@@ -95,7 +95,8 @@ std::string warning_of_narrow_strips(const Scene& scene, int n_ranks, int n_thre
                        threads);
 }
 
-void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages) {
+void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
+                         const Messages& messages) {
     const auto pairs = [](std::uint64_t count) {
         return count == 1 ? std::string("1 pair") : fmt::format("{} pairs", count);
     };

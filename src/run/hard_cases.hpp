@@ -7,24 +7,25 @@
 
 #include "parallel/communicator.hpp"
 #include "run/messages.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
 /// Warns if discs go noticeably far in the rounding of a time. Throws InputError on
 /// every rank if they cross a box with periodic sides more often than can be counted.
 /// **Collective.**
-void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks,
-                       const Messages& messages);
+void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
+                       const Communicator& ranks, const Messages& messages);
 
 /// Warns of discs at the scene's start whose fate rounding or the order of ids decides: they
 /// overlap (in the time-stepped method), touch several others, or slide along each other.
-void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages);
+void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
+                         const Messages& messages);
 
 /// Returns a warning if the ranks' strips are so narrow that more discs lie in halos than in
 /// strips, and an empty text otherwise. The time-stepped method gets none, because its halos are
 /// not as deep.
-std::string warning_of_narrow_strips(const Scene& scene, int n_ranks, int n_threads);
+std::string warning_of_narrow_strips(const SceneParameters& scene, int n_ranks, int n_threads);
 
 } // namespace carrom

@@ -18,7 +18,7 @@ namespace carrom {
 
 namespace {
 
-std::string path_of(const Scene& scene, const MeasuredTable& table) {
+std::string path_of(const SceneParameters& scene, const MeasuredTable& table) {
     return (std::filesystem::path(scene.measurements->folder) / (table.name + ".csv")).string();
 }
 
@@ -44,7 +44,7 @@ std::string csv_of(const MeasuredTable& table, const std::string& scene_name) {
     return text + '\n' + lines_of(table.rows);
 }
 
-void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
+void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks) {
     std::string failure;
     if (ranks.is_root()) {

@@ -10,7 +10,7 @@
 
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -18,14 +18,15 @@ std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 
 /// Writes each table that does not grow as a whole file in the scene's folder for measurements,
 /// on rank 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
-void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
+void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 
 /// The files of tables that grow by a line at each sample. A line is in the file by
 /// the end of its step. Files end with whole lines, unless the machine goes down.
 class GrowingFiles {
 public:
-    GrowingFiles(const Scene& scene, const Communicator& ranks) : scene_(scene), ranks_(ranks) {}
+    GrowingFiles(const SceneParameters& scene, const Communicator& ranks)
+        : scene_(scene), ranks_(ranks) {}
 
     /// Rank 0 writes the rows that the files lack; the first time it makes new files.
     /// Throws like `write_tables`, also if a file is not as this has left it. **Collective.**
@@ -34,7 +35,7 @@ public:
 private:
     std::string add_rows(const MeasuredTable& rows);
 
-    const Scene& scene_;
+    const SceneParameters& scene_;
     const Communicator& ranks_;
     std::size_t n_written_ = 0;
     std::map<std::string, std::uint64_t> sizes_; ///< in bytes, by path, on rank 0

@@ -74,7 +74,7 @@ void Recordings::open_trajectory() {
 void Recordings::open_log() {
     const std::int64_t step = run_.step();
     log_.emplace(scene_.collisions->file, system_of(scene_), ranks_);
-    run_.simulation().log_to(&collisions_);
+    run_.system().log_to(&collisions_);
     if (!run_.is_restart()) return;
     if (!log_->go_on(step) && step > 0)
         messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
@@ -109,8 +109,8 @@ std::int64_t Recordings::next_due(std::int64_t step) const {
 }
 
 bool Recordings::act() {
-    const Simulation& simulation = run_.simulation();
-    const std::int64_t step = simulation.step();
+    const DiscSystem& system = run_.system();
+    const std::int64_t step = system.step();
     if (log_) record_collisions(step);
     add_rows();
     ImageCounts* const counts = run_.images();
@@ -118,10 +118,10 @@ bool Recordings::act() {
     if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
         std::vector<BondOrder> orders; // first, because finding them moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
-            orders = simulation.bond_orders();
+            orders = system.bond_orders();
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};
-        trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.side_columns(),
-                            orders, images);
+        trajectory_->append(step, system.shown(), system.clock(), system.side_columns(), orders,
+                            images);
     }
     commit_now_and_then();
     return true;

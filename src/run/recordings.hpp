@@ -17,8 +17,8 @@
 #include "run/measured_files.hpp"
 #include "run/messages.hpp"
 #include "run/run.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -56,7 +56,7 @@ private:
     void commit_now_and_then();
 
     Run& run_;
-    const Scene& scene_;
+    const SceneParameters& scene_;
     const Communicator& ranks_;
     const Messages& messages_;
     std::optional<Trajectory> trajectory_;

@@ -14,30 +14,29 @@ namespace carrom {
 namespace {
 
 /// Returns the scene with a method and micro-steps. **Collective.**
-Scene decided(Scene scene, const RunStart& start, const Communicator& ranks, const Tuning& tuning,
-              const Messages& messages) {
+SceneParameters decided(SceneParameters scene, const RunStart& start, const Communicator& ranks,
+                        const Tuning& tuning, const Messages& messages) {
     if (scene.accuracy) choose_setting(scene, start.discs, messages, ranks, tuning);
     return scene;
 }
 
 /// **Collective.**
-Simulation simulation_from(const Scene& scene, RunStart& start, const Communicator& ranks,
-                           const Tuning& tuning) {
-    if (start.stored) return Simulation(scene, std::move(*start.stored), ranks, tuning);
-    return Simulation(scene, std::move(start.discs), ranks, tuning);
+DiscSystem system_from(const SceneParameters& scene, RunStart& start, const Communicator& ranks,
+                       const Tuning& tuning) {
+    if (start.stored) return DiscSystem(scene, std::move(*start.stored), ranks, tuning);
+    return DiscSystem(scene, std::move(start.discs), ranks, tuning);
 }
 
 } // namespace
 
-Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
+Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
          const Messages& messages)
     : ranks_(ranks), scene_(decided(std::move(scene), start, ranks_, tuning, messages)),
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
-      simulation_(simulation_from(scene_, start, ranks_, tuning)),
-      sampler_(scene_, simulation_, ranks_) {
-    refuse_hard_cases(scene_, simulation_, ranks_, messages);
+      system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_) {
+    refuse_hard_cases(scene_, system_, ranks_, messages);
     if (scene_.trajectory && scene_.trajectory->has_image) {
-        images_.emplace(scene_.box, simulation_, ranks_);
+        images_.emplace(scene_.box, system_, ranks_);
         has_earlier_images_ = start.samples.have_images;
         if (has_earlier_images_)
             images_->go_on(start.samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
@@ -48,7 +47,7 @@ Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& t
 
 bool Run::advance_to(std::int64_t last_step) {
     try {
-        return carrom::advance_to(simulation_, last_step, actions_, &seconds_);
+        return carrom::advance_to(system_, last_step, actions_, &seconds_);
     } catch (const CheckFailure& failure) {
         throw reported(failure, scene_, ranks_);
     }
@@ -67,9 +66,9 @@ StoredSamples Run::stored_samples() {
 
 void Run::write_checkpoint(const std::string& path, Transfers transfers) {
     commit();
-    carrom::write_checkpoint(path, header_now(scene_, simulation_), simulation_.discs(), ranks_,
+    carrom::write_checkpoint(path, header_now(scene_, system_), system_.discs(), ranks_,
                              {n_threads_, transfers == Transfers::collective}, stored_samples(),
-                             simulation_.side_columns());
+                             system_.side_columns());
 }
 
 } // namespace carrom

@@ -17,9 +17,9 @@
 #include "parallel/communicator.hpp"
 #include "run/messages.hpp"
 #include "run/start/run_start.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "simulation/advance.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -28,18 +28,18 @@ public:
     /// Begins at step 0, or goes on from a stored state. Lets a pilot choose method and
     /// micro-steps if the scene has `time.accuracy`. Throws InputError on every rank for a scene
     /// whose numbers cannot be resolved. Takes the first sample if it is due. **Collective.**
-    Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
+    Run(SceneParameters scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
         const Messages& messages = {});
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    const Scene& scene() const { return scene_; } ///< with the pilot's choice
+    const SceneParameters& scene() const { return scene_; } ///< with the pilot's choice
     const Communicator& ranks() const { return ranks_; }
     int n_threads() const { return n_threads_; } ///< on this rank
     bool is_restart() const { return is_restart_; }
-    Simulation& simulation() { return simulation_; }
-    const Simulation& simulation() const { return simulation_; }
-    std::int64_t step() const { return simulation_.step(); }
+    DiscSystem& system() { return system_; }
+    const DiscSystem& system() const { return system_; }
+    std::int64_t step() const { return system_.step(); }
 
     /// The averages, and the measurements that the scene asks for.
     Sampler& sampler() { return sampler_; }
@@ -67,10 +67,10 @@ public:
 
 private:
     const Communicator ranks_;
-    Scene scene_;
+    SceneParameters scene_;
     bool is_restart_, has_earlier_images_ = false;
     int n_threads_;
-    Simulation simulation_;
+    DiscSystem system_;
     std::optional<ImageCounts> images_;
     Sampler sampler_;
     /// The sampler is the first, so that all others see the sample of the present step.

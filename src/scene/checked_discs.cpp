@@ -25,7 +25,7 @@ std::string body_problem(double radius, double mass) {
     return text.empty() ? column_problem(DiscColumn::mass, mass) : text;
 }
 
-std::string number_problem(const Scene& scene, SideColumn column, double number) {
+std::string number_problem(const SceneParameters& scene, SideColumn column, double number) {
     std::string text = column_problem(disc_column_of(column), number);
     if (!text.empty() || column != SideColumn::spin ||
         scene.effects.contact.kind == ContactKind::rough)
@@ -82,7 +82,7 @@ void check_numbers(const SceneDraft& draft) {
 
 /// The count may be given, or follow from a list or from species. All that are given must agree.
 void fill_count(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     std::uint64_t n_in_species = 0;
     for (const Species& one : scene.effects.species) n_in_species += one.count;
     const std::pair<std::string_view, std::uint64_t> sources[] = {
@@ -106,7 +106,7 @@ void fill_count(const SceneDraft& draft) {
 
 /// The widths that positions and numbers of a precision allow.
 void check_width(const SceneDraft& draft, double smallest_radius) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
     if (l / r > largest_box_in_radii) {
         const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} "
@@ -127,7 +127,7 @@ void check_width(const SceneDraft& draft, double smallest_radius) {
 
 /// Whether the discs can fit at all.
 void check_sizes(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const auto& species = scene.effects.species;
     double smallest = scene.radius;
     for (const Species& one : species) smallest = std::min(smallest, one.radius);
@@ -182,7 +182,7 @@ bool check_distribution(const SceneDraft& draft) {
 
 /// Fills in box and radius. Returns true if they are known and the discs may fit.
 bool fill_sizes(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const Settings& settings = draft.settings;
     const std::size_t n_problems = draft.problems.size();
     const bool has_radius = settings.has("discs.radius");
@@ -213,7 +213,7 @@ bool fill_sizes(const SceneDraft& draft) {
 
 /// The lattice of a periodic box must fit it, and have room for the discs.
 void check_triangular(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return; // rules.cpp
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     if (!lattice)
@@ -235,7 +235,7 @@ void check_triangular(const SceneDraft& draft) {
 
 /// Random insertion stalls at a packing fraction of about 0.54: denser gases start from a lattice.
 void check_generator(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     if (scene.generator == Generator::random &&
         scene.packing() > largest_random_packing * (1 + 1e-12)) {
         scene.generator = Generator::lattice;
@@ -260,7 +260,7 @@ void check_generator(const SceneDraft& draft) {
 
 /// The lightest discs are the fastest ones.
 void check_temperature(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;
     double lightest = scene.effects.species.empty() ? 1 : INFINITY;
     for (const Species& one : scene.effects.species) lightest = std::min(lightest, one.mass);
@@ -273,7 +273,7 @@ void check_temperature(const SceneDraft& draft) {
 }
 
 void check_velocities(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     if (scene.generator == Generator::legacy && scene.seed > 0xFFFFFFFFu)
         draft.refuse({"discs.seed"}, fmt::format("'discs.seed' must be from 0 to 4294967295 with "
                                                  "discs.generator = \"legacy\", not {}",
@@ -304,7 +304,7 @@ bool are_radii_unknown(const SceneDraft& draft) {
 } // namespace
 
 bool check_discs(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const bool is_legacy_text = scene.lines_before_discs > 0;
     if (scene.generator == Generator::file && !is_legacy_text &&
         !draft.settings.has("discs.file") && !draft.settings.has("discs.list") &&

@@ -32,7 +32,7 @@ void take_values(const SceneDraft& draft) {
 
 /// Defaults that depend on other keys.
 void derive_defaults(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const Settings& settings = draft.settings;
     if (!settings.has("discs.generator") &&
         (settings.has("discs.file") || settings.has("discs.list") || settings.has("discs.from")))
@@ -48,7 +48,7 @@ void derive_defaults(const SceneDraft& draft) {
 
 /// All outputs of a run have their places in one folder. A run with a folder stores checkpoints.
 void place_outputs(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     if (scene.folder.empty()) return;
     if (!scene.checkpoint) scene.checkpoint.emplace();
     scene.checkpoint->folder = scene.folder + "/checkpoints";
@@ -121,7 +121,8 @@ void check_rules(const SceneDraft& draft) {
 
 } // namespace
 
-void fill_scene(Scene& scene, Settings& settings, Problems& problems, const DiscColumns* columns) {
+void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
+                const DiscColumns* columns) {
     const SceneDraft draft{scene, settings, problems, columns};
     take_values(draft);
     derive_defaults(draft);

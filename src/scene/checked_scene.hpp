@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns settings into a Scene: values, and how they go together. Every error becomes a
+// Turns settings into SceneParameters: values, and how they go together. Every error becomes a
 // problem with its line. The scene is usable only if there are none.
 #pragma once
 
@@ -11,6 +11,7 @@ namespace carrom {
 /// Fills in all but the name and the text. Without a valid `discs.count` the number of
 /// discs is 0; if box and radius are not valid together both are 0. `columns` are
 /// those of `discs.columns`, if they have been read.
-void fill_scene(Scene& scene, Settings& settings, Problems& problems, const DiscColumns* columns);
+void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
+                const DiscColumns* columns);
 
 } // namespace carrom

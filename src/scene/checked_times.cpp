@@ -46,7 +46,7 @@ void check_samples(const SceneDraft& draft) {
 
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why) {
     constexpr std::string_view key = "effects.contact.contact_time";
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     double& time = scene.effects.contact.contact_time;
     if (!lose_energy_or_fall(scene.effects)) return;
     if (!draft.settings.has(key)) time = std::min(time, longest);
@@ -56,7 +56,7 @@ void limit_contact_time(const SceneDraft& draft, double longest, std::string_vie
 }
 
 void check_times(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     if (scene.steps > largest_steps / scene.micro_steps)
         draft.refuse({"time.steps"}, fmt::format("{} steps of {} micro-steps are more than 2^53 "
                                                  "micro-steps",

@@ -10,13 +10,14 @@ namespace carrom {
 
 namespace {
 
-std::string shown(const Key& key, const Scene& scene) {
+std::string shown(const Key& key, const SceneParameters& scene) {
     const Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
     return value.is_nothing() ? "not set" : toml_text(key, value);
 }
 
 /// Empty if the key is the same in both, or is not compared.
-std::string difference_in(const Key& key, const Scene& there, const Scene& here) {
+std::string difference_in(const Key& key, const SceneParameters& there,
+                          const SceneParameters& here) {
     const bool is_there = key.has_meaning(there), is_here = key.has_meaning(here);
     const bool is_about_generator = key.need && key.need->is_of_generator;
     if (!key.is_physical || key.is_same(there, here) || (!is_there && !is_here)) return {};
@@ -28,7 +29,8 @@ std::string difference_in(const Key& key, const Scene& there, const Scene& here)
 
 } // namespace
 
-std::vector<std::string> physical_differences(const Scene& there, const Scene& here) {
+std::vector<std::string> physical_differences(const SceneParameters& there,
+                                              const SceneParameters& here) {
     std::vector<std::string> differences;
     for (const Key& key : keys())
         if (std::string text = difference_in(key, there, here); !text.empty())

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 /// One line for each setting that differs, "'discs.seed' is 1 there and 2 here". The
 /// length of a run and its outputs are not compared, nor lines of discs in files.
-std::vector<std::string> physical_differences(const Scene& there, const Scene& here);
+std::vector<std::string> physical_differences(const SceneParameters& there,
+                                              const SceneParameters& here);
 
 } // namespace carrom

@@ -52,7 +52,7 @@ void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double numbe
         runs.push_back({end, number});
 }
 
-bool has_column(const Scene& scene, DiscColumn column) {
+bool has_column(const SceneParameters& scene, DiscColumn column) {
     return std::find(scene.disc_columns.begin(), scene.disc_columns.end(), column) !=
            scene.disc_columns.end();
 }
@@ -69,7 +69,7 @@ const char* name_of(DiscColumn column) {
                                         : info_of(side_column_of(column)).name;
 }
 
-DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
+DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene) {
     DiscColumns found;
     found.is_whole = false;
     std::vector<Row> rows;

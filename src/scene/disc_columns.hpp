@@ -10,7 +10,7 @@
 #include <istream>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -24,9 +24,9 @@ struct DiscColumns {
 
 /// Reads all lines of `stream`: `id x y vx vy` and the scene's columns. Takes 32 bytes
 /// a disc while it reads.
-DiscColumns read_disc_columns(std::istream& stream, const Scene& scene);
+DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene);
 
-bool has_column(const Scene& scene, DiscColumn column);
+bool has_column(const SceneParameters& scene, DiscColumn column);
 /// The place for the column's number of a disc.
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.

@@ -23,7 +23,7 @@ std::string columns_text(const std::vector<DiscColumn>& columns) {
 
 } // namespace
 
-DiscReader::DiscReader(std::istream& stream, const Scene& scene)
+DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene)
     : scene_(scene), species_(scene.effects.species, scene.radius),
       place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
       lines_(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
@@ -153,7 +153,7 @@ std::string DiscReader::missing_ids() const {
                        list);
 }
 
-std::vector<Problem> disc_line_problems(std::istream& stream, const Scene& scene) {
+std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene) {
     constexpr std::size_t chunk_size = 4096;
     DiscReader reader(stream, scene);
     std::vector<InputDisc> chunk;

@@ -16,7 +16,7 @@
 
 #include "core/errors.hpp"
 #include "scene/line_reader.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -28,7 +28,7 @@ public:
 
     /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the
     /// reader.
-    DiscReader(std::istream& stream, const Scene& scene);
+    DiscReader(std::istream& stream, const SceneParameters& scene);
 
     /// Replaces `chunk` by the next discs, at most `limit`; false if none are left.
     bool read(std::vector<InputDisc>& chunk, std::size_t limit);
@@ -46,7 +46,7 @@ private:
     std::uint64_t most_discs()
         const; ///< N, or what it can be at most where the scene has no right one
 
-    const Scene& scene_;
+    const SceneParameters& scene_;
     SpeciesTable species_;
     std::string place_;
     LineReader lines_;
@@ -60,6 +60,6 @@ private:
 /// Everything wrong with the lines of `stream`, as DiscReader has it, and keeps no disc. The scene
 /// may have problems of its own: without a number of discs (0) none is missing, without a box (0)
 /// none is outside.
-std::vector<Problem> disc_line_problems(std::istream& stream, const Scene& scene);
+std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene);
 
 } // namespace carrom

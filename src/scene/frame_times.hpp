@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 

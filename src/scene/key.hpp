@@ -2,8 +2,8 @@
 // The one declaration of each scene key. The reader of scenes and its checks, `--set`, the
 // comparison at a restart, the writer of scenes and the reference page all work from this table.
 //
-// To add a key: add a member to Scene, and declare the key in the file of its effect or side,
-// or in a keys_of_*.cpp. What it does not go with is a rule there, or a row of rules.cpp.
+// To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
+// side, or in a keys_of_*.cpp. What it does not go with is a rule there, or a row of rules.cpp.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "scene/settings.hpp"
 
 namespace carrom {
@@ -43,7 +43,7 @@ struct Range {
 /// What a key has no meaning without.
 struct Need {
     std::string text; ///< goes on after "has no meaning"
-    std::function<bool(const Scene&)> holds;
+    std::function<bool(const SceneParameters&)> holds;
     bool is_of_generator = false; ///< depends on discs.generator alone
 };
 
@@ -76,9 +76,11 @@ struct Key {
     Kind kind = Kind::number;
     std::vector<std::string_view> words = {};
     std::vector<std::pair<std::string_view, std::string_view>> old_words = {}; ///< and new ones
-    std::function<Value(const Scene&)> get = {}; ///< nothing where it is not to be written
-    std::function<void(Scene&, const Value&)> set = {};
-    std::function<bool(const Scene&, const Scene&)> compare = {}; ///< where values say too little
+    /// The value; nothing if it is not to be written.
+    std::function<Value(const SceneParameters&)> get = {};
+    std::function<void(SceneParameters&, const Value&)> set = {};
+    /// True if two scenes have the same here; set where `get` cannot give all of it.
+    std::function<bool(const SceneParameters&, const SceneParameters&)> compare = {};
 
     using Names = std::vector<std::string_view>;
     Key&& by_default(std::string_view text) && { return fallback = text, std::move(*this); }
@@ -100,22 +102,22 @@ struct Key {
 
     std::string_view table() const { return std::string_view(name).substr(0, name.rfind('.')); }
     bool has_rows() const { return kind == Kind::rows || kind == Kind::tables; }
-    bool is_same(const Scene& a, const Scene& b) const {
+    bool is_same(const SceneParameters& a, const SceneParameters& b) const {
         return compare ? compare(a, b) : get(a) == get(b);
     }
-    bool has_meaning(const Scene& scene) const { return !need || need->holds(scene); }
+    bool has_meaning(const SceneParameters& scene) const { return !need || need->holds(scene); }
 };
 
 /// A table that keys stand in.
 struct Table {
     std::string name;
     std::string_view help = "";
-    bool (*is_in)(const Scene&) = [](const Scene&) { return true; };
-    void (*create)(Scene&) = [](Scene&) {};
+    bool (*is_in)(const SceneParameters&) = [](const SceneParameters&) { return true; };
+    void (*create)(SceneParameters&) = [](SceneParameters&) {};
     bool is_like_another = false; ///< the reference shows the other one
 
     /// A scene without the table lacks what it is about.
-    bool is_optional() const { return !is_in(Scene{}); }
+    bool is_optional() const { return !is_in(SceneParameters{}); }
 };
 
 /// Two features that do not go together.
@@ -123,7 +125,7 @@ struct Rule {
     std::string_view one, other, why;
     std::vector<std::string_view> keys;        ///< the first of them that is there has the problem
     std::optional<BoundaryKind> boundary = {}; ///< or the first side of this kind
-    bool (*is_broken)(const Scene&);
+    bool (*is_broken)(const SceneParameters&);
 };
 
 /// All of them, in the order of the reference.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills in the rest of a key from a member of Scene: kind, words, and how values come and go.
+// Fills in the rest of a key from a member of SceneParameters: kind, words, and how its value is
+// read and set.
 #pragma once
 
 #include <array>
@@ -174,14 +175,16 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);
-    using Member = std::remove_cvref_t<decltype(member(std::declval<Scene&>()))>;
+    using Member = std::remove_cvref_t<decltype(member(std::declval<SceneParameters&>()))>;
     declared.kind = kind_of<Member>();
     if constexpr (std::is_enum_v<Member>) add_words<Member>(declared);
     if constexpr (is_list<Member>)
         if constexpr (std::is_enum_v<typename Member::value_type>)
             add_words<typename Member::value_type>(declared);
-    declared.get = [member](const Scene& scene) { return value_of(member(scene)); };
-    declared.set = [member](Scene& scene, const Value& value) { assign(member(scene), value); };
+    declared.get = [member](const SceneParameters& scene) { return value_of(member(scene)); };
+    declared.set = [member](SceneParameters& scene, const Value& value) {
+        assign(member(scene), value);
+    };
     return declared;
 }
 
@@ -198,14 +201,14 @@ Key flags_key(std::string name, std::string_view unit, std::string_view help, co
     Key declared = named_key(std::move(name), unit, help);
     declared.kind = Kind::words;
     for (const auto& flag : flags) declared.words.push_back(flag.word);
-    declared.get = [member, flags](const Scene& scene) {
+    declared.get = [member, flags](const SceneParameters& scene) {
         Object object = member(scene);
         Values words;
         for (const auto& flag : flags)
             if (flag.of(object)) words.push_back({std::string(flag.word)});
         return Value{std::move(words)};
     };
-    declared.set = [member, flags](Scene& scene, const Value& value) {
+    declared.set = [member, flags](SceneParameters& scene, const Value& value) {
         const Values& words = std::get<Values>(value.data);
         for (const auto& flag : flags)
             flag.of(member(scene)) = std::any_of(words.begin(), words.end(), [&](const Value& one) {

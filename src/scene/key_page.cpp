@@ -56,13 +56,13 @@ std::string type_text(const Key& key) {
     }
 }
 
-std::string default_text(const Key& key, const Scene& plain) {
+std::string default_text(const Key& key, const SceneParameters& plain) {
     if (!key.fallback.empty()) return std::string(key.fallback);
     if (key.is_required) return "required";
     return code(toml_text(key, key.get(plain)));
 }
 
-std::string row_of(const Key& key, const Scene& plain) {
+std::string row_of(const Key& key, const SceneParameters& plain) {
     std::string condition;
     if (key.need) condition += fmt::format(" No meaning {}.", key.need->text);
     condition += joined(key.or_from, "Not required with") + joined(key.instead_of, "Not with");
@@ -82,7 +82,7 @@ std::string conflicts_page() {
 }
 
 std::string key_page() {
-    Scene plain;
+    SceneParameters plain;
     for (const Table& table : tables()) table.create(plain);
     std::string text{opening};
     for (const Table& table : tables()) {

@@ -12,28 +12,31 @@ namespace {
 
 constexpr Range lengths{smallest_length, largest_size};
 
-const Need equal_discs{
-    "where 'discs.species', 'discs.list' or 'discs.columns' name radii",
-    [](const Scene& s) { return s.effects.species.empty() && !has_column(s, DiscColumn::radius); }};
+const Need equal_discs{"where 'discs.species', 'discs.list' or 'discs.columns' name radii",
+                       [](const SceneParameters& s) {
+                           return s.effects.species.empty() && !has_column(s, DiscColumn::radius);
+                       }};
 const Need listed{"without discs.generator = \"file\"",
-                  [](const Scene& s) { return s.generator == Generator::file; }, true};
+                  [](const SceneParameters& s) { return s.generator == Generator::file; }, true};
 const Need random_speeds{"where discs are listed, or with discs.generator = \"legacy\"",
-                         [](const Scene& s) {
+                         [](const SceneParameters& s) {
                              return s.generator != Generator::file &&
                                     s.generator != Generator::legacy;
                          },
                          true};
 const Need compressed{"without discs.generator = \"compressed\"",
-                      [](const Scene& s) { return s.generator == Generator::compressed; }, true};
+                      [](const SceneParameters& s) { return s.generator == Generator::compressed; },
+                      true};
 const Need generated{"where discs are listed",
-                     [](const Scene& s) { return s.generator != Generator::file; }, true};
+                     [](const SceneParameters& s) { return s.generator != Generator::file; }, true};
 const Need not_legacy{"with discs.generator = \"legacy\"",
-                      [](const Scene& s) { return s.generator != Generator::legacy; }, true};
+                      [](const SceneParameters& s) { return s.generator != Generator::legacy; },
+                      true};
 const Need naive{"without time.arithmetic = \"naive\"",
-                 [](const Scene& s) { return s.arithmetic == Arithmetic::naive; }};
+                 [](const SceneParameters& s) { return s.arithmetic == Arithmetic::naive; }};
 
 /// Rows [x, y, vx, vy], then radius and mass, or the spin, or all three. Ids are their order.
-void set_list(Scene& scene, const Value& value) {
+void set_list(SceneParameters& scene, const Value& value) {
     bool have_spins = false;
     std::vector<NumberRun> spins;
     for (const Value& row : std::get<Values>(value.data)) {
@@ -47,13 +50,13 @@ void set_list(Scene& scene, const Value& value) {
 }
 
 /// Columns that a list cannot hold are written in `discs.species`.
-bool are_species_listed(const Scene& scene) {
+bool are_species_listed(const SceneParameters& scene) {
     return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
         return column != SideColumn::spin && !scene.first_numbers[column].empty();
     });
 }
 
-Value get_list(const Scene& scene) {
+Value get_list(const SceneParameters& scene) {
     if (scene.listed_discs.empty()) return {};
     const SpeciesTable species(scene.effects.species, scene.radius);
     Values rows;
@@ -73,7 +76,7 @@ Value get_list(const Scene& scene) {
 /// The place of a column's number in rows of species, after count, radius and mass.
 constexpr std::size_t place_of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
 
-void set_species(Scene& scene, const Value& value) {
+void set_species(SceneParameters& scene, const Value& value) {
     FirstNumbers numbers;
     for (const Value& row : std::get<Values>(value.data)) {
         if (row.is_nothing()) continue;
@@ -90,7 +93,7 @@ void set_species(Scene& scene, const Value& value) {
     }
 }
 
-Value get_species(const Scene& scene) {
+Value get_species(const SceneParameters& scene) {
     const auto& species = scene.effects.species;
     if (species.empty() || scene.sizes || has_column(scene, DiscColumn::radius) ||
         (!scene.listed_discs.empty() && !are_species_listed(scene)))
@@ -130,7 +133,9 @@ Key list_key() {
                   .with_rows({{"", "[x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 4, 7}});
     key.get = get_list;
     key.set = set_list;
-    key.compare = [](const Scene& a, const Scene& b) { return a.listed_discs == b.listed_discs; };
+    key.compare = [](const SceneParameters& a, const SceneParameters& b) {
+        return a.listed_discs == b.listed_discs;
+    };
     return key;
 }
 
@@ -146,7 +151,7 @@ Key species_key() {
                   .with_rows(fields);
     key.get = get_species;
     key.set = set_species;
-    key.compare = [](const Scene& a, const Scene& b) {
+    key.compare = [](const SceneParameters& a, const SceneParameters& b) {
         return a.effects.species == b.effects.species;
     };
     return key;
@@ -161,8 +166,8 @@ Key packing_key() {
                       {0, largest_packing, true, false, "equal discs cover no more of the plane"})
                   .needs(equal_discs)
                   .excludes({"discs.radius"});
-    key.get = [](const Scene&) { return Value{}; };
-    key.set = [](Scene&, const Value&) {};
+    key.get = [](const SceneParameters&) { return Value{}; };
+    key.set = [](SceneParameters&, const Value&) {};
     return key;
 }
 
@@ -174,7 +179,9 @@ Key count_key() {
                     .within({1, static_cast<double>(largest_count)})
                     .required()
                     .unless({"discs.list", "discs.species", "discs.from"});
-    count.get = [](const Scene& s) { return s.n_discs == 0 ? Value{} : value_of(s.n_discs); };
+    count.get = [](const SceneParameters& s) {
+        return s.n_discs == 0 ? Value{} : value_of(s.n_discs);
+    };
     return count;
 }
 
@@ -242,7 +249,8 @@ std::vector<Key> keys_of_other_runs() {
             [](auto& s) -> auto& { return s.discs_from_step; })
             .by_default("the last frame")
             .within({0, largest_steps})
-            .needs({"without 'discs.from'", [](const Scene& s) { return !s.discs_from.empty(); }})
+            .needs({"without 'discs.from'",
+                    [](const SceneParameters& s) { return !s.discs_from.empty(); }})
             .not_physical(),
     };
 }

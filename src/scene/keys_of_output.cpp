@@ -13,15 +13,18 @@ constexpr Range at_least_one{.low = 1}; ///< the unit of a number of words
 
 /// A key for words that have no enumeration in the scene. An empty value is not written.
 Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
-           std::string (*word_of)(const Scene&), void (*take)(Scene&, const std::string&)) {
+           std::string (*word_of)(const SceneParameters&),
+           void (*take)(SceneParameters&, const std::string&)) {
     Key key = named_key(std::move(name), "", help);
     key.kind = Kind::choice;
     key.words = std::move(words);
-    key.get = [word_of](const Scene& s) {
+    key.get = [word_of](const SceneParameters& s) {
         const std::string word = word_of(s);
         return word.empty() ? Value{} : Value{word};
     };
-    key.set = [take](Scene& s, const Value& value) { take(s, std::get<std::string>(value.data)); };
+    key.set = [take](SceneParameters& s, const Value& value) {
+        take(s, std::get<std::string>(value.data));
+    };
     return key;
 }
 
@@ -29,8 +32,8 @@ Key collision_log() {
     Key key = named_key("output.collisions", "", "Whether every collision is recorded.");
     key.kind = Kind::flag;
     key.fallback = "false";
-    key.get = [](const Scene& s) { return Value{s.collisions.has_value()}; };
-    key.set = [](Scene& s, const Value& value) {
+    key.get = [](const SceneParameters& s) { return Value{s.collisions.has_value()}; };
+    key.set = [](SceneParameters& s, const Value& value) {
         if (std::get<bool>(value.data)) s.collisions.emplace();
     };
     return key;
@@ -99,20 +102,23 @@ std::vector<Key> keys_of_recordings() {
         choice(
             "output.trajectory.precision", "Precision of the numbers in the file.",
             {"single", "double"},
-            [](const Scene& s) {
+            [](const SceneParameters& s) {
                 return std::string(s.trajectory->is_single ? "single" : "double");
             },
-            [](Scene& s, const std::string& word) { s.trajectory->is_single = word == "single"; }),
+            [](SceneParameters& s, const std::string& word) {
+                s.trajectory->is_single = word == "single";
+            }),
         collision_log(),
         choice(
             "output.units.length", "Unit of lengths that HDF5 files name; no number depends on it.",
-            {"m", "cm", "mm", "um", "nm", "pm"}, [](const Scene& s) { return s.length_unit; },
-            [](Scene& s, const std::string& word) { s.length_unit = word; })
+            {"m", "cm", "mm", "um", "nm", "pm"},
+            [](const SceneParameters& s) { return s.length_unit; },
+            [](SceneParameters& s, const std::string& word) { s.length_unit = word; })
             .by_default("none"),
         choice(
             "output.units.time", "And of steps.", {"s", "ms", "us", "ns", "ps", "fs"},
-            [](const Scene& s) { return s.time_unit; },
-            [](Scene& s, const std::string& word) { s.time_unit = word; })
+            [](const SceneParameters& s) { return s.time_unit; },
+            [](SceneParameters& s, const std::string& word) { s.time_unit = word; })
             .by_default("none"),
     };
 }
@@ -121,12 +127,12 @@ Key measured_quantities() {
     Key key = named_key(std::string(quantities_key), "", "What is measured.");
     key.kind = Kind::words;
     for (const Quantity& quantity : declared_quantities()) key.words.push_back(quantity.name);
-    key.get = [](const Scene& s) {
+    key.get = [](const SceneParameters& s) {
         Values words;
         for (const std::string& quantity : s.measurements->quantities) words.push_back({quantity});
         return Value{std::move(words)};
     };
-    key.set = [](Scene& s, const Value& value) {
+    key.set = [](SceneParameters& s, const Value& value) {
         s.measurements->quantities.clear();
         for (const Value& word : std::get<Values>(value.data))
             if (!word.is_nothing())

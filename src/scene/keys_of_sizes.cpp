@@ -19,12 +19,12 @@ namespace {
 constexpr Range shares{0x1p-20, 0x1p20};
 
 /// Those of the scene. Scenes without the table have the defaults.
-const SizeDistribution& sizes_of(const Scene& scene) {
+const SizeDistribution& sizes_of(const SceneParameters& scene) {
     static const SizeDistribution defaults;
     if (scene.sizes) return *scene.sizes;
     return defaults;
 }
-SizeDistribution& sizes_of(Scene& scene) {
+SizeDistribution& sizes_of(SceneParameters& scene) {
     return scene.sizes ? *scene.sizes : scene.sizes.emplace();
 }
 
@@ -34,7 +34,7 @@ Key size_key(std::string_view name, std::string_view unit, std::string_view help
     return key("discs.radius." + std::string(name), unit, help,
                [member](auto& scene) -> auto& { return sizes_of(scene).*member; })
         .needs({"without a distribution of radii",
-                [](const Scene& s) { return s.sizes.has_value(); }});
+                [](const SceneParameters& s) { return s.sizes.has_value(); }});
 }
 
 } // namespace

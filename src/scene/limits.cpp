@@ -41,7 +41,7 @@ std::string velocity_problem(double component) {
     return {};
 }
 
-std::string speed_problem(double speed, const Scene& scene) {
+std::string speed_problem(double speed, const SceneParameters& scene) {
     const double most = most_crossings * scene.box.shortest() *
                         static_cast<double>(scene.micro_steps);
     if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
@@ -51,7 +51,7 @@ std::string speed_problem(double speed, const Scene& scene) {
                        speed, most);
 }
 
-std::string units_warning(double fastest, double later, const Scene& scene) {
+std::string units_warning(double fastest, double later, const SceneParameters& scene) {
     constexpr double most_diameters = 1000;
     const double diameters = std::max(fastest, later) / (2 * scene.radius);
     if (!(diameters > most_diameters)) return {};
@@ -84,7 +84,7 @@ std::string column_problem(DiscColumn column, double number) {
 namespace {
 
 /// The places allowed for centres of discs of this radius.
-std::string room_text(const Scene& scene, double radius) {
+std::string room_text(const SceneParameters& scene, double radius) {
     const Box& box = scene.box;
     const std::string room = box.is_square()
                                  ? fmt::format("L - r = {}", box.x - radius)
@@ -99,7 +99,7 @@ std::string room_text(const Scene& scene, double radius) {
 
 } // namespace
 
-std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius) {
+std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, double radius) {
     std::string all;
     const auto add = [&all](const std::string& text) {
         if (!text.empty()) all += (all.empty() ? "" : "; ") + text;

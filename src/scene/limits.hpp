@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -40,11 +40,11 @@ bool lose_energy_or_fall(const Effects& effects);
 std::string velocity_problem(double component);
 
 /// The problem of a speed in this scene, with its box and method, or empty. The box may be 0.
-std::string speed_problem(double speed, const Scene& scene);
+std::string speed_problem(double speed, const SceneParameters& scene);
 
 /// A warning about discs so fast that their unit may be mistaken, or empty. `fastest` is the
 /// largest speed at the start, `later` one that walls and effects give to discs.
-std::string units_warning(double fastest, double later, const Scene& scene);
+std::string units_warning(double fastest, double later, const SceneParameters& scene);
 
 /// The problem of a disc's radius, mass or number in another column, or empty.
 std::string column_problem(DiscColumn column, double number);
@@ -52,6 +52,6 @@ std::string column_problem(DiscColumn column, double number);
 /// All problems of a disc in an input, or empty: a centre outside [r, L-r], r its
 /// `radius` (by more than the rounding of L), or a velocity out of range. If the scene
 /// has no valid box any centre is accepted.
-std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius);
+std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, double radius);
 
 } // namespace carrom

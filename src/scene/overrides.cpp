@@ -21,7 +21,7 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given) 
     const bool lists_discs = given.has("discs.file") || given.has("discs.list") ||
                              given.has("discs.from");
     if (lists_discs) settings.remove("discs.generator");
-    Scene chosen;
+    SceneParameters chosen;
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)
@@ -36,7 +36,8 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given) 
 
 /// Puts the right ones of these settings into scenes, but for lists, which are long, and for tables
 /// that a scene may lack.
-void take_right_values(const std::vector<Setting>& all, std::initializer_list<Scene*> scenes) {
+void take_right_values(const std::vector<Setting>& all,
+                       std::initializer_list<SceneParameters*> scenes) {
     for (const Setting& one : all) {
         const Key* key = find_key(one.key);
         if (!key || one.is_wrong || key->has_rows() || find_table(key->table())->is_optional())
@@ -45,7 +46,7 @@ void take_right_values(const std::vector<Setting>& all, std::initializer_list<Sc
         Problems ignored; // they are reported elsewhere
         check_value(*key, setting, ignored);
         if (setting.is_wrong) continue;
-        for (Scene* scene : scenes) key->set(*scene, setting.value);
+        for (SceneParameters* scene : scenes) key->set(*scene, setting.value);
     }
 }
 
@@ -58,7 +59,7 @@ void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
             return key && key->kind == Kind::choice && key->table() == other.table();
         });
     };
-    Scene before, after;
+    SceneParameters before, after;
     take_right_values(settings.all(), {&before, &after});
     take_right_values(given.all(), {&after});
     std::erase_if(settings.all(), [&](const Setting& one) {

@@ -29,7 +29,7 @@ std::string listed(const std::vector<std::string_view>& names) {
 
 Need one_of(std::vector<std::string_view> names) {
     std::string text = "without " + listed(names) + " among 'output.measurements.quantities'";
-    return {std::move(text), [names = std::move(names)](const Scene& s) {
+    return {std::move(text), [names = std::move(names)](const SceneParameters& s) {
                 return std::any_of(names.begin(), names.end(),
                                    [&s](std::string_view name) { return measures(s, name); });
             }};
@@ -40,12 +40,12 @@ Key setting_key(const QuantitySetting& setting, Kind kind, std::string_view unit
     Key key = named_key(setting.key_name(), unit, help);
     key.kind = kind;
     key.fallback = by_default;
-    key.get = [setting, kind, has_fixed = by_default.empty()](const Scene& s) {
+    key.get = [setting, kind, has_fixed = by_default.empty()](const SceneParameters& s) {
         if (!has_fixed && !s.measurements->is_given(setting.name)) return Value{};
         const double value = setting.of(*s.measurements);
         return kind == Kind::integer ? Value{static_cast<std::int64_t>(value)} : Value{value};
     };
-    key.set = [setting](Scene& s, const Value& value) {
+    key.set = [setting](SceneParameters& s, const Value& value) {
         const auto* whole = std::get_if<std::int64_t>(&value.data);
         s.measurements->give(std::string(setting.name),
                              whole ? static_cast<double>(*whole) : std::get<double>(value.data));

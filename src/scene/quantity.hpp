@@ -34,7 +34,7 @@ const std::vector<Quantity>& declared_quantities();
 /// reported at it.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
-inline bool measures(const Scene& scene, std::string_view quantity) {
+inline bool measures(const SceneParameters& scene, std::string_view quantity) {
     return scene.measurements && scene.measurements->measures(quantity);
 }
 

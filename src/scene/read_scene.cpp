@@ -113,15 +113,15 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
     return input;
 }
 
-Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides) {
+SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides) {
     Problems problems;
-    Scene scene = read_scene(input, overrides, problems);
+    SceneParameters scene = read_scene(input, overrides, problems);
     if (!problems.empty()) throw InputError(std::move(problems));
     return scene;
 }
 
-Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides,
-                 Problems& all_problems) {
+SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides,
+                           Problems& all_problems) {
     Settings settings;
     Problems problems;
     bool is_parsed = true;
@@ -130,7 +130,7 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     else
         add_legacy_header(settings, problems, input.text, input.name, input.discs_follow);
     add_overrides(settings, problems, overrides);
-    Scene scene;
+    SceneParameters scene;
     scene.name = input.name;
     scene.text = input.text;
     scene.lines_before_discs = input.lines_before_discs;
@@ -146,8 +146,8 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     return scene;
 }
 
-Scene read_scene(std::string_view text, const std::string& name,
-                 const std::vector<std::string>& overrides) {
+SceneParameters read_scene(std::string_view text, const std::string& name,
+                           const std::vector<std::string>& overrides) {
     std::istringstream stream{std::string(text)};
     return read_scene(read_scene_text(stream, name), overrides);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From an input's text to one checked `Scene` (docs/reference/keys.md). No MPI: rank 0
+// From an input's text to checked `SceneParameters` (docs/reference/keys.md). No MPI: rank 0
 // takes the text from the file, and every rank reads the same text, so all find the
 // same scene or the same problems.
 //
@@ -17,7 +17,7 @@
 
 #include "core/errors.hpp"
 #include "scene/disc_columns.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -42,15 +42,15 @@ SceneText read_scene_text(std::istream& stream, const std::string& name);
 /// The scene of that text with `overrides`, "key=value" each, on top. Problems of an
 /// override have the place "--set KEY". A pure function: the same arguments give the
 /// same scene or the same InputError.
-Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
+SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
 
 /// Reads a scene, but appends the problems to `problems`, in the order of lines. With problems
 /// the scene is good only for `disc_line_problems`: wrong values are 0 or their default.
-Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides,
-                 std::vector<Problem>& problems);
+SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides,
+                           std::vector<Problem>& problems);
 
 /// Reads a scene from a whole text, discs included.
-Scene read_scene(std::string_view text, const std::string& name,
-                 const std::vector<std::string>& overrides = {});
+SceneParameters read_scene(std::string_view text, const std::string& name,
+                           const std::vector<std::string>& overrides = {});
 
 } // namespace carrom

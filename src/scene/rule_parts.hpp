@@ -8,22 +8,26 @@
 
 namespace carrom {
 
-inline bool is_time_stepped(const Scene& s) { return s.method == Method::time_stepped; }
-inline bool is_rough(const Scene& s) { return s.effects.contact.kind == ContactKind::rough; }
-inline bool has_species(const Scene& s) { return !s.effects.species.empty(); }
-inline bool has_open(const Scene& s) { return s.effects.have_open_boundaries(); }
-inline bool has_moving(const Scene& s) { return has_boundary(s.effects, BoundaryKind::moving); }
-inline bool has_oscillating(const Scene& s) {
+inline bool is_time_stepped(const SceneParameters& s) { return s.method == Method::time_stepped; }
+inline bool is_rough(const SceneParameters& s) {
+    return s.effects.contact.kind == ContactKind::rough;
+}
+inline bool has_species(const SceneParameters& s) { return !s.effects.species.empty(); }
+inline bool has_open(const SceneParameters& s) { return s.effects.have_open_boundaries(); }
+inline bool has_moving(const SceneParameters& s) {
+    return has_boundary(s.effects, BoundaryKind::moving);
+}
+inline bool has_oscillating(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::oscillating);
 }
-inline bool has_obstacles(const Scene& s) { return s.effects.obstacles.are_any(); }
-inline bool has_growth(const Scene& s) { return s.effects.growth != 0; }
-inline bool is_periodic_all_round(const Scene& s) {
+inline bool has_obstacles(const SceneParameters& s) { return s.effects.obstacles.are_any(); }
+inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
+inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }
 
 using RuleKeys = std::vector<std::string_view>;
-using IsBroken = bool (*)(const Scene&);
+using IsBroken = bool (*)(const SceneParameters&);
 
 inline Rule rule(std::string_view one, std::string_view other, std::string_view why,
                  const RuleKeys& keys, IsBroken is_broken) {

@@ -13,17 +13,19 @@ namespace {
 
 std::vector<Rule> rules_of_methods() {
     return {
-        rule(
-            "time.precision = \"single\"", "effects", "it is there for the accuracy study alone",
-            {"time.precision"},
-            [](const Scene& s) { return s.effects.are_any() && s.precision == Precision::single; }),
+        rule("time.precision = \"single\"", "effects", "it is there for the accuracy study alone",
+             {"time.precision"},
+             [](const SceneParameters& s) {
+                 return s.effects.are_any() && s.precision == Precision::single;
+             }),
         rule("time.arithmetic = \"naive\"", "effects", "it is there for the accuracy study alone",
              {"time.arithmetic"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.effects.are_any() && s.arithmetic == Arithmetic::naive;
              }),
-        rule("time.accuracy", "effects", "the pilot knows plain gases only", {"time.accuracy"},
-             [](const Scene& s) { return s.effects.are_any() && s.accuracy.has_value(); }),
+        rule(
+            "time.accuracy", "effects", "the pilot knows plain gases only", {"time.accuracy"},
+            [](const SceneParameters& s) { return s.effects.are_any() && s.accuracy.has_value(); }),
     };
 }
 
@@ -31,12 +33,14 @@ std::vector<Rule> rules_of_starts() {
     return {
         rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
              "the course program's box is a square", {"box.size"},
-             [](const Scene& s) { return s.generator == Generator::legacy && !s.box.is_square(); }),
+             [](const SceneParameters& s) {
+                 return s.generator == Generator::legacy && !s.box.is_square();
+             }),
         rule("discs.generator = \"triangular\"", "walls or open sides",
              "the lattice repeats itself beyond the sides; make all four periodic, or take "
              "discs.generator = \"lattice\"",
              {"discs.generator"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.generator == Generator::triangular && !is_periodic_all_round(s);
              }),
     };
@@ -45,7 +49,7 @@ std::vector<Rule> rules_of_starts() {
 /// Frames cannot show numbers that discs do not have.
 template <std::size_t k> Rule rule_of_column() {
     return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
-                {"output.trajectory.fields"}, [](const Scene& s) {
+                {"output.trajectory.fields"}, [](const SceneParameters& s) {
                     return s.trajectory && s.trajectory->columns.flags[k] &&
                            !side_columns_of(s).flags[k];
                 });
@@ -58,12 +62,12 @@ std::vector<Rule> rules_of_outputs() {
     return {
         rule("\"image\"", "a box between walls", "it counts flights through periodic sides",
              {"output.trajectory.fields"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.trajectory && s.trajectory->has_image && !s.effects.are_periodic();
              }),
         rule("masses in discs.columns", "columns without radii", "a species has both",
              {"discs.columns"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_column(s, DiscColumn::mass) && !has_column(s, DiscColumn::radius);
              }),
     };

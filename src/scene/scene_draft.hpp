@@ -21,7 +21,7 @@ namespace carrom {
 inline constexpr std::string_view quantities = "output.measurements.quantities";
 
 struct SceneDraft {
-    Scene& scene;
+    SceneParameters& scene;
     Settings& settings;
     Problems& problems;
     const DiscColumns* columns = nullptr; ///< in the file of discs
@@ -59,7 +59,7 @@ struct SceneDraft {
     }
 };
 
-inline double steps_between_syncs(const Scene& scene) {
+inline double steps_between_syncs(const SceneParameters& scene) {
     return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 

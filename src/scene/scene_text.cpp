@@ -10,8 +10,8 @@ namespace carrom {
 namespace {
 
 /// A scene in which the keys of this scene's tables have their defaults.
-Scene with_defaults(const Scene& scene) {
-    Scene plain;
+SceneParameters with_defaults(const SceneParameters& scene) {
+    SceneParameters plain;
     for (const Table& table : tables())
         if (table.is_in(scene)) table.create(plain);
     if (plain.trajectory) choose_fields(*plain.trajectory, scene);
@@ -20,8 +20,8 @@ Scene with_defaults(const Scene& scene) {
 
 } // namespace
 
-std::string scene_text(const Scene& scene) {
-    const Scene plain = with_defaults(scene);
+std::string scene_text(const SceneParameters& scene) {
+    const SceneParameters plain = with_defaults(scene);
     std::string text;
     for (const Table& table : tables()) {
         if (!table.is_in(scene)) continue;

@@ -4,12 +4,12 @@
 
 #include <string>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 /// TOML that reads as the same scene: the keys whose values differ from the default.
 /// Lines of discs that follow legacy text are not included.
-std::string scene_text(const Scene& scene);
+std::string scene_text(const SceneParameters& scene);
 
 } // namespace carrom

@@ -7,21 +7,21 @@
 
 namespace carrom {
 
-bool advance_to(Simulation& simulation, std::int64_t last_step,
-                std::span<StepAction* const> actions, StretchSeconds* seconds) {
+bool advance_to(DiscSystem& system, std::int64_t last_step, std::span<StepAction* const> actions,
+                StretchSeconds* seconds) {
     StretchSeconds unused;
     StretchSeconds& spent = seconds ? *seconds : unused;
     Stopwatch watch;
-    while (simulation.step() < last_step) {
+    while (system.step() < last_step) {
         std::int64_t next = last_step;
         for (const StepAction* action : actions)
-            next = std::min(next, action->next_due(simulation.step()));
-        simulation.advance_towards(next);
+            next = std::min(next, action->next_due(system.step()));
+        system.advance_towards(next);
         spent.steps += watch.lap();
         bool goes_on = true;
         for (StepAction* action : actions) goes_on = action->act() && goes_on;
         spent.actions += watch.lap();
-        if (!goes_on) return simulation.step() >= last_step;
+        if (!goes_on) return system.step() >= last_step;
     }
     return true;
 }

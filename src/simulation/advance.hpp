@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -31,7 +31,7 @@ struct StretchSeconds {
 
 /// Steps to the end of `last_step`, and calls the actions in their order after each stretch of
 /// steps. Returns false if an action ended the run before. **Collective.**
-bool advance_to(Simulation& simulation, std::int64_t last_step,
+bool advance_to(DiscSystem& system, std::int64_t last_step,
                 std::span<StepAction* const> actions = {}, StretchSeconds* seconds = nullptr);
 
 } // namespace carrom

@@ -15,7 +15,7 @@
 #include "initial_state/scene_input.hpp"
 #include "initial_state/velocities.hpp"
 #include "simulation/advance.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -31,7 +31,8 @@ constexpr double margin = 0x1p-30;
 
 class Compression {
 public:
-    Compression(const Scene& scene, const Communicator& communicator, const Tuning& tuning)
+    Compression(const SceneParameters& scene, const Communicator& communicator,
+                const Tuning& tuning)
         : scene_(scene), communicator_(communicator), tuning_(tuning),
           size_(std::min(1.0, std::sqrt(first_packing / scene.packing()))) {}
 
@@ -58,8 +59,8 @@ public:
 
 private:
     /// The scene of one stretch: a step of one micro-step. Masses are equal, walls plain.
-    Scene stretch() const {
-        Scene scene;
+    SceneParameters stretch() const {
+        SceneParameters scene;
         scene.name = scene_.name;
         scene.box = scene_.box;
         scene.n_discs = scene_.n_discs;
@@ -82,9 +83,9 @@ private:
     double run_stretch() {
         const double speed = 2 * scene_.radius * size_ * growth_ / scene_.growth_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;
-        Simulation simulation(stretch(), std::move(discs_), communicator_, tuning_);
+        DiscSystem system(stretch(), std::move(discs_), communicator_, tuning_);
         try {
-            advance_to(simulation, 1);
+            advance_to(system, 1);
         } catch (const StopRequested&) {
             throw StopRequested(fmt::format(
                 "stopped on request while discs are compressed, at a packing fraction of {:.4g} of "
@@ -93,11 +94,11 @@ private:
         } catch (const CollectiveError& error) {
             fail_jammed(error.what());
         }
-        const double now = std::sqrt(2 * simulation.totals().kinetic_energy /
+        const double now = std::sqrt(2 * system.totals().kinetic_energy /
                                      static_cast<double>(scene_.n_discs));
         discs_.clear();
-        for (const Disc& disc : simulation.shown())
-            discs_.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock()),
+        for (const DiscState& disc : system.shown())
+            discs_.push_back({disc.id, disc.x_at(system.clock()), disc.y_at(system.clock()),
                               disc.vx / now, disc.vy / now});
         return now > speed ? growth_ / (now / speed - 1) : std::numeric_limits<double>::infinity();
     }
@@ -111,7 +112,7 @@ private:
                           reason.empty() ? "" : ": ", reason)}});
     }
 
-    const Scene& scene_;
+    const SceneParameters& scene_;
     const Communicator& communicator_;
     const Tuning& tuning_;
     double size_;                  ///< size of radii, over the wanted ones
@@ -121,14 +122,14 @@ private:
 
 } // namespace
 
-std::vector<InputDisc> compressed_discs(const Scene& scene, const Communicator& communicator,
-                                        const Tuning& tuning) {
+std::vector<InputDisc> compressed_discs(const SceneParameters& scene,
+                                        const Communicator& communicator, const Tuning& tuning) {
     std::vector<InputDisc> discs = Compression(scene, communicator, tuning).run();
     give_velocities(scene, discs, communicator);
     return discs;
 }
 
-std::vector<InputDisc> first_discs(const Scene& scene, std::istream* following,
+std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning) {
     if (scene.generator == Generator::compressed)
         return compressed_discs(scene, communicator, tuning);

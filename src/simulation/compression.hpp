@@ -13,18 +13,18 @@
 
 #include "engine/tuning.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 /// Returns the places of a scene whose generator is "compressed", in any distribution
 /// over the ranks, with velocities that other generators would give. Throws InputError
 /// on every rank if the discs jam before they have their radii. **Collective.**
-std::vector<InputDisc> compressed_discs(const Scene& scene, const Communicator& communicator,
-                                        const Tuning& tuning);
+std::vector<InputDisc> compressed_discs(const SceneParameters& scene,
+                                        const Communicator& communicator, const Tuning& tuning);
 
 /// Returns load_discs, or compressed discs, for any generator. **Collective.**
-std::vector<InputDisc> first_discs(const Scene& scene, std::istream* following,
+std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 
 } // namespace carrom

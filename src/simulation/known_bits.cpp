@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/state_hash.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -29,7 +29,7 @@ const char* known_hash(Method method) {
 
 /// Discs on a square lattice at a packing fraction of 0.4, with velocities without a pattern.
 std::string hash_of(Method method) {
-    Scene scene;
+    SceneParameters scene;
     scene.box = {lattice_side, lattice_side};
     scene.radius = 0.36;
     scene.n_discs = lattice_side * lattice_side;
@@ -45,9 +45,9 @@ std::string hash_of(Method method) {
                          static_cast<double>(id / lattice_side) + 0.5, 0.3 * odd(37, 101),
                          0.3 * odd(59, 103)});
     }
-    Simulation simulation(scene, discs, Communicator::of_this_rank(), {});
-    while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
-    return to_string(simulation.totals().hash);
+    DiscSystem system(scene, discs, Communicator::of_this_rank(), {});
+    while (system.step() < scene.steps) system.advance_towards(scene.steps);
+    return to_string(system.totals().hash);
 }
 
 std::string difference_here() {

@@ -41,7 +41,7 @@ public:
 
     /// Returns whether the cell is complete, so that no disc beyond the reach could cut it.
     bool find(LocalIndex index, BondOrder& order) {
-        const Disc& disc = view_.population.discs[index];
+        const DiscState& disc = view_.population.discs[index];
         const double x = x_in_box(disc), y = y_in_box(disc);
         order = {};
         if (!is_in_box(disc)) return true;
@@ -59,9 +59,9 @@ public:
     }
 
 private:
-    double x_in_box(const Disc& disc) const { return disc.x_at(view_.time) + view_.frame.x; }
-    double y_in_box(const Disc& disc) const { return disc.y_at(view_.time) + view_.frame.y; }
-    bool is_in_box(const Disc& disc) const {
+    double x_in_box(const DiscState& disc) const { return disc.x_at(view_.time) + view_.frame.x; }
+    double y_in_box(const DiscState& disc) const { return disc.y_at(view_.time) + view_.frame.y; }
+    bool is_in_box(const DiscState& disc) const {
         const double x = x_in_box(disc), y = y_in_box(disc);
         return x >= box_.x_low && x <= box_.x_high && y >= box_.y_low && y <= box_.y_high;
     }
@@ -79,7 +79,7 @@ private:
     void find_neighbours(LocalIndex index) {
         const CellGrid& grid = *view_.grid;
         const GridGeometry& geometry = grid.geometry();
-        const Disc& disc = view_.population.discs[index];
+        const DiscState& disc = view_.population.discs[index];
         const auto [along, across] = turned(geometry.axis, view_.periods.x_of(disc, view_.time),
                                             view_.periods.y_of(disc, view_.time));
         const double far = reach_ * (1 + 1e-6);
@@ -98,7 +98,7 @@ private:
         std::sort(seen_.begin(), seen_.end());
     }
 
-    void see(const Disc& disc, const Disc& other) {
+    void see(const DiscState& disc, const DiscState& other) {
         const Shift shift = view_.periods.between(disc, other, view_.time);
         Seen seen{(other.x_at(view_.time) - disc.x_at(view_.time)) + shift.x,
                   (other.y_at(view_.time) - disc.y_at(view_.time)) + shift.y, 0, other.id,
@@ -165,11 +165,11 @@ namespace {
 void add_pairs_of(int column, const LocalView& view, std::span<const BondOrder> orders,
                   double bins_per_length, HexaticSums& sums) {
     const double n_bins = static_cast<double>(sums.pairs.size());
-    const std::span<const Disc> discs = view.population.discs;
+    const std::span<const DiscState> discs = view.population.discs;
     visit_near_pairs_of(*view.grid, column, [&](LocalIndex a, LocalIndex b) {
         if (discs[b].id < discs[a].id) std::swap(a, b);
         if (a >= view.population.n_own || !orders[a].has_cell() || !orders[b].has_cell()) return;
-        const Disc &p = discs[a], &q = discs[b];
+        const DiscState &p = discs[a], &q = discs[b];
         const Shift shift = view.periods.between(p, q, view.time);
         const double dx = (q.x_at(view.time) - p.x_at(view.time)) + shift.x,
                      dy = (q.y_at(view.time) - p.y_at(view.time)) + shift.y;

@@ -9,13 +9,14 @@ namespace carrom {
 namespace {
 
 /// A power of two that is two to four times the largest component of a velocity.
-double speed_unit_of(std::span<const Disc> own, int n_threads, const Communicator& communicator) {
+double speed_unit_of(std::span<const DiscState> own, int n_threads,
+                     const Communicator& communicator) {
     double largest = 0;
     const auto n = static_cast<std::int64_t>(own.size());
 #pragma omp parallel for num_threads(n_threads) schedule(static)                                   \
     reduction(max : largest) if (n > 10000)
     for (std::int64_t i = 0; i < n; ++i) {
-        const Disc& disc = own[static_cast<std::size_t>(i)];
+        const DiscState& disc = own[static_cast<std::size_t>(i)];
         largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
     }
     int exponent = 0;
@@ -31,7 +32,7 @@ double terms_per_unit_of(std::uint64_t n_discs) {
     return std::ldexp(1.0, 62 - static_cast<int>(bits));
 }
 
-MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                            double heaviest, std::uint64_t n_discs, int n_threads,
                            const Communicator& communicator) {
     MotionSample sample;
@@ -48,7 +49,7 @@ MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* specie
     reduction(+ : walls, pairs, speeds, squares, fourths, departed, masses, x, y, xx, xy,          \
                   yy) if (n > 10000)
     for (std::int64_t i = 0; i < n; ++i) {
-        const Disc& disc = own[static_cast<std::size_t>(i)];
+        const DiscState& disc = own[static_cast<std::size_t>(i)];
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
         departed += disc.has_departed(); // such a disc is at rest

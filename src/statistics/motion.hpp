@@ -11,7 +11,7 @@
 
 #include <carrom/box.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/species.hpp"
@@ -48,7 +48,7 @@ struct MotionSample {
 
 /// Samples all but stress, energy and area. Each term is rounded to 2^-62 of N times the largest
 /// speed, for the same bits on all machine shapes. No table: masses of 1. **Collective.**
-MotionSample sample_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                            double heaviest, std::uint64_t n_discs, int n_threads,
                            const Communicator& communicator);
 

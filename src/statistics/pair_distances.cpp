@@ -37,7 +37,7 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
                 // on every rank, in whatever order its discs lie.
                 if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
                 if (a >= population.n_own) return; // the owner of the lower id counts the pair
-                const Disc &p = population.discs[a], &q = population.discs[b];
+                const DiscState &p = population.discs[a], &q = population.discs[b];
                 const Shift shift = local_view.periods.between(p, q, local_view.time);
                 const double dx = (q.x_at(local_view.time) - p.x_at(local_view.time)) + shift.x,
                              dy = (q.y_at(local_view.time) - p.y_at(local_view.time)) + shift.y;

@@ -72,7 +72,7 @@ std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenu
     return vectors;
 }
 
-DensityModes density_modes(std::span<const Disc> discs, double time, std::uint64_t n_discs,
+DensityModes density_modes(std::span<const DiscState> discs, double time, std::uint64_t n_discs,
                            double lx, double ly, std::span<const WaveVector> vectors,
                            int n_threads) {
     const int digits = 51 -

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 
 namespace carrom {
@@ -42,7 +42,7 @@ private:
 
 /// `discs` are as the box sees them at `time`; `n_discs` counts all ranks. Price: some
 /// nanoseconds for each disc and vector.
-DensityModes density_modes(std::span<const Disc> discs, double time, std::uint64_t n_discs,
+DensityModes density_modes(std::span<const DiscState> discs, double time, std::uint64_t n_discs,
                            double lx, double ly, std::span<const WaveVector> vectors,
                            int n_threads);
 

@@ -15,7 +15,7 @@ namespace carrom {
 namespace {
 
 /// The part of the header that does not change with the steps.
-CheckpointHeader run_of(const Scene& scene) {
+CheckpointHeader run_of(const SceneParameters& scene) {
     CheckpointHeader header;
     header.program_version = version();
     header.scene_name = scene.name;
@@ -35,17 +35,18 @@ CheckpointHeader run_of(const Scene& scene) {
 
 } // namespace
 
-CheckpointHeader header_now(const Scene& scene, const Simulation& simulation) {
+CheckpointHeader header_now(const SceneParameters& scene, const DiscSystem& system) {
     CheckpointHeader header = run_of(scene);
-    header.step = simulation.step();
-    header.micro_steps_done = simulation.micro_steps_done();
-    header.frame = simulation.frame();
+    header.step = system.step();
+    header.micro_steps_done = system.micro_steps_done();
+    header.frame = system.frame();
     header.columns = side_columns_of(scene);
     header.shown = system_of(scene);
     return header;
 }
 
-Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides) {
+SceneParameters scene_of(const CheckpointHeader& header,
+                         const std::vector<std::string>& more_overrides) {
     std::vector<std::string> overrides;
     std::istringstream lines(header.scene_overrides);
     for (std::string line; std::getline(lines, line);) overrides.push_back(line);
@@ -56,16 +57,16 @@ Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& m
                    header.scene_discs_follow != 0,
                    {}};
     if (!header.species.empty()) text.columns = DiscColumns{header.species, {}, true};
-    Scene scene = read_scene(text, overrides);
+    SceneParameters scene = read_scene(text, overrides);
     if (has_column(scene, DiscColumn::radius) && !text.columns)
         throw InputError({{header.scene_name, 0,
                            "'discs.columns' names radii, and the checkpoint has none of them"}});
     return scene;
 }
 
-void refuse_other_run(const CheckpointHeader& header, const Scene& scene,
+void refuse_other_run(const CheckpointHeader& header, const SceneParameters& scene,
                       const std::string& place) {
-    const Scene there = scene_of(header, {});
+    const SceneParameters there = scene_of(header, {});
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, scene))
         problems.push_back({place, 0, difference + "; a restart cannot change it"});
@@ -74,7 +75,7 @@ void refuse_other_run(const CheckpointHeader& header, const Scene& scene,
     if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-std::string first_difference(const CheckpointHeader& there, const Scene& scene) {
+std::string first_difference(const CheckpointHeader& there, const SceneParameters& scene) {
     try {
         const std::vector<std::string> differences = physical_differences(scene_of(there, {}),
                                                                           scene);
@@ -84,7 +85,7 @@ std::string first_difference(const CheckpointHeader& there, const Scene& scene) 
     }
 }
 
-RecordedSystem system_of(const Scene& scene) {
+RecordedSystem system_of(const SceneParameters& scene) {
     RecordedSystem system;
     system.program_version = version();
     system.n_discs = scene.n_discs;
@@ -106,7 +107,7 @@ RecordedSystem system_of(const Scene& scene) {
     return system;
 }
 
-TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted) {
+TrajectoryLayout layout_of(const SceneParameters& scene, const TrajectoryOutput& wanted) {
     TrajectoryLayout layout;
     layout.system = system_of(scene);
     layout.run = run_of(scene);

@@ -8,27 +8,29 @@
 
 #include "io/checkpoint.hpp"
 #include "io/trajectory.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
 /// The header of a checkpoint of the present step. Not collective.
-CheckpointHeader header_now(const Scene& scene, const Simulation& simulation);
+CheckpointHeader header_now(const SceneParameters& scene, const DiscSystem& system);
 
 /// The scene of a file, with more settings (`key=value`) on top. Throws InputError.
-Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides);
+SceneParameters scene_of(const CheckpointHeader& header,
+                         const std::vector<std::string>& more_overrides);
 
 /// Throws InputError if going on from the checkpoint would make the scene another run;
 /// `place` names the checkpoint in its problems.
-void refuse_other_run(const CheckpointHeader& header, const Scene& scene, const std::string& place);
+void refuse_other_run(const CheckpointHeader& header, const SceneParameters& scene,
+                      const std::string& place);
 
 /// The first difference between a recorded run and that of the scene, or nothing.
-std::string first_difference(const CheckpointHeader& there, const Scene& scene);
+std::string first_difference(const CheckpointHeader& there, const SceneParameters& scene);
 
 /// The description of the discs in files of the scene's run.
-RecordedSystem system_of(const Scene& scene);
+RecordedSystem system_of(const SceneParameters& scene);
 /// The contents of a trajectory of the scene's run.
-TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted);
+TrajectoryLayout layout_of(const SceneParameters& scene, const TrajectoryOutput& wanted);
 
 } // namespace carrom

@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "time_stepped/window.hpp"
 
 namespace carrom {
@@ -28,7 +28,7 @@ static_assert(sizeof(Candidate) == 16);
 /// Orders by time, then id of P, then wall before pair, then id of Q: exactly, without a tolerance.
 class TotalOrder {
 public:
-    explicit TotalOrder(std::span<const Disc> discs) : discs_(discs) {}
+    explicit TotalOrder(std::span<const DiscState> discs) : discs_(discs) {}
 
     bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    std::span<const Disc> discs_;
+    std::span<const DiscState> discs_;
 };
 
 /// Whether neither disc has been hit since the prediction, which saw the state `seen`

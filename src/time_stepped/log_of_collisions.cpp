@@ -7,18 +7,18 @@
 namespace carrom {
 
 template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
+void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const DiscState> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
     if (!this->pair_followers_.are_any()) return;
     unhit_partners_.clear();
     for (const Candidate& c : verdicts_.kept)
-        unhit_partners_.push_back(c.is_wall() ? Disc{} : results[c.q]);
+        unhit_partners_.push_back(c.is_wall() ? DiscState{} : results[c.q]);
 }
 
 /// Two ranks may know of a collision; the one that owns the first disc logs it.
 template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
+void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> results, int m) {
     const auto k = static_cast<double>(this->micro_steps_);
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
@@ -54,8 +54,8 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
 
 // The functions that the engine's own file calls. The class itself is compiled there.
 #define CARROM_DEFINE(Dynamics)                                                                    \
-    template void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc>);             \
-    template void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc>, int);
+    template void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const DiscState>);        \
+    template void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState>, int);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
 

@@ -29,7 +29,9 @@ void add(SearchLists& lists, const Window& window, int from, int m, const Candid
         candidate, window.state_after(from - 1));
 }
 
-void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
+void prefetch(std::span<const DiscState> discs, LocalIndex index) {
+    __builtin_prefetch(&discs[index]);
+}
 
 /// Calls ask(pair) some time before judge(pair), for the first n pairs. Omits the rest
 /// if a request to stop is overdue.
@@ -324,8 +326,8 @@ template <class Dynamics>
 void Search<Dynamics>::predict_pair(const Population& population, const Window& window, int from,
                                     LocalIndex a, LocalIndex b, SearchLists& lists) const {
     if (a >= population.n_own && b >= population.n_own) return;
-    const Disc& first = population.discs[a];
-    const Disc& second = population.discs[b];
+    const DiscState& first = population.discs[a];
+    const DiscState& second = population.discs[b];
     const auto contact = dynamics_.contact(first, second);
     if (!contact.exists()) return;
     const int m = first_micro_step(contact, from, window.end_micro());
@@ -341,7 +343,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_wall(const Population& population, const Window& window, int from,
                                     LocalIndex index, SearchLists& lists) const {
     if (index >= population.n_own) return;
-    const Disc& disc = population.discs[index];
+    const DiscState& disc = population.discs[index];
     for (int m = from; m < window.end_micro(); ++m) {
         const double t = dynamics_.wall_time(disc, m);
         if (t == Dynamics::never) continue;

@@ -14,7 +14,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/all_dynamics.hpp"
 #include "time_stepped/candidate.hpp"
 #include "time_stepped/large_discs.hpp"
@@ -97,7 +97,7 @@ private:
     void find_pairs_with_large(const Population&, const CellGrid&, const Bounds&, float from,
                                double reach, LocalIndex index, SearchLists&) const;
     float half_reach(const CellGrid&, double reach, double radius) const;
-    bool is_large(const Disc& disc) const {
+    bool is_large(const DiscState& disc) const {
         if constexpr (Dynamics::has_species)
             return large_.size() > 0 &&
                    dynamics_.species_table().of(disc.id).radius > usual_radius_;

@@ -19,9 +19,9 @@ namespace {
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
 /// Reduces the number of threads, because threads with little to do cost more than they save.
-Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator& communicator) {
+Tuning with_useful_threads(Tuning tuning, const SceneParameters& scene, const Communicator& ranks) {
     const auto per_thread = std::max<std::uint64_t>(1, tuning.discs_per_thread),
-               n_ranks = static_cast<std::uint64_t>(communicator.size());
+               n_ranks = static_cast<std::uint64_t>(ranks.size());
     tuning.threads = static_cast<int>(std::clamp<std::uint64_t>(
         scene.n_discs / (n_ranks * per_thread), 1, static_cast<std::uint64_t>(tuning.threads)));
     return tuning;
@@ -30,7 +30,7 @@ Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator
 } // namespace
 
 template <class Dynamics>
-TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState state,
+TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const SceneParameters& scene, StoredState state,
                                                const Communicator& communicator,
                                                const Tuning& tuning)
     : Base(scene, std::move(state), communicator, with_useful_threads(tuning, scene, communicator)),
@@ -170,7 +170,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_images() {
     if constexpr (Dynamics::has_moving_images) {
         double fastest = 0;
-        for (const Disc& disc : discs_.own())
+        for (const DiscState& disc : discs_.own())
             fastest = std::max(fastest, dynamics_.squared_speed_at(disc, time_));
         largest_speed_ = std::max(largest_speed_,
                                   std::sqrt(fastest) + std::fabs(dynamics_.periods().speed));
@@ -254,7 +254,7 @@ void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) con
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& window, int m) {
-    std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_.all();
+    std::vector<DiscState>& results = in_parts_ ? outcomes_ : discs_.all();
     {
         const PhaseClock::Scope scope(phases_, Phase::move);
         if (this->is_followed()) note_velocities(results);
@@ -272,7 +272,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
 
 template <class Dynamics>
 [[gnu::always_inline]] inline void TimeSteppedEngine<Dynamics>::prefetch(
-    const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const {
+    const Candidate& candidate, const std::vector<DiscState>& results, bool is_last) const {
     for (const LocalIndex index : {candidate.p, candidate.q}) {
         if (index == wall_index) continue;
         __builtin_prefetch(&results[index], 1);
@@ -284,8 +284,9 @@ template <class Dynamics>
 /// two ranks carry out the collision, the owner of the first disc adds it to the sums.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
-    const Candidate& c, int m, std::vector<Disc>& results, StressTerms& terms, StressSums& stress) {
-    Disc& p = results[c.p];
+    const Candidate& c, int m, std::vector<DiscState>& results, StressTerms& terms,
+    StressSums& stress) {
+    DiscState& p = results[c.p];
     const bool is_summed = this->stress_ && c.p < discs_.n_own();
     if (c.is_wall()) {
         const WallStress<Dynamics> before(p);
@@ -293,7 +294,7 @@ template <class Dynamics>
         if (is_summed) before.add_to(terms, stress, dynamics_, p, m + c.time, this->flown_before_);
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
-    Disc& q = results[c.q];
+    DiscState& q = results[c.q];
     const PairStress<Dynamics> before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
     // A spin does not affect the search, so it need not wait for the end of a cut micro-step.
@@ -324,7 +325,7 @@ template <class Dynamics>
 /// discs for another search, unless the window ends here.
 template <class Dynamics>
 double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
-                                                std::vector<Disc>& results) {
+                                                std::vector<DiscState>& results) {
     constexpr std::int64_t prefetch_distance = 16;
     const bool is_last = m + 1 >= window.end_micro();
     const std::vector<Candidate>& kept = verdicts_.kept;
@@ -381,14 +382,13 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double l
     if constexpr (Dynamics::has_moving_images) search_.change_dynamics(dynamics_);
     const PhaseClock::Scope wait(phases_, Phase::wait);
     refreshed_speed_ = communicator_.max(largest_speed);
-    const std::uint64_t n_kept = communicator_.sum(n_kept_ -
-                                                   std::exchange(n_kept_at_sync_, n_kept_));
+    const auto n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
     hits_per_micro_step_ = 2 * static_cast<double>(n_kept) /
                            (std::max(static_cast<double>(discs_.n_total()), 1.0) *
                             static_cast<double>(this->sync_every_));
 }
 
-std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state,
+std::unique_ptr<Engine> make_time_stepped_engine(const SceneParameters& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning) {
     return with_dynamics_of(scene, [&]<class Dynamics>() -> std::unique_ptr<Engine> {

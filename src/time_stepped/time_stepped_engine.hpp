@@ -28,8 +28,8 @@ namespace carrom {
 
 template <class Dynamics> class TimeSteppedEngine final : public EngineBase<Dynamics> {
 public:
-    TimeSteppedEngine(const Scene& scene, StoredState state, const Communicator& communicator,
-                      const Tuning& tuning);
+    TimeSteppedEngine(const SceneParameters& scene, StoredState state,
+                      const Communicator& communicator, const Tuning& tuning);
 
     void add_to(Totals& totals) override;
 
@@ -53,17 +53,18 @@ private:
     void agree_on_speed();
     void migrate_at(double time);
     void sort(const Window& window, double reach, double usual_reach);
-    std::vector<Disc>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
+    std::vector<DiscState>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
 
     bool run_micro_step(const Window& window, int m);
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
-    double collide_all(const Window& window, int m, std::vector<Disc>& results);
-    double collide(const Candidate& candidate, int m, std::vector<Disc>& results,
+    double collide_all(const Window& window, int m, std::vector<DiscState>& results);
+    double collide(const Candidate& candidate, int m, std::vector<DiscState>& results,
                    StressTerms& terms, StressSums& stress);
-    void prefetch(const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const;
-    void update_flight(LocalIndex index, const Disc& disc) {
+    void prefetch(const Candidate& candidate, const std::vector<DiscState>& results,
+                  bool is_last) const;
+    void update_flight(LocalIndex index, const DiscState& disc) {
         if constexpr (Dynamics::is_periodic)
             discs_.grid().update_flight_of_image(index, disc);
         else
@@ -75,10 +76,11 @@ private:
         return nullptr;
     }
     void update_halo(const Window& window, int m);
-    void note_velocities(std::span<const Disc> results);
-    void log_collisions(std::span<const Disc> results, int m);
+    void note_velocities(std::span<const DiscState> results);
+    void log_collisions(std::span<const DiscState> results, int m);
 
-    std::vector<Disc> outcomes_; ///< runs along discs_.all() while a micro-step is cut into parts
+    std::vector<DiscState>
+        outcomes_;               ///< runs along discs_.all() while a micro-step is cut into parts
     bool in_parts_ = false;      ///< whether the present micro-step is cut
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
 
@@ -97,16 +99,17 @@ private:
     BoundaryResolution across_strips_;
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
-    std::vector<Disc> unhit_; ///< for the log: the first disc of each kept candidate, before it
-    std::vector<Disc> unhit_partners_; ///< second discs before it, if pairs are noted
-    std::vector<WindowState> states_;  ///< by disc
+    std::vector<DiscState>
+        unhit_; ///< for the log: the first disc of each kept candidate, before it
+    std::vector<DiscState> unhit_partners_; ///< second discs before it, if pairs are noted
+    std::vector<WindowState> states_;       ///< by disc
 
     // Candidates whose first disc is own.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;
 };
 
 /// The engine of the time-stepped method with the scene's dynamics. **Collective.**
-std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state,
+std::unique_ptr<Engine> make_time_stepped_engine(const SceneParameters& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning);
 

@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
             Trajectory trajectory(file, sample_layout(false), world);
             trajectory.go_on(10);
             trajectory.commit();
-            trajectory.append(20, std::vector<Disc>(12), 6);
+            trajectory.append(20, std::vector<DiscState>(12), 6);
             trajectory.commit();
         });
     add(

@@ -22,8 +22,8 @@ namespace carrom::test {
 namespace {
 
 /// Twelve discs in a box of size 10.
-std::vector<Disc> some_discs() {
-    std::vector<Disc> discs(12);
+std::vector<DiscState> some_discs() {
+    std::vector<DiscState> discs(12);
     for (std::size_t i = 0; i < discs.size(); ++i) {
         discs[i].id = i;
         discs[i].x = 1 + 0.5 * static_cast<double>(i);
@@ -90,7 +90,7 @@ TrajectoryLayout sample_layout(bool is_double) {
 }
 
 void write_sample_trajectory(const std::string& path, bool is_double, const Communicator& world) {
-    const std::vector<Disc> discs = some_discs();
+    const std::vector<DiscState> discs = some_discs();
     Trajectory trajectory(path, sample_layout(is_double), world);
     trajectory.begin();
     const std::vector<double> spins = some_spins();

@@ -20,7 +20,7 @@ void demand(bool claim) {
     if (!claim) std::abort();
 }
 
-void check(const carrom::Scene& scene) {
+void check(const carrom::SceneParameters& scene) {
     demand(!carrom::measured_quantities().empty()); // scenes know them
     demand(scene.n_discs > 0 && scene.steps >= 0 && scene.micro_steps > 0 && scene.sync_every > 0);
     demand(std::isfinite(scene.box.x) && scene.radius > 0 && scene.box.x >= 2 * scene.radius);

@@ -85,14 +85,14 @@ Shared shared_by(int n_threads, std::size_t n_discs, Crowd kind) {
         "[box]\nsize = {}\n[discs]\ncount = {}\nradius = 1\nspeed = 0.5\n"
         "[time]\nsteps = 8\nmethod = \"event-driven\"\n",
         side, n_discs);
-    Scene scene = read_scene(text, "gas.toml");
+    SceneParameters scene = read_scene(text, "gas.toml");
     const std::vector<InputDisc> inputs = crowded(initial_state(scene, nullptr, world), scene.box,
                                                   kind);
     scene.n_discs = inputs.size();
     if (kind != Crowd::none) scene.box = {stretch * scene.box.x, stretch * scene.box.y};
     StoredState state;
     for (const InputDisc& input : inputs) {
-        Disc& disc = state.discs.emplace_back();
+        DiscState& disc = state.discs.emplace_back();
         disc.id = input.id;
         disc.x = input.x;
         disc.y = input.y;

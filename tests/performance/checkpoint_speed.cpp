@@ -37,8 +37,9 @@ using Buffers = std::vector<std::vector<std::byte>>;
 
 constexpr std::uint64_t pieces_between_syncs = 8;
 
-void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<DiscTarget>& targets,
-          Buffers& buffers, StateSums& sums, int n_threads) {
+void pack(std::span<const DiscState> piece, std::uint64_t first,
+          const std::vector<DiscTarget>& targets, Buffers& buffers, StateSums& sums,
+          int n_threads) {
     for (std::size_t k = 0; k < targets.size(); ++k)
         buffers[k].resize(piece.size() * targets[k].bytes_per_row);
     const std::size_t n_blocks = (piece.size() + rows_per_block - 1) / rows_per_block;
@@ -50,7 +51,7 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<Di
             const std::size_t row = block * rows_per_block;
             const auto discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
-            for (const Disc& disc : discs)
+            for (const DiscState& disc : discs)
                 mine[place_of_collisions] += {disc.wall_collisions, disc.pair_collisions};
             mine[place_of_hash] += hash_of(discs);
             for (std::size_t k = 0; k < targets.size(); ++k) {
@@ -77,19 +78,19 @@ std::vector<std::uint64_t> places_of(const std::string& path,
 
 /// Packs a piece while the one before is written. **Collective.**
 StateSums write_numbers(const std::string& path, const std::vector<DiscTarget>& targets,
-                        std::span<const Disc> discs, std::uint64_t n_discs, int n_threads,
+                        std::span<const DiscState> discs, std::uint64_t n_discs, int n_threads,
                         const Communicator& communicator) {
     std::vector<std::uint64_t> places(targets.size());
     if (communicator.is_root()) places = places_of(path, targets);
     for (std::uint64_t& place : places) communicator.broadcast(place);
     const Descriptor file(path, O_WRONLY);
-    PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
+    PieceStream stream(communicator, discs, n_discs, [](const DiscState& disc) { return disc.id; });
     StateSums sums(first_checksum + targets.size());
     std::array<Buffers, 2> buffers;
     buffers.fill(Buffers(targets.size()));
     std::future<void> under_way;
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
-        const std::span<const Disc> piece = stream.next();
+        const std::span<const DiscState> piece = stream.next();
         if (piece.empty()) continue;
         Buffers& next = buffers[round % 2];
         pack(piece, stream.begin(), targets, next, sums, n_threads);
@@ -107,8 +108,9 @@ StateSums write_numbers(const std::string& path, const std::vector<DiscTarget>& 
 }
 
 /// The same bytes as `write_checkpoint`. **Collective.**
-void write_plainly(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                   int n_threads, const Communicator& communicator) {
+void write_plainly(const std::string& path, CheckpointHeader header,
+                   std::span<const DiscState> discs, int n_threads,
+                   const Communicator& communicator) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
     const StoredSamples samples;
     const SideOfPieces columns;
@@ -127,10 +129,10 @@ void write_plainly(const std::string& path, CheckpointHeader header, std::span<c
 }
 
 /// In the order of ids, so that sorting hides no difference.
-std::vector<Disc> own_discs(std::uint64_t n_discs, const Communicator& communicator) {
+std::vector<DiscState> own_discs(std::uint64_t n_discs, const Communicator& communicator) {
     const std::uint64_t begin = slab_begin(communicator.rank(), n_discs, communicator.size());
-    std::vector<Disc> discs(slab_begin(communicator.rank() + 1, n_discs, communicator.size()) -
-                            begin);
+    std::vector<DiscState> discs(slab_begin(communicator.rank() + 1, n_discs, communicator.size()) -
+                                 begin);
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const auto id = static_cast<double>(begin + i);
         discs[i].id = begin + i;
@@ -164,7 +166,7 @@ double median(std::vector<double> numbers) {
 
 int compare(const std::string& folder, std::uint64_t n_discs, int rounds, int n_threads,
             const Communicator& communicator) {
-    const std::vector<Disc> discs = own_discs(n_discs, communicator);
+    const std::vector<DiscState> discs = own_discs(n_discs, communicator);
     CheckpointHeader header;
     header.set_box(1);
     header.radius = 1;

@@ -5,7 +5,7 @@
   tests/performance/effects.py STEP_SCENE --repeats 9 --output docs/performance/effects.csv
 
 STEP_SCENE is the program of that name that is compiled with the tests (build/tests/step_scene).
-Instructions are those that valgrind counts below Simulation::advance_towards, divided by those of
+Instructions are those that valgrind counts below DiscSystem::advance_towards, divided by those of
 the plain gas. With --repeats N there is time, too: the processor time of a whole run ten times as
 long, plain and with the effect in turns, and the median of their ratios with the quartiles. That
 needs an idle machine.

@@ -7,7 +7,7 @@ the machine's mood.
                                                         code 1 if one is off by 3 %
   tests/performance/instructions.py STEP_SCENE BUILD --record    write instructions.csv anew
 
-valgrind counts (callgrind, without its cache model) what happens below Simulation::advance_towards
+valgrind counts (callgrind, without its cache model) what happens below DiscSystem::advance_towards
 in the program step_scene, which is compiled with the tests; start and set-up, where MPI polls for
 as long as it has to wait, do not count. BUILD says how the program was compiled, as ctest passes it
 ("GNU 12.2.0 Release"). Numbers hold for the build and the instruction set named in the file:

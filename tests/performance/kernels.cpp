@@ -38,7 +38,7 @@ constexpr double pi = 3.14159265358979323846, packing = 0.2, largest_speed = 0.5
 /// rows.
 struct Gas {
     double size;
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
 
     explicit Gas(std::int64_t n) : size(std::sqrt(static_cast<double>(n) * pi / packing)) {
         const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(n))));
@@ -48,7 +48,7 @@ struct Gas {
             return std::uniform_real_distribution<double>(low, high)(random);
         };
         for (std::int64_t k = 0; k < n; ++k) {
-            Disc& disc = discs.emplace_back();
+            DiscState& disc = discs.emplace_back();
             disc.id = static_cast<DiscId>(k);
             const double room = spacing / 2 - 1;
             disc.x = 1 + spacing * (static_cast<double>(k % side) + 0.5) + even(-room, room);
@@ -84,7 +84,7 @@ void print_message(benchmark::State& state, double items, double flops, double b
 void contact_predicate(benchmark::State& state) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> even(-1, 1);
-    std::vector<Disc> discs(4096);
+    std::vector<DiscState> discs(4096);
     for (std::size_t k = 0; k < discs.size(); k += 2) {
         discs[k + 1].x = 2.5 + 0.4 * even(random);
         discs[k + 1].y = 0.5 * even(random);
@@ -98,7 +98,7 @@ void contact_predicate(benchmark::State& state) {
             sum += pair_contact(discs[k], discs[k + 1], 2.0, 1e-12).delay;
         benchmark::DoNotOptimize(sum);
     }
-    print_message(state, static_cast<double>(discs.size() / 2), 50, 2 * sizeof(Disc));
+    print_message(state, static_cast<double>(discs.size() / 2), 50, 2 * sizeof(DiscState));
 }
 BENCHMARK(contact_predicate);
 
@@ -155,7 +155,8 @@ void cell_grid_sort(benchmark::State& state) {
         grid.sort(gas.discs, geometry, anchor, anchor, window_steps, 1);
         benchmark::ClobberMemory();
     }
-    print_message(state, static_cast<double>(gas.discs.size()), 14, 3 * sizeof(Disc) + 24 + 16);
+    print_message(state, static_cast<double>(gas.discs.size()), 14,
+                  3 * sizeof(DiscState) + 24 + 16);
 }
 BENCHMARK(cell_grid_sort)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
@@ -247,7 +248,7 @@ BENCHMARK(block_run)->Arg(3'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 void state_hash(benchmark::State& state) {
     const Gas gas(state.range(0));
     for (auto _ : state) benchmark::DoNotOptimize(hash_of(gas.discs));
-    print_message(state, static_cast<double>(gas.discs.size()), 0, sizeof(Disc));
+    print_message(state, static_cast<double>(gas.discs.size()), 0, sizeof(DiscState));
 }
 BENCHMARK(state_hash)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
@@ -262,7 +263,7 @@ void pack_columns(benchmark::State& state) {
     for (auto _ : state) {
         for (std::size_t k = 0; k < places.size(); ++k) {
             if (k + 64 < places.size()) __builtin_prefetch(&gas.discs[places[k + 64]]);
-            const Disc& disc = gas.discs[places[k]];
+            const DiscState& disc = gas.discs[places[k]];
             const std::size_t row = k % 1024;
             x[row] = disc.x;
             y[row] = disc.y;
@@ -272,7 +273,7 @@ void pack_columns(benchmark::State& state) {
         }
         benchmark::ClobberMemory();
     }
-    print_message(state, static_cast<double>(gas.discs.size()), 0, sizeof(Disc) + 4 + 40);
+    print_message(state, static_cast<double>(gas.discs.size()), 0, sizeof(DiscState) + 4 + 40);
 }
 BENCHMARK(pack_columns)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 

@@ -26,12 +26,12 @@
 #include <simgrid/s4u.hpp>
 #include <smpi/smpi.h>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/read_scene.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 using namespace carrom;
 
@@ -88,7 +88,7 @@ void compute_for(double nanoseconds) { smpi_execute_flops(nanoseconds * 1e-9 * s
 /// The scene's discs that begin in this rank's strip. They get there through memory, not the
 /// network: a million flows at once of 1024 ranks would take the simulation hours, and a run's
 /// start is not what is studied. **Collective.**
-std::vector<InputDisc> discs_of_strip(Job& job, int rank, const Scene& scene,
+std::vector<InputDisc> discs_of_strip(Job& job, int rank, const SceneParameters& scene,
                                       const Communicator& world) {
     const auto n_ranks = static_cast<double>(job.dealt.size());
     for (const InputDisc& disc : initial_state(scene, nullptr, world))
@@ -103,24 +103,24 @@ std::vector<InputDisc> discs_of_strip(Job& job, int rank, const Scene& scene,
 void step(Job& job, int rank) {
     const Communicator world = Communicator::world();
     std::ifstream file = open_input(job.scene);
-    const Scene scene = read_scene(read_scene_text(file, job.scene));
-    Simulation simulation(scene, discs_of_strip(job, rank, scene, world), world, job.tuning);
+    const SceneParameters scene = read_scene(read_scene_text(file, job.scene));
+    DiscSystem system(scene, discs_of_strip(job, rank, scene, world), world, job.tuning);
     const std::int64_t first = scene.sync_every / scene.micro_steps, last = first + job.steps;
-    while (simulation.step() < first) simulation.advance_towards(first);
+    while (system.step() < first) system.advance_towards(first);
     world.barrier();
     Tally& tally = job.tallies[static_cast<std::size_t>(rank)];
     const double start = MPI_Wtime();
     const Traffic at_start = world.traffic();
     const std::uint64_t messages_at_start = job.network_messages,
                         any_to_any_at_start = n_any_to_any;
-    while (simulation.step() < last) {
-        const std::int64_t micro_steps = simulation.micro_steps_done();
+    while (system.step() < last) {
+        const std::int64_t micro_steps = system.micro_steps_done();
         const std::uint64_t bytes = world.traffic().bytes;
-        simulation.advance_towards(last);
-        const double own = job.ns_own * static_cast<double>(simulation.discs().size()) *
-                           static_cast<double>(simulation.micro_steps_done() - micro_steps);
+        system.advance_towards(last);
+        const double own = job.ns_own * static_cast<double>(system.discs().size()) *
+                           static_cast<double>(system.micro_steps_done() - micro_steps);
         compute_for(own + job.ns_halo * static_cast<double>(world.traffic().bytes - bytes) /
-                              sizeof(Disc));
+                              sizeof(DiscState));
         tally.own_seconds += own * 1e-9;
     }
     tally.traffic = difference(world.traffic(), at_start);
@@ -128,8 +128,8 @@ void step(Job& job, int rank) {
     tally.seconds = MPI_Wtime() - start;
     tally.network_messages = job.network_messages - messages_at_start;
     tally.any_to_any = n_any_to_any - any_to_any_at_start;
-    tally.steps = simulation.step() - first;
-    tally.hash = to_string(simulation.totals().hash);
+    tally.steps = system.step() - first;
+    tally.hash = to_string(system.totals().hash);
 }
 
 /// A rank's whole life.

@@ -14,7 +14,7 @@
 #include "parallel/mpi.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/advance.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 using namespace carrom;
 
@@ -25,13 +25,13 @@ int main(int argc, char** argv) {
             throw InputError(
                 {{"step_scene", 0, "needs one argument: a scene that generates its discs"}});
         std::ifstream file = open_input(argv[1]); // every rank reads
-        const Scene scene = read_scene(read_scene_text(file, argv[1]));
-        Simulation simulation(scene, initial_state(scene, nullptr, world), world, Tuning{});
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = read_scene(read_scene_text(file, argv[1]));
+        DiscSystem system(scene, initial_state(scene, nullptr, world), world, Tuning{});
+        Sampler sampler(scene, system, world);
         sampler.sample_if_due();
         StepAction* const actions[] = {&sampler};
-        advance_to(simulation, scene.steps, actions);
-        const Totals totals = simulation.totals();
+        advance_to(system, scene.steps, actions);
+        const Totals totals = system.totals();
         if (world.is_root()) std::printf("%s\n", to_string(totals.hash).c_str());
         return 0;
     });

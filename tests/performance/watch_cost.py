@@ -36,7 +36,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 # name: (discs, steps, steps from frame to frame); a minute each on an idle core
 SCENES = {"gas of 1e4 discs": (10_000, 400_000, 2000), "gas of 1e6 discs": (1_000_000, 4000, 500)}
 VALGRIND = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-            "--collect-atstart=no", "--toggle-collect=carrom::Simulation::advance_towards*"]
+            "--collect-atstart=no", "--toggle-collect=carrom::DiscSystem::advance_towards*"]
 
 
 def scene_text(n_discs, steps, every):

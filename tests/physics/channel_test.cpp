@@ -43,13 +43,13 @@ struct Middle {
     double viscosity_unit() const { return std::sqrt(squares / n) / 2; } ///< sqrt(kT) / diameter
 };
 
-Middle sample(Simulation& simulation, std::int64_t early, std::int64_t last, std::int64_t apart,
+Middle sample(DiscSystem& system, std::int64_t early, std::int64_t last, std::int64_t apart,
               std::span<StepAction* const> actions = {}) {
     Middle all;
     for (std::int64_t step = early; step <= last; step += apart) {
-        advance_to(simulation, step, actions);
+        advance_to(system, step, actions);
         all.samples += 1;
-        for (const Disc& disc : simulation.shown()) {
+        for (const DiscState& disc : system.shown()) {
             const double y = disc.y - height / 2;
             if (std::fabs(y) > 0.35 * height) continue;
             all.n += 1;
@@ -79,8 +79,8 @@ double enskog_viscosity(double density) {
 TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille") {
     const Communicator world = Communicator::world();
     const double pull = 3e-5;
-    Simulation simulation = event_driven_simulation(channel(0, pull), world);
-    const Middle middle = sample(simulation, 10000, 110000, 200);
+    DiscSystem system = event_driven_system(channel(0, pull), world);
+    const Middle middle = sample(system, 10000, 110000, 200);
     const double viscosity = -middle.density() * pull / (2 * middle.curvature()) /
                              middle.viscosity_unit();
     fmt::print("Poiseuille: {:.4f}, Enskog {:.4f}\n", viscosity,
@@ -93,9 +93,9 @@ TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille"
 TEST_CASE("physics: between walls that slide the flow of Couette has Enskog's viscosity") {
     const Communicator world = Communicator::world();
     const TestScene scene = channel(0.07, 0);
-    Simulation simulation = event_driven_simulation(scene, world);
-    Averaging averaging(scene, simulation, world);
-    const Middle middle = sample(simulation, 10000, 110000, 200, averaging.actions());
+    DiscSystem system = event_driven_system(scene, world);
+    Averaging averaging(scene, system, world);
+    const Middle middle = sample(system, 10000, 110000, 200, averaging.actions());
     const double stress = -averaging.averages().pressure_tensor.xy.value * height / (height - 2);
     const double viscosity = stress / middle.slope() / middle.viscosity_unit();
     fmt::print("Couette: {:.4f}, Enskog {:.4f}, slope {:.3g}\n", viscosity,

@@ -22,24 +22,24 @@ TestScene crystal(std::size_t n, double packing, std::uint64_t seed) {
     return scene;
 }
 
-Simulation event_driven_simulation(const TestScene& scene, const Communicator& world) {
-    Scene all = scene_of(scene);
+DiscSystem event_driven_system(const TestScene& scene, const Communicator& world) {
+    SceneParameters all = scene_of(scene);
     all.method = Method::event_driven;
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
     return {all, world.is_root() ? scene.discs : std::vector<InputDisc>{}, world, tuning};
 }
 
-void run_until(Simulation& simulation, double n_collisions, std::span<StepAction* const> actions) {
+void run_until(DiscSystem& system, double n_collisions, std::span<StepAction* const> actions) {
     std::int64_t stride = 1;
     for (double done = 0; done < n_collisions;) {
-        advance_to(simulation, simulation.step() + stride, actions);
-        const Totals totals = simulation.totals();
+        advance_to(system, system.step() + stride, actions);
+        const Totals totals = system.totals();
         done = static_cast<double>(totals.wall_collisions + totals.pair_collisions);
-        const double per_step = std::max(done, 1.0) / static_cast<double>(simulation.step());
+        const double per_step = std::max(done, 1.0) / static_cast<double>(system.step());
         stride = std::max<std::int64_t>(
             1, static_cast<std::int64_t>(std::min((n_collisions - done) / per_step,
-                                                  4.0 * static_cast<double>(simulation.step()))));
+                                                  4.0 * static_cast<double>(system.step()))));
     }
 }
 
@@ -47,12 +47,12 @@ GasProperties measure_gas(std::size_t n, double packing, double n_early, double 
                           const Communicator& world) {
     const TestScene scene = crystal(n, packing,
                                     1000 * n + static_cast<std::uint64_t>(100 * packing));
-    Simulation simulation = event_driven_simulation(scene, world);
-    run_until(simulation, n_early);
-    Averaging averaging(scene, simulation, world);
-    run_until(simulation, n_early + n_collisions, averaging.actions());
+    DiscSystem system = event_driven_system(scene, world);
+    run_until(system, n_early);
+    Averaging averaging(scene, system, world);
+    run_until(system, n_early + n_collisions, averaging.actions());
     const Averages averages = averaging.averages();
-    const double energy = simulation.totals().kinetic_energy;
+    const double energy = system.totals().kinetic_energy;
     const double area = scene.setting.box_size * scene.setting.box_size;
     const double thermal_speed = std::sqrt(energy / static_cast<double>(n));
     const auto scaled = [](const Estimate& estimate, double factor) {

@@ -7,7 +7,7 @@
 
 #include "averaging.hpp"
 #include "scene_tools.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom::test {
 
@@ -16,12 +16,11 @@ namespace carrom::test {
 TestScene crystal(std::size_t n, double packing, std::uint64_t seed);
 
 /// Ready to run in the event-driven method.
-Simulation event_driven_simulation(const TestScene& scene, const Communicator& world);
+DiscSystem event_driven_system(const TestScene& scene, const Communicator& world);
 
 /// Steps until so many collisions, of pairs and with walls, have happened in all since the start.
 /// **Collective.**
-void run_until(Simulation& simulation, double n_collisions,
-               std::span<StepAction* const> actions = {});
+void run_until(DiscSystem& system, double n_collisions, std::span<StepAction* const> actions = {});
 
 /// In units of disc diameter and thermal speed sqrt(kT).
 struct GasProperties {

@@ -58,12 +58,12 @@ void check_two_discs(double n_collisions) {
     fmt::print("| eta | R_disc | measured | R_wall | measured |\n|---|---|---|---|---|\n");
     for (const double eta : {0.1, 0.2, 0.3}) {
         const TestScene scene = crystal(2, eta, 7);
-        Simulation simulation = event_driven_simulation(scene, world);
-        run_until(simulation, 1000);
-        const Totals before = simulation.totals();
-        Averaging averaging(scene, simulation, world);
-        run_until(simulation, n_collisions, averaging.actions());
-        const Totals after = simulation.totals();
+        DiscSystem system = event_driven_system(scene, world);
+        run_until(system, 1000);
+        const Totals before = system.totals();
+        Averaging averaging(scene, system, world);
+        run_until(system, n_collisions, averaging.actions());
+        const Totals after = system.totals();
         const Averages averages = averaging.averages();
         const TwoDiscRates known = two_disc_rates(scene.setting.box_size, 2,
                                                   std::sqrt(2 * after.kinetic_energy));

@@ -16,9 +16,9 @@ using namespace carrom::test;
 
 namespace {
 
-double kurtosis_of(std::span<const Disc> discs) {
+double kurtosis_of(std::span<const DiscState> discs) {
     double square = 0, fourth = 0;
-    for (const Disc& disc : discs) {
+    for (const DiscState& disc : discs) {
         const double v2 = disc.vx * disc.vx + disc.vy * disc.vy;
         square += v2;
         fourth += v2 * v2;
@@ -42,16 +42,16 @@ double kolmogorov_distance(std::vector<double> values, double n) {
 /// One disc of each of `n_samples` states, five collisions a disc apart: v^2 over the sum of all.
 void check_distribution(std::size_t n, double n_samples) {
     const Communicator world = Communicator::world();
-    Simulation simulation = event_driven_simulation(crystal(n, 0.3, 11), world);
+    DiscSystem system = event_driven_system(crystal(n, 0.3, 11), world);
     const double apart = 5 * static_cast<double>(n);
     double n_collisions = 20 * apart;
-    run_until(simulation, n_collisions);
-    const double energy = simulation.totals().kinetic_energy;
+    run_until(system, n_collisions);
+    const double energy = system.totals().kinetic_energy;
     std::vector<double> shares;
     for (double k = 0; k < n_samples; ++k) {
         n_collisions += apart;
-        run_until(simulation, n_collisions);
-        for (const Disc& disc : simulation.discs()) {
+        run_until(system, n_collisions);
+        for (const DiscState& disc : system.discs()) {
             if (disc.id == shares.size() % n) {
                 shares.push_back((disc.vx * disc.vx + disc.vy * disc.vy) / (2 * energy));
                 break;
@@ -93,7 +93,7 @@ std::vector<std::pair<double, double>> legacy_velocities(std::size_t n, Random& 
 std::vector<double> kurtosis_without_correlations(std::size_t n,
                                                   const std::vector<double>& per_disc) {
     Random random(14);
-    std::vector<Disc> discs(n);
+    std::vector<DiscState> discs(n);
     std::size_t i = 0;
     for (const auto& [vx, vy] : legacy_velocities(n, random)) {
         discs[i].vx = vx;
@@ -103,8 +103,8 @@ std::vector<double> kurtosis_without_correlations(std::size_t n,
     double n_collisions = 0;
     for (const double until : per_disc) {
         while (2 * n_collisions < until * static_cast<double>(n)) {
-            Disc& p = discs[random.index(n)];
-            Disc& q = discs[random.index(n)];
+            DiscState& p = discs[random.index(n)];
+            DiscState& q = discs[random.index(n)];
             const double wx = q.vx - p.vx, wy = q.vy - p.vy, speed = std::sqrt(wx * wx + wy * wy);
             if (!(random.uniform(0, 12) < speed)) continue; // none is ever as fast as 12
             const double miss = random.uniform(-1, 1), head_on = std::sqrt(1 - miss * miss);
@@ -132,10 +132,10 @@ void check_relaxation(std::size_t n, double packing) {
         scene.discs[i].vx = 0.1 * vx;
         scene.discs[i++].vy = 0.1 * vy;
     }
-    Simulation simulation = event_driven_simulation(scene, Communicator::world());
+    DiscSystem system = event_driven_system(scene, Communicator::world());
     const double discs = static_cast<double>(n), final = 2 * discs / (discs + 1),
                  noise = 2 / std::sqrt(discs);
-    const double start = kurtosis_of(simulation.discs());
+    const double start = kurtosis_of(system.discs());
     CHECK(std::fabs(start - 31.0 / 5 / (49.0 / 9)) < 4 / std::sqrt(discs));
     fmt::print("| collisions per disc | kurtosis | Boltzmann's |\n|---|---|---|\n| 0 | {:.4f} | "
                "{:.4f} |\n",
@@ -144,9 +144,9 @@ void check_relaxation(std::size_t n, double packing) {
     const std::vector<double> known = kurtosis_without_correlations(4 * n, numbers);
     double last = 0;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        while (2 * static_cast<double>(simulation.totals().pair_collisions) < numbers[k] * discs)
-            simulation.advance_towards(simulation.step() + 1);
-        last = kurtosis_of(simulation.discs());
+        while (2 * static_cast<double>(system.totals().pair_collisions) < numbers[k] * discs)
+            system.advance_towards(system.step() + 1);
+        last = kurtosis_of(system.discs());
         fmt::print("| {} | {:.4f} | {:.4f} |\n", numbers[k], last, known[k]);
         CHECK(std::fabs(last - known[k]) < 4 * 1.2 * noise); // both have some
     }

@@ -26,16 +26,15 @@ TestScene periodic_gas(std::size_t n, double packing, std::uint64_t seed) {
 struct Speeds {
     double temperature = 0, a2 = 0;
 };
-Speeds measured_speeds(Simulation& simulation, std::int64_t early, std::int64_t apart,
-                       int n_samples) {
+Speeds measured_speeds(DiscSystem& system, std::int64_t early, std::int64_t apart, int n_samples) {
     const auto to = [&](std::int64_t step) {
-        while (simulation.step() < step) simulation.advance_towards(step);
+        while (system.step() < step) system.advance_towards(step);
     };
     to(early);
     double square = 0, fourth = 0, n = 0;
     for (int sample = 0; sample < n_samples; ++sample) {
-        to(simulation.step() + apart);
-        for (const Disc& disc : simulation.discs()) {
+        to(system.step() + apart);
+        for (const DiscState& disc : system.discs()) {
             const double v2 = squared_speed_of(disc);
             square += v2;
             fourth += v2 * v2;
@@ -70,8 +69,8 @@ TEST_CASE("physics: a gas that kicks heat has the temperature and the cumulant o
         scene.setting.effects.contact = {ContactKind::restitution, e, 1e-6};
         scene.setting.effects.thermostat = {ThermostatKind::kicks, strength, 0, 0, 17};
         scene.setting.sync_every = 8; // a disc collides once in 90 steps
-        Simulation simulation = event_driven_simulation(scene, world);
-        const Speeds speeds = measured_speeds(simulation, 1600, 240, 120);
+        DiscSystem system = event_driven_system(scene, world);
+        const Speeds speeds = measured_speeds(system, 1600, 240, 120);
         fmt::print("e = {}: kT {:.4f} of {}, a2 {:.4f}, theory {:.4f}\n", e, speeds.temperature, kt,
                    speeds.a2, a2);
         // Samples come just after a kick; between two kicks the mean is half a kick less.
@@ -85,9 +84,9 @@ TEST_CASE("physics: Andersen and Langevin thermostats bring discs to Maxwell's d
     for (const ThermostatKind kind : {ThermostatKind::andersen, ThermostatKind::langevin}) {
         TestScene scene = periodic_gas(3000, 0.3, 32);
         scene.setting.effects.thermostat = {kind, 0, 0.2, 4, 18};
-        Simulation simulation = event_driven_simulation(scene, world);
-        const Speeds speeds = measured_speeds(simulation, 40, 10, 30);
-        const Totals totals = simulation.totals();
+        DiscSystem system = event_driven_system(scene, world);
+        const Speeds speeds = measured_speeds(system, 40, 10, 30);
+        const Totals totals = system.totals();
         // Four standard errors of 90,000 speeds: 1 / sqrt(n) of both.
         CHECK(speeds.temperature == Approx(4).epsilon(4 / 300.0));
         CHECK(std::fabs(speeds.a2) < 4 / 300.0);
@@ -111,21 +110,21 @@ TEST_CASE("physics: Langevin discs that are alone diffuse by kT / gamma") {
     TestScene scene = periodic_gas(n, 0.01, 33);
     scene.setting.effects.contact.kind = ContactKind::none;
     scene.setting.effects.thermostat = {ThermostatKind::langevin, 0, gamma, kt, 19};
-    Simulation simulation = event_driven_simulation(scene, world);
-    while (simulation.step() < 50) simulation.advance_towards(50);
+    DiscSystem system = event_driven_system(scene, world);
+    while (system.step() < 50) system.advance_towards(50);
     std::vector<double> x(n), y(n);
     const double size = scene.setting.box_size;
-    for (const Disc& disc : simulation.shown()) {
-        x[disc.id] = disc.x_at(simulation.clock());
-        y[disc.id] = disc.y_at(simulation.clock());
+    for (const DiscState& disc : system.shown()) {
+        x[disc.id] = disc.x_at(system.clock());
+        y[disc.id] = disc.y_at(system.clock());
     }
     const std::int64_t last = 50 + static_cast<std::int64_t>(time);
-    while (simulation.step() < last) simulation.advance_towards(last);
+    while (system.step() < last) system.advance_towards(last);
     double square = 0;
-    for (const Disc& disc : simulation.shown()) {
+    for (const DiscState& disc : system.shown()) {
         // They go some 30 at most, in a box of 1772.
-        const double dx = std::remainder(disc.x_at(simulation.clock()) - x[disc.id], size),
-                     dy = std::remainder(disc.y_at(simulation.clock()) - y[disc.id], size);
+        const double dx = std::remainder(disc.x_at(system.clock()) - x[disc.id], size),
+                     dy = std::remainder(disc.y_at(system.clock()) - y[disc.id], size);
         square += dx * dx + dy * dy;
     }
     const double c = std::exp(-gamma), d = kt * (1 + c) / (2 * (1 - c));

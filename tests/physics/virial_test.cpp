@@ -28,10 +28,10 @@ void make_periodic(TestScene& scene) {
 Averages averages_of(TestScene scene, double n_early, double n_collisions,
                      const Communicator& world) {
     scene.steps = 1 << 20;
-    Simulation simulation = event_driven_simulation(scene, world);
-    run_until(simulation, n_early);
-    Averaging averaging(scene, simulation, world);
-    run_until(simulation, n_early + n_collisions, averaging.actions());
+    DiscSystem system = event_driven_system(scene, world);
+    run_until(system, n_early);
+    Averaging averaging(scene, system, world);
+    run_until(system, n_early + n_collisions, averaging.actions());
     return averaging.averages();
 }
 
@@ -82,18 +82,17 @@ struct NormalImpulses : WallFollower {
 void check_walls(TestScene scene, double n_collisions) {
     const Communicator world = Communicator::world();
     scene.steps = 1 << 20;
-    Simulation simulation = event_driven_simulation(scene, world);
+    DiscSystem system = event_driven_system(scene, world);
     const double n = static_cast<double>(scene.discs.size());
-    run_until(simulation, 60 * n);
-    Averaging averaging(scene, simulation, world);
-    const std::int64_t first = simulation.step();
+    run_until(system, 60 * n);
+    Averaging averaging(scene, system, world);
+    const std::int64_t first = system.step();
     NormalImpulses impulses;
-    simulation.follow_walls(impulses);
-    run_until(simulation, 60 * n + n_collisions, averaging.actions());
-    simulation.forget(impulses);
+    system.follow_walls(impulses);
+    run_until(system, 60 * n + n_collisions, averaging.actions());
+    system.forget(impulses);
     const Averages averages = averaging.averages();
-    const double size = scene.setting.box_size,
-                 steps = static_cast<double>(simulation.step() - first);
+    const double size = scene.setting.box_size, steps = static_cast<double>(system.step() - first);
     const double room = 1 - 2 * scene.setting.radius / size;
     const TensorEstimate& p = averages.pressure_tensor;
     const auto wall = [&](std::size_t side) {
@@ -110,34 +109,34 @@ void check_walls(TestScene scene, double n_collisions) {
 }
 
 struct State {
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     double clock = 0;
 };
 
 /// All discs by id, on every rank.
-State state_of(const Simulation& simulation, const Communicator& world) {
+State state_of(const DiscSystem& system, const Communicator& world) {
     State state;
     stream_to_root(
-        world, simulation.shown(),
-        [&](std::span<const Disc> some) {
+        world, system.shown(),
+        [&](std::span<const DiscState> some) {
             state.discs.insert(state.discs.end(), some.begin(), some.end());
         },
         1000);
     world.broadcast(state.discs);
     std::sort(state.discs.begin(), state.discs.end(),
-              [](const Disc& a, const Disc& b) { return a.id < b.id; });
-    state.clock = simulation.clock();
+              [](const DiscState& a, const DiscState& b) { return a.id < b.id; });
+    state.clock = system.clock();
     return state;
 }
 
 /// m v_a v_b times `time`.
-Tensor flown(double mass, const Disc& disc, double time) {
+Tensor flown(double mass, const DiscState& disc, double time) {
     return (mass * time) * Tensor{disc.vx * disc.vx, disc.vx * disc.vy, disc.vy * disc.vy};
 }
 
-MotionSample integrated(const Simulation& simulation) {
-    MotionSample sample = simulation.motion_sample();
-    simulation.integrate(simulation.stress_sums(), sample);
+MotionSample integrated(const DiscSystem& system) {
+    MotionSample sample = system.motion_sample();
+    system.integrate(system.stress_sums(), sample);
     return sample;
 }
 
@@ -161,7 +160,7 @@ struct Step {
 /// Each disc flies with its velocity before the step until its collision, and on with that after
 /// it.
 void add_flights(const TestScene& scene, const std::vector<Collision>& log, Step& step) {
-    for (const Disc& disc : step.before.discs) {
+    for (const DiscState& disc : step.before.discs) {
         const double mass = mass_of(scene, disc.id);
         step.kinetic += flown(mass, disc, 1);
         step.size += mass * squared_speed_of(disc);
@@ -188,7 +187,7 @@ void add_pairs(const TestScene& scene, const std::vector<Collision>& log, Step& 
         if (c.q == Collision::wall) continue;
         const double into = c.time + static_cast<double>(c.micro_step) - (step.end - 1),
                      clock = step.before.clock;
-        const Disc &p = step.before.discs[c.p], &q = step.before.discs[c.q];
+        const DiscState &p = step.before.discs[c.p], &q = step.before.discs[c.q];
         const double ex = nearest((q.x_at(clock) + q.vx * into) - (p.x_at(clock) + p.vx * into),
                                   periods.x),
                      ey = nearest((q.y_at(clock) + q.vy * into) - (p.y_at(clock) + p.vy * into),
@@ -213,26 +212,26 @@ bool has_second_hits(const std::vector<Collision>& log, std::size_t n_discs) {
 /// Steps one by one.
 void check_against_log(const TestScene& scene, Method method) {
     const Communicator world = Communicator::world();
-    Scene all = scene_of(scene);
+    SceneParameters all = scene_of(scene);
     all.method = method;
-    Simulation simulation(all, world.is_root() ? scene.discs : std::vector<InputDisc>{}, world, {});
+    DiscSystem system(all, world.is_root() ? scene.discs : std::vector<InputDisc>{}, world, {});
     std::vector<Collision> log;
-    simulation.log_to(&log);
+    system.log_to(&log);
     int n_pairs = 0;
     INFO(scene.name);
-    while (simulation.step() < scene.steps) {
+    while (system.step() < scene.steps) {
         Step step;
-        step.before = state_of(simulation, world);
-        const MotionSample sample_before = integrated(simulation);
+        step.before = state_of(system, world);
+        const MotionSample sample_before = integrated(system);
         log.clear();
-        simulation.advance_towards(simulation.step() + 1);
-        step.after = state_of(simulation, world);
-        step.end = static_cast<double>(simulation.step());
+        system.advance_towards(system.step() + 1);
+        step.after = state_of(system, world);
+        step.end = static_cast<double>(system.step());
         if (has_second_hits(log, step.before.discs.size())) continue;
         add_flights(scene, log, step);
         add_pairs(scene, log, step);
         n_pairs += step.n_pairs;
-        const MotionSample sample = integrated(simulation);
+        const MotionSample sample = integrated(system);
         for (double Tensor::* part : {&Tensor::xx, &Tensor::xy, &Tensor::yy})
             CHECK(std::fabs(sample.stress.*part - sample_before.stress.*part - step.stress.*part) <=
                   1e-10 * step.size);

@@ -27,7 +27,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
         run_until(setting_.clock_at(until - (next_sync - setting_.sync_every)));
         micro_step_ = until;
         if (until < next_sync) continue;
-        for (Disc& disc : discs_) {
+        for (DiscState& disc : discs_) {
             if (has_left(disc)) continue;
             advance(disc, setting_.clock_at(setting_.sync_every));
             if (setting_.drag_clock) {
@@ -72,7 +72,7 @@ void EventDrivenReference::predict_all() {
 }
 
 void EventDrivenReference::predict_walls(DiscId p) {
-    const Disc& disc = discs_[p];
+    const DiscState& disc = discs_[p];
     if (has_left(disc)) return;
     for (const DiscId axis : {Event::wall_x, Event::wall_y})
         push({meeting(disc, axis).time, 0, p, false, axis, 0});
@@ -122,7 +122,8 @@ double EventDrivenReference::gravity(DiscId axis) const {
 }
 
 /// The first time at which the disc is at one of the two walls, or beyond, and comes nearer.
-EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, DiscId axis) const {
+EventDrivenReference::Meeting EventDrivenReference::meeting(const DiscState& disc,
+                                                            DiscId axis) const {
     constexpr double never = std::numeric_limits<double>::infinity();
     Meeting first{never, false};
     if (axis == Event::wall_x ? setting_.effects.is_periodic_x() : setting_.effects.is_periodic_y())
@@ -167,7 +168,7 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
 
 /// Turns the velocity round at the wall that it has come to; `disc` is there, and was `is_touched`
 /// a short time ago.
-void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time,
+void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, double time,
                                    bool is_touched) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
@@ -201,7 +202,7 @@ void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double
 }
 
 /// A frame that is at rest in the box begins to fall.
-void EventDrivenReference::restart_frame(Disc& disc, double time) const {
+void EventDrivenReference::restart_frame(DiscState& disc, double time) const {
     const double gx = gravity(Event::wall_x), gy = gravity(Event::wall_y);
     if (gx == 0 && gy == 0) return;
     disc.x = disc.x + fallen(gx, time);
@@ -265,7 +266,7 @@ bool EventDrivenReference::is_valid(const Prediction& prediction) const {
 void EventDrivenReference::happen(const Event& event) {
     if (log_.size() >= most_events_)
         throw std::runtime_error("more collisions than a test should have");
-    const Disc& first = discs_[event.p];
+    const DiscState& first = discs_[event.p];
     const bool is_corner = !event.is_pair && !event.is_obstacle && event.q == Event::wall_x &&
                            meeting(first, Event::wall_y).time == event.time;
     const double vy_before = first.vy;
@@ -285,15 +286,15 @@ void EventDrivenReference::happen(const Event& event) {
 }
 
 void EventDrivenReference::carry_out(const Event& event) {
-    Disc& p = discs_[event.p];
-    const auto is_recent = [&](const Disc& disc) {
+    DiscState& p = discs_[event.p];
+    const auto is_recent = [&](const DiscState& disc) {
         return event.time - disc.tau < setting_.contact_time();
     };
     const bool is_touched = is_recent(p) || (event.is_pair && is_recent(discs_[event.q]));
     const bool is_high = !event.is_pair && !event.is_obstacle && meeting(p, event.q).is_high;
     advance(p, event.time);
     if (event.is_pair) {
-        Disc& q = discs_[event.q];
+        DiscState& q = discs_[event.q];
         advance(q, event.time);
         if (setting_.are_rough())
             collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,

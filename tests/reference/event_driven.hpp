@@ -51,7 +51,7 @@ public:
     void run_micro_steps(std::int64_t count);
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
-    std::span<const Disc> discs() const { return discs_; }
+    std::span<const DiscState> discs() const { return discs_; }
     /// By id, angles per micro-step; empty where discs are not rough.
     std::span<const double> spins() const { return spins_; }
     double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }
@@ -97,14 +97,14 @@ private:
     }
     double gravity(DiscId axis) const;
     double fallen(double pull, double time) const;
-    Meeting meeting(const Disc& disc, DiscId axis) const;
-    void rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const;
-    void restart_frame(Disc& disc, double time) const;
+    Meeting meeting(const DiscState& disc, DiscId axis) const;
+    void rebound(DiscState& disc, DiscId axis, bool is_high, double time, bool is_touched) const;
+    void restart_frame(DiscState& disc, double time) const;
     double growth_at(double time) const;
     double growth_of_radius(DiscId disc) const;
-    Contact growing_contact(const Disc& p, const Disc& q, Copy copy) const;
-    Meeting growing_meeting(const Disc& disc, DiscId axis) const;
-    void push_growing(Disc& p, Disc& q, double restitution, Copy copy) const;
+    Contact growing_contact(const DiscState& p, const DiscState& q, Copy copy) const;
+    Meeting growing_meeting(const DiscState& disc, DiscId axis) const;
+    void push_growing(DiscState& p, DiscState& q, double restitution, Copy copy) const;
     void predict_pair(DiscId p, DiscId q);
     void push(Event event);
     bool is_valid(const Prediction& prediction) const;
@@ -121,7 +121,7 @@ private:
 
     Setting setting_;
     std::shared_ptr<const FixedBodies> species_;
-    std::vector<Disc> discs_;
+    std::vector<DiscState> discs_;
     std::vector<double> spins_;
     std::vector<EventHistory> history_of_;
     std::vector<Prediction> heap_;

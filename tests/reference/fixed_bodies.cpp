@@ -29,7 +29,7 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
 }
 
 /// All those that the flight comes near, and more.
-std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double until) const {
+std::vector<Copy> FixedBodies::copies(const DiscState& disc, const Body& body, double until) const {
     const auto range = [&](bool is_periodic, double length, double from, double to, double g) {
         if (!is_periodic) return std::pair(0, 0);
         const double fall = std::fabs(0.5 * g * until * until);
@@ -50,7 +50,7 @@ std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double
 
 /// Where the disc would be in the box at its own time, and how fast; then the distance from there
 /// on.
-double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) const {
+double FixedBodies::meeting_time(const DiscState& disc, const Body& body, Copy copy) const {
     const Box box = setting_.box();
     const double reach = body.radius + setting_.radius_of(disc.id);
     const double x = ((disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x) - copy.x * box.x;
@@ -59,7 +59,7 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
     if (body.length == 0 && (gx_ != 0 || gy_ != 0))
         return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, reach);
     if (body.length == 0) {
-        Disc fixed;
+        DiscState fixed;
         fixed.x = body.x;
         fixed.y = body.y;
         fixed.tau = disc.tau;
@@ -94,7 +94,7 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
     return disc.tau + first;
 }
 
-BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double until,
+BodyMeeting FixedBodies::first_meeting(const DiscState& disc, double from, double until,
                                        const BodyMeeting& left) const {
     BodyMeeting first{never, none};
     for (std::size_t k = 0; k < species_.size(); ++k) {
@@ -107,7 +107,8 @@ BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double unt
     return first;
 }
 
-void FixedBodies::reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const {
+void FixedBodies::reflect(DiscState& disc, const BodyMeeting& at, double time,
+                          bool is_touched) const {
     const Body& body = species_[at.body];
     const Box box = setting_.box();
     const double x = ((disc.x + (0.5 * gx_ * time) * time) - body.x) - at.copy.x * box.x;

@@ -30,18 +30,18 @@ public:
     bool are_none() const { return species_.empty(); }
     /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite
     /// if there is none. Images of bodies are searched as far as the disc gets until `until`.
-    BodyMeeting first_meeting(const Disc& disc, double from, double until,
+    BodyMeeting first_meeting(const DiscState& disc, double from, double until,
                               const BodyMeeting& left) const;
     /// Turns the velocity of a disc round that is at the body at `time`.
-    void reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const;
+    void reflect(DiscState& disc, const BodyMeeting& at, double time, bool is_touched) const;
 
     static constexpr std::size_t none = ~std::size_t{0};
 
     static constexpr BodyMeeting nowhere() { return {0, none}; }
 
 private:
-    double meeting_time(const Disc& disc, const Body& body, Copy copy) const;
-    std::vector<Copy> copies(const Disc& disc, const Body& body, double until) const;
+    double meeting_time(const DiscState& disc, const Body& body, Copy copy) const;
+    std::vector<Copy> copies(const DiscState& disc, const Body& body, double until) const;
 
     Setting setting_;
     double gx_, gy_;

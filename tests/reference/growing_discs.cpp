@@ -20,10 +20,11 @@ double EventDrivenReference::growth_of_radius(DiscId disc) const {
 }
 
 /// In lengths that grow with the radii, and the clock u = t / (1 + g t), discs keep their size.
-Contact EventDrivenReference::growing_contact(const Disc& p, const Disc& q, Copy copy) const {
+Contact EventDrivenReference::growing_contact(const DiscState& p, const DiscState& q,
+                                              Copy copy) const {
     const double base = std::max(p.tau, q.tau), size = growth_at(base), g = growth_rate() / size;
     const double sigma = (setting_.radius_of(p.id) + setting_.radius_of(q.id)) * size;
-    Disc from = p, to = q;
+    DiscState from = p, to = q;
     advance(from, base);
     advance(to, base);
     const double dx = (to.x - from.x) + copy.x * setting_.box().x,
@@ -44,7 +45,7 @@ Contact EventDrivenReference::growing_contact(const Disc& p, const Disc& q, Copy
     return {base, left <= 0 ? -1 : u / left};
 }
 
-EventDrivenReference::Meeting EventDrivenReference::growing_meeting(const Disc& disc,
+EventDrivenReference::Meeting EventDrivenReference::growing_meeting(const DiscState& disc,
                                                                     DiscId axis) const {
     Meeting first{std::numeric_limits<double>::infinity(), false};
     const double radius = setting_.radius_of(disc.id) * growth_at(disc.tau);
@@ -62,7 +63,8 @@ EventDrivenReference::Meeting EventDrivenReference::growing_meeting(const Disc& 
 
 /// Of discs that touch: their surfaces part along the line of centres with the share `restitution`
 /// of the speed at which they met.
-void EventDrivenReference::push_growing(Disc& p, Disc& q, double restitution, Copy copy) const {
+void EventDrivenReference::push_growing(DiscState& p, DiscState& q, double restitution,
+                                        Copy copy) const {
     const double ex = (q.x - p.x) + copy.x * setting_.box().x,
                  ey = (q.y - p.y) + copy.y * setting_.box().y;
     const double g = growth_rate() / growth_at(p.tau);

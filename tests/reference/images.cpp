@@ -7,8 +7,8 @@
 
 namespace carrom::reference {
 
-std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
-                              double end, const Tiles& tiles) {
+std::vector<Copy> copies_near(const Setting& setting, const DiscState& p, const DiscState& q,
+                              double begin, double end, const Tiles& tiles) {
     // Of discs that grow: to twice their radius.
     const double sigma = (setting.effects.growth == 0 ? 2 : 4) * setting.radius;
     const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
@@ -68,7 +68,7 @@ Tiles Setting::tiles(std::int64_t sync) const {
     return tiles;
 }
 
-void bring_inside(const Setting& setting, Disc& disc, const Tiles& tiles) {
+void bring_inside(const Setting& setting, DiscState& disc, const Tiles& tiles) {
     double up = 0, unused = 0;
     if (setting.effects.is_periodic_y()) disc.y = inside_of(disc.y, setting.box().y, up);
     if (setting.effects.are_sheared() && up != 0) { // it is now the image so many rows up

@@ -11,7 +11,7 @@ namespace carrom::reference {
 namespace {
 
 /// The smaller root of |d + w t| = sigma, if they approach and meet.
-std::optional<double> meeting_time(const Disc& p, const Disc& q, double sigma) {
+std::optional<double> meeting_time(const DiscState& p, const DiscState& q, double sigma) {
     const double dx = p.x - q.x, dy = p.y - q.y;
     const double wx = p.vx - q.vx, wy = p.vy - q.vy;
     const double a = wx * wx + wy * wy;
@@ -22,7 +22,7 @@ std::optional<double> meeting_time(const Disc& p, const Disc& q, double sigma) {
     return (-b - std::sqrt(discriminant)) / (2 * a);
 }
 
-void exchange_normal_parts(Disc& p, Disc& q) {
+void exchange_normal_parts(DiscState& p, DiscState& q) {
     const double distance = std::hypot(q.x - p.x, q.y - p.y);
     const double nx = (q.x - p.x) / distance, ny = (q.y - p.y) / distance;
     const double p_normal = p.vx * nx + p.vy * ny, p_tangent = p.vy * nx - p.vx * ny;
@@ -33,7 +33,7 @@ void exchange_normal_parts(Disc& p, Disc& q) {
     q.vy = p_normal * ny + q_tangent * nx;
 }
 
-void move(Disc& disc, double elapsed) {
+void move(DiscState& disc, double elapsed) {
     disc.x += disc.vx * elapsed;
     disc.y += disc.vy * elapsed;
 }
@@ -48,7 +48,7 @@ void LegacyReference::run_micro_steps(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) run_micro_step();
 }
 
-LegacyReference::Walls LegacyReference::walls_of(const Disc& disc) const {
+LegacyReference::Walls LegacyReference::walls_of(const DiscState& disc) const {
     const auto time = [this](double x, double v) {
         if (v < 0 && x + v < low_ + band_) return std::clamp((low_ - x) / v, 0.0, 1.0);
         if (v > 0 && x + v > high_ - band_) return std::clamp((high_ - x) / v, 0.0, 1.0);
@@ -60,7 +60,7 @@ LegacyReference::Walls LegacyReference::walls_of(const Disc& disc) const {
 
 std::vector<Collision> LegacyReference::candidates() const {
     std::vector<Collision> found;
-    for (const Disc& p : discs_) {
+    for (const DiscState& p : discs_) {
         const Walls walls = walls_of(p);
         if (walls.t <= 1) found.push_back({micro_step_, walls.t, p.id, Collision::wall});
         for (DiscId id = p.id + 1; id < discs_.size(); ++id) {
@@ -86,14 +86,14 @@ void LegacyReference::run_micro_step() {
             continue;
         }
         log_.push_back(candidate);
-        Disc& p = discs_[candidate.p];
+        DiscState& p = discs_[candidate.p];
         is_taken[p.id] = true;
         if (is_wall) {
             bounce(p, walls_of(p));
             counters_.wall_collisions += 1;
             continue;
         }
-        Disc& q = discs_[candidate.q];
+        DiscState& q = discs_[candidate.q];
         is_taken[q.id] = true;
         move(p, candidate.t);
         move(q, candidate.t);
@@ -104,13 +104,13 @@ void LegacyReference::run_micro_step() {
         finish(p, candidate.t);
         finish(q, candidate.t);
     }
-    for (Disc& disc : discs_) {
+    for (DiscState& disc : discs_) {
         if (!is_taken[disc.id]) move(disc, 1);
     }
     micro_step_ += 1;
 }
 
-void LegacyReference::bounce(Disc& disc, const Walls& walls) const {
+void LegacyReference::bounce(DiscState& disc, const Walls& walls) const {
     move(disc, walls.t);
     const auto is_at_wall = [this](double x, double v) {
         return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
@@ -124,7 +124,7 @@ void LegacyReference::bounce(Disc& disc, const Walls& walls) const {
 }
 
 /// Moves the disc for the rest of the micro-step, or to the wall that it would pass.
-void LegacyReference::finish(Disc& disc, double t) const {
+void LegacyReference::finish(DiscState& disc, double t) const {
     double rest = 1 - t;
     const auto shorten = [this, &rest, t](double x, double v) {
         if (v < 0 && x + v * (1 - t) < low_) rest = std::min(rest, std::max(0.0, (low_ - x) / v));

@@ -25,7 +25,7 @@ public:
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
     /// In id order, where they are now; tau stays 0, velocities are per micro-step.
-    std::span<const Disc> discs() const { return discs_; }
+    std::span<const DiscState> discs() const { return discs_; }
     const Counters& counters() const { return counters_; }
     const std::vector<Collision>& log() const { return log_; }
 
@@ -37,13 +37,13 @@ private:
 
     void run_micro_step();
     std::vector<Collision> candidates() const;
-    Walls walls_of(const Disc& disc) const;
-    void bounce(Disc& disc, const Walls& walls) const;
-    void finish(Disc& disc, double t) const;
+    Walls walls_of(const DiscState& disc) const;
+    void bounce(DiscState& disc, const Walls& walls) const;
+    void finish(DiscState& disc, double t) const;
 
     Setting setting_;
     double low_, high_, band_;
-    std::vector<Disc> discs_;
+    std::vector<DiscState> discs_;
     std::int64_t micro_step_ = 0;
     Counters counters_;
     std::vector<Collision> log_;

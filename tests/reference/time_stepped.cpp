@@ -25,7 +25,7 @@ bool before(const Collision& a, const Collision& b) {
 
 } // namespace
 
-Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy,
+Contact contact(const DiscState& p, const DiscState& q, double sigma, double tolerance, Copy copy,
                 const Tiles& tiles) {
     const double base = p.tau > q.tau ? p.tau : q.tau;
     const double px = p.x + p.vx * (base - p.tau), py = p.y + p.vy * (base - p.tau);
@@ -50,9 +50,9 @@ Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Co
     return {base, c / (std::sqrt(discriminant) - b)};
 }
 
-bool has_left(const Disc& disc) { return disc.is_departed != 0; }
+bool has_left(const DiscState& disc) { return disc.is_departed != 0; }
 
-void set_left(const Setting& setting, Disc& disc, std::size_t side) {
+void set_left(const Setting& setting, DiscState& disc, std::size_t side) {
     const double radius = setting.radius_of(disc.id),
                  line = side % 2 == 0 ? -radius : setting.edge(side) + radius;
     (side < 2 ? disc.x : disc.y) = line;
@@ -60,15 +60,15 @@ void set_left(const Setting& setting, Disc& disc, std::size_t side) {
     disc.is_departed = 1;
 }
 
-void advance(Disc& disc, double time) {
+void advance(DiscState& disc, double time) {
     const double elapsed = time - disc.tau;
     disc.x = disc.x + disc.vx * elapsed;
     disc.y = disc.y + disc.vy * elapsed;
     disc.tau = time;
 }
 
-void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy,
-                       const Tiles& tiles) {
+void exchange_momentum(const Setting& setting, DiscState& p, DiscState& q, double restitution,
+                       Copy copy, const Tiles& tiles) {
     const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
     const double wx = (q.vx - p.vx) + tiles.vx_of(copy), wy = q.vy - p.vy;
     const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
@@ -79,8 +79,8 @@ void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitut
     q.vy -= k * (mp / mean) * ey;
 }
 
-void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
-                   bool is_touched, Copy copy, const Tiles& tiles) {
+void collide_rough(const Setting& setting, DiscState& p, DiscState& q, double& p_spin,
+                   double& q_spin, bool is_touched, Copy copy, const Tiles& tiles) {
     const ContactEffect& contact = setting.effects.contact;
     const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
     const double wx = (q.vx - p.vx) + tiles.vx_of(copy), wy = q.vy - p.vy;
@@ -114,22 +114,22 @@ Species Setting::species_of(DiscId id) const {
     return {0, radius, 1};
 }
 
-std::array<double, 2> Setting::leaving(const Disc& disc, std::size_t number) const {
+std::array<double, 2> Setting::leaving(const DiscState& disc, std::size_t number) const {
     Boundary side = effects.boundaries[number];
     side.temperature /= static_cast<double>(micro_steps) * static_cast<double>(micro_steps);
     side.temperature /= mass_of(disc.id);
     return thermal_draw(side, disc.id, disc.wall_collisions, number);
 }
 
-std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs) {
+std::vector<DiscState> stored_states(const Setting& setting, std::span<const InputDisc> discs) {
     const double micro_steps = static_cast<double>(setting.micro_steps);
-    std::vector<Disc> states(discs.size());
+    std::vector<DiscState> states(discs.size());
     std::vector<bool> is_given(discs.size(), false);
     for (const InputDisc& disc : discs) {
         if (disc.id >= discs.size() || is_given[disc.id])
             throw std::invalid_argument("ids are not 0 .. N-1");
         is_given[disc.id] = true;
-        Disc& state = states[disc.id];
+        DiscState& state = states[disc.id];
         state.id = disc.id;
         state.x = disc.x;
         state.y = disc.y;
@@ -181,7 +181,7 @@ void TimeSteppedReference::run_micro_step() {
 void TimeSteppedReference::find_candidates(double m) {
     candidates_.clear();
     const Tiles tiles = setting_.tiles(last_sync());
-    for (const Disc& p : discs_) {
+    for (const DiscState& p : discs_) {
         if (has_left(p)) continue;
         const double t = wall_time(p, m);
         if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
@@ -207,7 +207,7 @@ void TimeSteppedReference::find_candidates(double m) {
 
 void TimeSteppedReference::keep(const Collision& candidate, double m) {
     log_.push_back(candidate);
-    Disc& p = discs_[candidate.p];
+    DiscState& p = discs_[candidate.p];
     if (candidate.q == Collision::wall) {
         counters_.wall_collisions += 1;
         if (candidate.t != axes_time(p, m)) return bounce_off(p, m, candidate.t);
@@ -218,7 +218,7 @@ void TimeSteppedReference::keep(const Collision& candidate, double m) {
         stop_at_wall(p, m, candidate.t, FixedBodies::nowhere());
         return;
     }
-    Disc& q = discs_[candidate.q];
+    DiscState& q = discs_[candidate.q];
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
     if (setting_.are_rough())
@@ -234,7 +234,7 @@ void TimeSteppedReference::keep(const Collision& candidate, double m) {
     stop_at_wall(q, m, candidate.t, FixedBodies::nowhere());
 }
 
-void TimeSteppedReference::bounce_off(Disc& disc, double m, double t) const {
+void TimeSteppedReference::bounce_off(DiscState& disc, double m, double t) const {
     const BodyMeeting meeting = species_->first_meeting(disc, m, m + 1, FixedBodies::nowhere());
     advance(disc, meeting.time);
     species_->reflect(disc, meeting, 0, false);
@@ -243,7 +243,7 @@ void TimeSteppedReference::bounce_off(Disc& disc, double m, double t) const {
 }
 
 void TimeSteppedReference::synchronize() {
-    for (Disc& disc : discs_) {
+    for (DiscState& disc : discs_) {
         if (has_left(disc)) continue;
         advance(disc, static_cast<double>(setting_.sync_every));
         bring_inside(setting_, disc, setting_.tiles(micro_step_ - setting_.sync_every));
@@ -273,14 +273,14 @@ double TimeSteppedReference::axis_time(DiscId id, double x, double v, double tau
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
-double TimeSteppedReference::wall_time(const Disc& disc, double m) const {
+double TimeSteppedReference::wall_time(const DiscState& disc, double m) const {
     const double at_wall = axes_time(disc, m);
     if (species_->are_none()) return at_wall;
     const double at_body = species_->first_meeting(disc, m, m + 1, FixedBodies::nowhere()).time;
     return at_body <= m + 1 && at_body - m < at_wall ? at_body - m : at_wall;
 }
 
-double TimeSteppedReference::axes_time(const Disc& disc, double m) const {
+double TimeSteppedReference::axes_time(const DiscState& disc, double m) const {
     const double tx = setting_.effects.is_periodic_x()
                           ? never
                           : axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0);
@@ -290,7 +290,7 @@ double TimeSteppedReference::axes_time(const Disc& disc, double m) const {
     return tx < ty ? tx : ty;
 }
 
-void TimeSteppedReference::bounce(Disc& disc, double m, double t) const {
+void TimeSteppedReference::bounce(DiscState& disc, double m, double t) const {
     const bool has_x = !setting_.effects.is_periodic_x(), has_y = !setting_.effects.is_periodic_y();
     const bool x_is_due = has_x && axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0) == t;
     const bool y_is_due = has_y && axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2) == t;
@@ -331,7 +331,7 @@ double TimeSteppedReference::stop_time(DiscId id, double x, double v, double t,
 }
 
 /// `left` is the body that it has just been reflected from.
-void TimeSteppedReference::stop_at_wall(Disc& disc, double m, double t,
+void TimeSteppedReference::stop_at_wall(DiscState& disc, double m, double t,
                                         const BodyMeeting& left) const {
     const double sx = setting_.effects.is_periodic_x() ? never
                                                        : stop_time(disc.id, disc.x, disc.vx, t, 0);

@@ -16,9 +16,9 @@
 
 #include <carrom/box.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom::reference {
 
@@ -95,7 +95,7 @@ struct Setting {
     }
 
     /// The same in micro-steps for a disc at the wall `number`.
-    std::array<double, 2> leaving(const Disc& disc, std::size_t number) const;
+    std::array<double, 2> leaving(const DiscState& disc, std::size_t number) const;
     double radius_of(DiscId id) const { return species_of(id).radius; }
     double mass_of(DiscId id) const { return species_of(id).mass; }
     Species species_of(DiscId id) const;
@@ -143,34 +143,34 @@ struct Contact {
 
 /// The predicate of section 4, of p and that copy of q in that box, if it repeats itself.
 /// `tolerance` is the deepest overlap that still collides; infinity in the event-driven method.
-Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy = {},
-                const Tiles& tiles = {});
+Contact contact(const DiscState& p, const DiscState& q, double sigma, double tolerance,
+                Copy copy = {}, const Tiles& tiles = {});
 
 /// The copies of q that p may come near until `end`, both flying on from their states: all others
 /// stay farther than sigma.
-std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
-                              double end, const Tiles& tiles);
+std::vector<Copy> copies_near(const Setting& setting, const DiscState& p, const DiscState& q,
+                              double begin, double end, const Tiles& tiles);
 
 /// Of a sync: the state's place in the box where sides are periodic, one rounding away. `tiles` as
 /// they were until then.
-void bring_inside(const Setting& setting, Disc& disc, const Tiles& tiles);
+void bring_inside(const Setting& setting, DiscState& disc, const Tiles& tiles);
 
 /// What stands for a disc that has left the box: at rest where it left, with a time that no other
 /// has.
-bool has_left(const Disc& disc);
-void set_left(const Setting& setting, Disc& disc, std::size_t side);
+bool has_left(const DiscState& disc);
+void set_left(const Setting& setting, DiscState& disc, std::size_t side);
 
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
-void advance(Disc& disc, double time);
-void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {},
-                       const Tiles& tiles = {});
+void advance(DiscState& disc, double time);
+void exchange_momentum(const Setting& setting, DiscState& p, DiscState& q, double restitution,
+                       Copy copy = {}, const Tiles& tiles = {});
 /// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
-void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
-                   bool is_touched, Copy copy = {}, const Tiles& tiles = {});
+void collide_rough(const Setting& setting, DiscState& p, DiscState& q, double& p_spin,
+                   double& q_spin, bool is_touched, Copy copy = {}, const Tiles& tiles = {});
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities
 /// by `micro_steps`.
-std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);
+std::vector<DiscState> stored_states(const Setting& setting, std::span<const InputDisc> discs);
 /// By id, per micro-step; empty where discs are not rough.
 std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs);
 
@@ -182,7 +182,7 @@ public:
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
     /// In id order; velocities per micro-step, times on `clock()`.
-    std::span<const Disc> discs() const { return discs_; }
+    std::span<const DiscState> discs() const { return discs_; }
     /// By id, angles per micro-step; empty where discs are not rough.
     std::span<const double> spins() const { return spins_; }
     /// Micro-steps since the last sync.
@@ -199,13 +199,13 @@ private:
     void keep(const Collision& candidate, double m);
     void synchronize();
 
-    double wall_time(const Disc& disc, double m) const;
-    double axes_time(const Disc& disc, double m) const;
+    double wall_time(const DiscState& disc, double m) const;
+    double axes_time(const DiscState& disc, double m) const;
     double axis_time(DiscId id, double x, double v, double tau, double m,
                      std::size_t low_side) const;
-    void bounce(Disc& disc, double m, double t) const;
-    void bounce_off(Disc& disc, double m, double t) const;
-    void stop_at_wall(Disc& disc, double m, double t, const BodyMeeting& left) const;
+    void bounce(DiscState& disc, double m, double t) const;
+    void bounce_off(DiscState& disc, double m, double t) const;
+    void stop_at_wall(DiscState& disc, double m, double t, const BodyMeeting& left) const;
     double stop_time(DiscId id, double x, double v, double t, std::size_t low_side) const;
     bool leads_out(double v, std::size_t low_side) const;
 
@@ -217,7 +217,7 @@ private:
     }
 
     double band_, tolerance_;
-    std::vector<Disc> discs_;
+    std::vector<DiscState> discs_;
     std::vector<double> spins_;
     std::vector<Collision> candidates_;
     std::int64_t micro_step_ = 0;

@@ -117,7 +117,7 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches", 
         const double distance = some.log_uniform(1, 30), margin = some.log_uniform(1e-10, 1),
                      speed = some.log_uniform(1e-3, 10);
         const Approach c = some.make(distance, margin, speed, 1);
-        Disc p, q;
+        DiscState p, q;
         p.x = 32 - c.dx / 2;
         p.y = 32 - c.dy / 2;
         q.x = 32 + c.dx / 2;
@@ -153,7 +153,7 @@ TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
                 add_disc(scene, x + c.dx / 2, y + c.dy / 2, c.wx / 2, c.wy / 2);
             }
             const Outcome outcome = run(scene, method);
-            for (const Disc& disc : outcome.discs)
+            for (const DiscState& disc : outcome.discs)
                 most = std::max(most, static_cast<double>(disc.pair_collisions));
             total += static_cast<double>(outcome.totals.pair_collisions);
         }

@@ -68,14 +68,14 @@ void cascade(TestScene scene, const std::string& what, double gap, double collis
     Random random(701);
     set_speeds(scene, 32 * gap, random);
     scene.steps = 1 << 30;
-    Simulation simulation = start(scene, Method::event_driven);
-    const Outcome before = outcome_of(simulation);
+    DiscSystem system = start(scene, Method::event_driven);
+    const Outcome before = outcome_of(system);
     const double n = static_cast<double>(scene.discs.size()),
                  ulp = ulp_of(scene.setting.box_size / 2);
     double overlap = 0, outside = 0, energy = 0, done = 0;
     for (int sample = 0; sample < 2000 && done < collisions; ++sample) {
-        run_to(simulation, simulation.step() + (sample < 8 ? 1 : 64));
-        const Outcome now = outcome_of(simulation);
+        run_to(system, system.step() + (sample < 8 ? 1 : 64));
+        const Outcome now = outcome_of(system);
         overlap = std::max(overlap, deepest_overlap(now, 1) / ulp);
         outside = std::max(outside, farthest_outside(now, scene.setting) / ulp);
         energy = std::max(energy, std::fabs(squared_speeds(now) / squared_speeds(before) - 1));

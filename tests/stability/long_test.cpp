@@ -24,12 +24,12 @@ namespace {
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 /// The run's state as a checkpoint would hold it.
-StoredState stored(const Simulation& simulation) {
-    return {{simulation.discs().begin(), simulation.discs().end()}, simulation.micro_steps_done()};
+StoredState stored(const DiscSystem& system) {
+    return {{system.discs().begin(), system.discs().end()}, system.micro_steps_done()};
 }
 
-Simulation resume(const TestScene& scene, Method method, StoredState state) {
-    Scene checked = scene_of(scene);
+DiscSystem resume(const TestScene& scene, Method method, StoredState state) {
+    SceneParameters checked = scene_of(scene);
     checked.method = method;
     return {checked, std::move(state), Communicator::world(), {}};
 }
@@ -49,15 +49,15 @@ Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
     const TestScene scene = some_gas();
     StoredState state = stored(start(scene, method));
     state.micro_steps_done = micro_steps;
-    for (Disc& disc : state.discs) {
+    for (DiscState& disc : state.discs) {
         disc.wall_collisions = (disc.wall_collisions + counted) & all_bits_of_counters;
         disc.pair_collisions = (disc.pair_collisions + counted) & all_bits_of_counters;
     }
-    Simulation simulation = resume(scene, method, state);
-    CHECK(simulation.step() == micro_steps / 2);
-    run_to(simulation, micro_steps / 2 + 20);
-    Outcome outcome = outcome_of(simulation);
-    for (Disc& disc : outcome.discs) {
+    DiscSystem system = resume(scene, method, state);
+    CHECK(system.step() == micro_steps / 2);
+    run_to(system, micro_steps / 2 + 20);
+    Outcome outcome = outcome_of(system);
+    for (DiscState& disc : outcome.discs) {
         disc.wall_collisions = (disc.wall_collisions - counted) & all_bits_of_counters;
         disc.pair_collisions = (disc.pair_collisions - counted) & all_bits_of_counters;
     }
@@ -70,10 +70,10 @@ bool has_same_bits(const Outcome& a, const Outcome& b) {
 
 /// The state 20 steps on, by a run that is stopped and started again on the way.
 Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
-    Simulation first = resume(scene, method, std::move(state));
+    DiscSystem first = resume(scene, method, std::move(state));
     const std::int64_t step = first.step();
     run_to(first, step + 7);
-    Simulation second = resume(scene, method, stored(first));
+    DiscSystem second = resume(scene, method, stored(first));
     run_to(second, step + 20);
     return outcome_of(second);
 }
@@ -83,15 +83,15 @@ Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
 void many_collisions(Method method, std::size_t n, double most, int parts) {
     TestScene scene = gas(n, 0.3, 0.5, 803);
     scene.steps = std::int64_t{1} << 40;
-    Simulation simulation = start(scene, method);
-    const double energy = squared_speeds(outcome_of(simulation));
+    DiscSystem system = start(scene, method);
+    const double energy = squared_speeds(outcome_of(system));
     double worst = 0, n_different = 0;
     for (int part = 1; part <= parts; ++part) {
-        while (static_cast<double>(simulation.totals().pair_collisions) < most * part / parts)
-            run_to(simulation, simulation.step() + 50);
-        const Outcome again = with_restart(scene, method, stored(simulation));
-        run_to(simulation, simulation.step() + 20);
-        const Outcome now = outcome_of(simulation);
+        while (static_cast<double>(system.totals().pair_collisions) < most * part / parts)
+            run_to(system, system.step() + 50);
+        const Outcome again = with_restart(scene, method, stored(system));
+        run_to(system, system.step() + 20);
+        const Outcome now = outcome_of(system);
         n_different += !has_same_bits(now, again);
         worst = std::max(worst, std::fabs(squared_speeds(now) / energy - 1));
     }
@@ -148,10 +148,11 @@ TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") 
             StoredState state = stored(start(scene, method));
             state.micro_steps_done = (std::int64_t{1} << bits) -
                                      6; // the discs fly from here, over the sync
-            for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
-            Simulation simulation = resume(scene, method, state);
-            run_to(simulation, simulation.step() + 12);
-            const auto met = static_cast<double>(simulation.totals().pair_collisions);
+            for (DiscState& disc : state.discs)
+                disc.tau = static_cast<double>(state.micro_steps_done);
+            DiscSystem system = resume(scene, method, state);
+            run_to(system, system.step() + 12);
+            const auto met = static_cast<double>(system.totals().pair_collisions);
             hold("long",
                  "contacts before and after a sync at 2^" + std::to_string(bits) +
                      ": lost or repeated, of 64",
@@ -168,12 +169,12 @@ TEST_CASE("long: late in a long sync interval overlaps are as deep as times are 
         scene.setting.sync_every = std::int64_t{1} << bits;
         StoredState state = stored(start(scene, Method::event_driven));
         state.micro_steps_done = scene.setting.sync_every - 40;
-        for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
-        Simulation simulation = resume(scene, Method::event_driven, state);
+        for (DiscState& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
+        DiscSystem system = resume(scene, Method::event_driven, state);
         double worst = 0;
         for (int step = 0; step < 60; ++step) {
-            run_to(simulation, simulation.step() + 1);
-            const Outcome now = outcome_of(simulation);
+            run_to(system, system.step() + 1);
+            const Outcome now = outcome_of(system);
             const double speed = std::sqrt(squared_speeds(now));
             const double bound = 64 * ulp_of(scene.setting.box_size) +
                                  2 * speed * ulp_of(std::ldexp(0.5, bits));

@@ -41,7 +41,7 @@ constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 std::uint64_t n_cascades = 0; ///< scenes that are left out, for want of a reference
 
 struct State {
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     std::vector<double> spins; ///< of rough discs
 
     StateHash hash() const {
@@ -72,7 +72,7 @@ std::optional<State> reference_state(const TestScene& scene, Method method) {
     }
 }
 
-bool is_transposed(const Disc& a, const Disc& b) {
+bool is_transposed(const DiscState& a, const DiscState& b) {
     return a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx && a.tau == b.tau &&
            a.wall_collisions == b.wall_collisions && a.pair_collisions == b.pair_collisions;
 }
@@ -114,13 +114,13 @@ std::string broken_with_effects(const TestScene& scene, Method method) {
 }
 
 /// Whether the log says of each disc what its counters say.
-bool counters_agree(const TestScene& scene, Method method, const std::vector<Disc>& discs) {
+bool counters_agree(const TestScene& scene, Method method, const std::vector<DiscState>& discs) {
     std::vector<std::array<std::uint64_t, 2>> n(discs.size());
     for (const Collision& collision : collisions_of(scene, method)) {
         ++n[collision.p][collision.q != Collision::wall];
         if (collision.q != Collision::wall) ++n[collision.q][1];
     }
-    return std::all_of(discs.begin(), discs.end(), [&n](const Disc& disc) {
+    return std::all_of(discs.begin(), discs.end(), [&n](const DiscState& disc) {
         return n[disc.id] == std::array{disc.wall_collisions, disc.pair_collisions};
     });
 }
@@ -128,7 +128,7 @@ bool counters_agree(const TestScene& scene, Method method, const std::vector<Dis
 /// Of motion and of spins, twice.
 long double energy_of(const State& state, const reference::Setting& setting) {
     long double sum = 0;
-    for (const Disc& disc : state.discs) {
+    for (const DiscState& disc : state.discs) {
         const long double turning = state.spins.empty()
                                         ? 0
                                         : setting.radius_of(disc.id) * state.spins[disc.id];
@@ -181,14 +181,14 @@ bool reads_back(const TestScene& scene, Method method) {
 
 /// The same run, stopped half-way and begun again from what is stored.
 bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outcome& end) {
-    Scene again = scene_of(scene);
+    SceneParameters again = scene_of(scene);
     again.method = method;
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
-    Simulation first = start(scene, method);
+    DiscSystem first = start(scene, method);
     run_to(first, scene.steps / 2);
-    Simulation second(again,
+    DiscSystem second(again,
                       {{first.discs().begin(), first.discs().end()},
                        first.micro_steps_done(),
                        SideColumns(first.side_columns())},
@@ -199,12 +199,12 @@ bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outc
 
 /// The scene with every step checked, but for boxes with open sides.
 Outcome run_checked(const TestScene& scene, Method method) {
-    Scene checked = scene_of(scene);
+    SceneParameters checked = scene_of(scene);
     checked.method = method;
-    Simulation simulation = start(scene, method);
-    if (!scene.setting.effects.have_open_boundaries()) simulation.check_every_step(checked);
-    run_to(simulation, scene.steps);
-    return outcome_of(simulation);
+    DiscSystem system = start(scene, method);
+    if (!scene.setting.effects.have_open_boundaries()) system.check_every_step(checked);
+    run_to(system, scene.steps);
+    return outcome_of(system);
 }
 
 /// The same for discs that differ, turn and leave, among obstacles. What follows a colon is told,

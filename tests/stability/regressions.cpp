@@ -214,7 +214,7 @@ std::string toml_of(const TestScene& scene, Method method) {
 }
 
 Regression regression_of(const std::string& text, const std::string& name) {
-    const Scene read = read_scene(text, name);
+    const SceneParameters read = read_scene(text, name);
     TestScene scene = empty_scene(name, read.box.x, read.radius, read.steps);
     scene.setting.micro_steps = read.micro_steps;
     scene.setting.sync_every = read.sync_every;

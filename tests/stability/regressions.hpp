@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "scenes.hpp"
 
 namespace carrom::test {

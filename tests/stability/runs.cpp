@@ -36,31 +36,31 @@ std::string name_of(Method method) {
     return method == Method::time_stepped ? "time-stepped" : "event-driven";
 }
 
-Simulation start(const TestScene& scene, Method method, Tuning tuning, unsigned seed) {
+DiscSystem start(const TestScene& scene, Method method, Tuning tuning, unsigned seed) {
     const Communicator world = Communicator::world();
-    Scene checked = scene_of(scene);
+    SceneParameters checked = scene_of(scene);
     checked.method = method;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
     return {checked, share_of(scene, world.rank(), world.size(), seed), world, tuning};
 }
 
-void run_to(Simulation& simulation, std::int64_t step) {
-    while (simulation.step() < step) simulation.advance_towards(step);
+void run_to(DiscSystem& system, std::int64_t step) {
+    while (system.step() < step) system.advance_towards(step);
 }
 
-Outcome outcome_of(const Simulation& simulation) {
-    Outcome outcome{gathered(simulation.discs(), Communicator::world()), simulation.clock(),
-                    simulation.totals()};
+Outcome outcome_of(const DiscSystem& system) {
+    Outcome outcome{gathered(system.discs(), Communicator::world()), system.clock(),
+                    system.totals()};
     std::sort(outcome.discs.begin(), outcome.discs.end(),
-              [](const Disc& a, const Disc& b) { return a.id < b.id; });
+              [](const DiscState& a, const DiscState& b) { return a.id < b.id; });
     return outcome;
 }
 
 Outcome run(const TestScene& scene, Method method, const Tuning& tuning, unsigned seed) {
-    Simulation simulation = start(scene, method, tuning, seed);
-    run_to(simulation, scene.steps);
-    return outcome_of(simulation);
+    DiscSystem system = start(scene, method, tuning, seed);
+    run_to(system, scene.steps);
+    return outcome_of(system);
 }
 
 std::string failure_of(const TestScene& scene, Method method) {
@@ -75,10 +75,10 @@ std::string failure_of(const TestScene& scene, Method method) {
 }
 
 std::vector<Collision> collisions_of(const TestScene& scene, Method method) {
-    Simulation simulation = start(scene, method);
+    DiscSystem system = start(scene, method);
     std::vector<Collision> mine;
-    simulation.log_to(&mine);
-    run_to(simulation, scene.steps);
+    system.log_to(&mine);
+    run_to(system, scene.steps);
     std::vector<Collision> all = gathered(std::span<const Collision>(mine), Communicator::world());
     std::sort(all.begin(), all.end(), [](const Collision& a, const Collision& b) {
         const auto key = [](const Collision& c) {
@@ -97,7 +97,7 @@ double ulp_of(double size) {
 double deepest_overlap(const Outcome& outcome, double sigma) {
     // Sorted by x, only neighbours within a diameter count.
     std::vector<std::pair<double, double>> places;
-    for (const Disc& disc : outcome.discs)
+    for (const DiscState& disc : outcome.discs)
         places.emplace_back(disc.x_at(outcome.clock), disc.y_at(outcome.clock));
     std::sort(places.begin(), places.end());
     double deepest = -std::numeric_limits<double>::infinity();
@@ -111,12 +111,12 @@ double deepest_overlap(const Outcome& outcome, double sigma) {
     }
     // Discs of one local time may have collided with each other at that time: how deep were they
     // then?
-    std::vector<const Disc*> by_time;
-    for (const Disc& disc : outcome.discs) by_time.push_back(&disc);
+    std::vector<const DiscState*> by_time;
+    for (const DiscState& disc : outcome.discs) by_time.push_back(&disc);
     std::sort(by_time.begin(), by_time.end(),
-              [](const Disc* a, const Disc* b) { return a->tau < b->tau; });
+              [](const DiscState* a, const DiscState* b) { return a->tau < b->tau; });
     for (std::size_t i = 1; i < by_time.size(); ++i) {
-        const Disc &a = *by_time[i - 1], &b = *by_time[i];
+        const DiscState &a = *by_time[i - 1], &b = *by_time[i];
         if (a.tau == b.tau)
             deepest = std::max(
                 deepest, sigma - std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)));
@@ -126,7 +126,7 @@ double deepest_overlap(const Outcome& outcome, double sigma) {
 
 double farthest_outside(const Outcome& outcome, const reference::Setting& setting) {
     double farthest = -std::numeric_limits<double>::infinity();
-    for (const Disc& disc : outcome.discs) {
+    for (const DiscState& disc : outcome.discs) {
         for (const double centre : {disc.x_at(outcome.clock), disc.y_at(outcome.clock)}) {
             farthest = std::max(
                 {farthest, setting.radius - centre, centre - (setting.box_size - setting.radius)});
@@ -137,7 +137,8 @@ double farthest_outside(const Outcome& outcome, const reference::Setting& settin
 
 double squared_speeds(const Outcome& outcome) {
     Quad sum = 0;
-    for (const Disc& disc : outcome.discs) sum += Quad(disc.vx) * disc.vx + Quad(disc.vy) * disc.vy;
+    for (const DiscState& disc : outcome.discs)
+        sum += Quad(disc.vx) * disc.vx + Quad(disc.vy) * disc.vy;
     return static_cast<double>(sum);
 }
 

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "parallel/communicator.hpp"
 #include "scenes.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom::test {
 
 /// All discs of all ranks in the order of their ids; velocities per micro-step, times on `clock`.
 struct Outcome {
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     double clock = 0;
     Totals totals;
 };
@@ -25,13 +25,13 @@ std::string name_of(Method method);
 /// The scene's start, dealt to the ranks at random and in an arbitrary order. As many threads as
 /// OpenMP has.
 /// **Collective.**
-Simulation start(const TestScene& scene, Method method, Tuning tuning = {}, unsigned seed = 1);
+DiscSystem start(const TestScene& scene, Method method, Tuning tuning = {}, unsigned seed = 1);
 
 /// Goes on to `step`. **Collective.**
-void run_to(Simulation& simulation, std::int64_t step);
+void run_to(DiscSystem& system, std::int64_t step);
 
 /// **Collective.**
-Outcome outcome_of(const Simulation& simulation);
+Outcome outcome_of(const DiscSystem& system);
 
 /// The whole scene. **Collective.**
 Outcome run(const TestScene& scene, Method method, const Tuning& tuning = {}, unsigned seed = 1);

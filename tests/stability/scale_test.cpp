@@ -41,7 +41,7 @@ bool is_scaled(const Outcome& small, const Outcome& plain, int exponent) {
         return scaled == std::ldexp(value, exponent);
     };
     return std::equal(small.discs.begin(), small.discs.end(), plain.discs.begin(),
-                      [&](const Disc& a, const Disc& b) {
+                      [&](const DiscState& a, const DiscState& b) {
                           return same(a.x, b.x) && same(a.y, b.y) && same(a.vx, b.vx) &&
                                  same(a.vy, b.vy) && a.tau == b.tau &&
                                  a.pair_collisions == b.pair_collisions &&

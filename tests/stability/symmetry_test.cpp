@@ -64,7 +64,7 @@ bool refuses(const TestScene& scene, Method method) {
 /// The scene at `outcome` with all velocities reversed.
 TestScene reversed(TestScene scene, const Outcome& outcome) {
     for (InputDisc& disc : scene.discs) {
-        const Disc& state = outcome.discs[disc.id];
+        const DiscState& state = outcome.discs[disc.id];
         disc = {disc.id, state.x_at(outcome.clock), state.y_at(outcome.clock), -state.vx,
                 -state.vy};
     }
@@ -80,12 +80,13 @@ TEST_CASE("symmetry: transposed scenes have transposed bits", "[symmetry]") {
             if (refuses(scene, method)) continue;
             INFO(scene.name << ", rule " << name_of(method));
             const Outcome a = run(scene, method), b = run(transposed(scene), method);
-            const bool is_same = std::equal(
-                a.discs.begin(), a.discs.end(), b.discs.begin(), [](const Disc& p, const Disc& q) {
-                    return p.x == q.y && p.y == q.x && p.vx == q.vy && p.vy == q.vx &&
-                           p.tau == q.tau && p.pair_collisions == q.pair_collisions &&
-                           p.wall_collisions == q.wall_collisions;
-                });
+            const bool is_same = std::equal(a.discs.begin(), a.discs.end(), b.discs.begin(),
+                                            [](const DiscState& p, const DiscState& q) {
+                                                return p.x == q.y && p.y == q.x && p.vx == q.vy &&
+                                                       p.vy == q.vx && p.tau == q.tau &&
+                                                       p.pair_collisions == q.pair_collisions &&
+                                                       p.wall_collisions == q.wall_collisions;
+                                            });
             CHECK(is_same);
             n_different += !is_same;
             n_scenes += 1;
@@ -122,12 +123,14 @@ TEST_CASE("symmetry: scenes of exact numbers have mirrored bits", "[symmetry]") 
             INFO(scene.name << ", rule " << name_of(method));
             const Outcome a = run(scene, method), b = run(mirrored(scene), method);
             const double size = scene.setting.box_size;
-            const bool is_same = std::equal(
-                a.discs.begin(), a.discs.end(), b.discs.begin(), [&](const Disc& p, const Disc& q) {
-                    return p.x == size - q.x && p.y == q.y && p.vx == -q.vx && p.vy == q.vy &&
-                           p.tau == q.tau && p.pair_collisions == q.pair_collisions &&
-                           p.wall_collisions == q.wall_collisions;
-                });
+            const bool is_same = std::equal(a.discs.begin(), a.discs.end(), b.discs.begin(),
+                                            [&](const DiscState& p, const DiscState& q) {
+                                                return p.x == size - q.x && p.y == q.y &&
+                                                       p.vx == -q.vx && p.vy == q.vy &&
+                                                       p.tau == q.tau &&
+                                                       p.pair_collisions == q.pair_collisions &&
+                                                       p.wall_collisions == q.wall_collisions;
+                                            });
             CHECK(is_same);
             n_different += !is_same;
             n_scenes += 1;
@@ -158,7 +161,7 @@ TEST_CASE("symmetry: time reversed, the event-driven method returns to its start
                 const Outcome back = run(reversed(scene, there), Method::event_driven);
                 double error = 0;
                 for (const InputDisc& disc : scene.discs) {
-                    const Disc& state = back.discs[disc.id];
+                    const DiscState& state = back.discs[disc.id];
                     error = std::max({error, std::fabs(state.x_at(back.clock) - disc.x),
                                       std::fabs(state.y_at(back.clock) - disc.y)});
                 }

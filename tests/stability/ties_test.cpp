@@ -163,7 +163,7 @@ TEST_CASE("ties: a touching cradle in the open hands on its speed exactly", "[ti
         for (int i = 0; i < 12; ++i) add_disc(scene, 8 + i, 32);
         const Outcome outcome = run(scene, method);
         double wrong = 0;
-        for (const Disc& disc : outcome.discs)
+        for (const DiscState& disc : outcome.discs)
             wrong = std::max(wrong,
                              std::fabs(disc.vx - (disc.id == 12 ? 1 : 0)) + std::fabs(disc.vy));
         hold("ties", "open touching cradle of 12: largest error of a velocity", name_of(method),

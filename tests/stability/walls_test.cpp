@@ -32,11 +32,11 @@ double largest_speed(const TestScene& scene) {
 /// The farthest that a disc is outside at any step, over what the method allows.
 double outside_over_allowed(const TestScene& scene, Method method) {
     const double allowed = 4 * ulp_of(scene.setting.box_size) + largest_speed(scene) * ulp_of(32);
-    Simulation simulation = start(scene, method);
+    DiscSystem system = start(scene, method);
     double worst = 0;
-    while (simulation.step() < scene.steps) {
-        run_to(simulation, simulation.step() + 1);
-        worst = std::max(worst, farthest_outside(outcome_of(simulation), scene.setting) / allowed);
+    while (system.step() < scene.steps) {
+        run_to(system, system.step() + 1);
+        worst = std::max(worst, farthest_outside(outcome_of(system), scene.setting) / allowed);
     }
     return worst;
 }
@@ -53,7 +53,7 @@ TEST_CASE("walls: a shot into a corner at 45 degrees comes back exactly reversed
                         "corner shot", 8, 0.5,
                         static_cast<std::int64_t>(std::ceil(2.5 / speed)) + 2);
                     add_disc(scene, 4 + 1.0 * sx, 4 + 1.0 * sy, speed * sx, speed * sy);
-                    const Disc disc = run(scene, method).discs.front();
+                    const DiscState disc = run(scene, method).discs.front();
                     n_wrong += disc.vx != -speed * sx || disc.vy != -speed * sy ||
                                disc.x != disc.y * sx * sy + (sx * sy < 0 ? 8 : 0);
                     n_counted = std::max(n_counted, static_cast<double>(disc.wall_collisions));
@@ -75,7 +75,7 @@ TEST_CASE("walls: leaving one wall while entering the next", "[walls]") {
             // wall along y = L - r.
             TestScene scene = empty_scene("leaving one wall for the next", 8, 0.5, 6);
             add_disc(scene, 0.5, place, 0.25, 0.5);
-            Disc disc = run(scene, method).discs.front();
+            DiscState disc = run(scene, method).discs.front();
             const bool reaches = place + 0.5 * 6 > 7.5;
             n_wrong += disc.vx != 0.25 || disc.vy != (reaches ? -0.5 : 0.5) ||
                        disc.wall_collisions != (reaches ? 1u : 0u);

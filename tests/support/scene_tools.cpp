@@ -32,8 +32,8 @@ std::string number(double value) {
     return text.data();
 }
 
-Scene scene_of(const TestScene& test_scene) {
-    Scene scene;
+SceneParameters scene_of(const TestScene& test_scene) {
+    SceneParameters scene;
     scene.name = test_scene.name;
     scene.box = test_scene.setting.box();
     scene.radius = test_scene.setting.radius;

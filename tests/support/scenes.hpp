@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "time_stepped.hpp"
 
 namespace carrom::test {
@@ -32,7 +32,7 @@ struct TestScene {
 };
 
 /// The same scene in the engine's own input type, spins included.
-Scene scene_of(const TestScene& scene);
+SceneParameters scene_of(const TestScene& scene);
 
 /// x and y exchanged, of the box and its effects too: states must come out exchanged, bit for bit.
 TestScene transposed(const TestScene& scene);

@@ -36,13 +36,13 @@ std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t fa
 
 /// The data that all trials of a study share.
 struct Study {
-    Study(const Scene& of_scene, const std::vector<InputDisc>& first_discs,
+    Study(const SceneParameters& of_scene, const std::vector<InputDisc>& first_discs,
           const StudyOptions& with_options, const Communicator& on_ranks)
         : scene(of_scene), discs(first_discs), options(with_options), ranks(on_ranks) {
         tuning.threads = options.threads;
     }
 
-    const Scene& scene;
+    const SceneParameters& scene;
     const std::vector<InputDisc>& discs;
     const StudyOptions& options;
     const Communicator& ranks;
@@ -56,7 +56,7 @@ TrialStart make_start(const Study& study, int number) {
     if (study.scene.generator == Generator::file)
         return bring_to_equilibrium(study.scene, study.discs, approach * (number + 1), study.ranks,
                                     study.tuning);
-    Scene other = study.scene;
+    SceneParameters other = study.scene;
     other.seed += static_cast<std::uint64_t>(number);
     return bring_to_equilibrium(other, first_discs(other, nullptr, study.ranks, study.tuning),
                                 approach, study.ranks, study.tuning);
@@ -129,13 +129,13 @@ void run_all(const Study& study, const std::vector<Item>& items, const Begin& be
 std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& setting,
                                           const TrialStart& start, std::int64_t every,
                                           std::int64_t steps) {
-    Scene here = with_setting(study.scene, setting);
+    SceneParameters here = with_setting(study.scene, setting);
     here.steps = steps;
-    Simulation simulation(here, start.discs, study.ranks, study.tuning);
+    DiscSystem system(here, start.discs, study.ranks, study.tuning);
     std::vector<std::vector<InputDisc>> samples;
     for (std::int64_t step = every; step <= steps; step += every) {
-        advance_to(simulation, step);
-        samples.push_back(discs_now(simulation));
+        advance_to(system, step);
+        samples.push_back(discs_now(system));
     }
     return samples;
 }
@@ -158,7 +158,7 @@ std::int64_t at_least_one(double number) { return std::max<std::int64_t>(1, std:
 
 } // namespace
 
-void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
+void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks) {
     const Study study(scene, discs, options, ranks);
     CsvTable table(options.table, costs_header());
@@ -180,7 +180,7 @@ void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
     run_all(study, items_of(options, settings, options.n_repetitions), begin, run);
 }
 
-void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
+void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks) {
     const Study study(scene, discs, options, ranks);
     CsvTable table(options.table, distances_header());

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -30,12 +30,12 @@ struct StudyOptions {
 
 /// Costs and errors of K = 1, 2, 4, ... in both methods; repetitions take turns.
 /// Throws InputError. Called on one rank.
-void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
+void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
 /// Distances to the exact run after about each collision of a disc, for K = 1, 16,
 /// 256. Throws InputError. Called on one rank.
-void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
+void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 
 } // namespace carrom

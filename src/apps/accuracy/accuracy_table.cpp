@@ -25,7 +25,8 @@ constexpr std::string_view number_columns =
     "overlapping_pairs_per_disc,deepest_overlap,distance_rms,distance_median,core_seconds";
 constexpr std::string_view build_columns = "version,compiler,flags,machine";
 
-std::string setting_fields(const Scene& scene, const TrialStart& start, const TrialKey& key) {
+std::string setting_fields(const SceneParameters& scene, const TrialStart& start,
+                           const TrialKey& key) {
     const RunSetting& s = key.setting;
     return fmt::format(
         "{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}",
@@ -61,7 +62,7 @@ std::string costs_header() {
                        number_columns, build_columns);
 }
 
-std::string costs_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
+std::string costs_line(const SceneParameters& scene, const TrialStart& start, const TrialKey& key,
                        const TrialOutcome& outcome, int threads) {
     const std::string without_numbers(
         static_cast<std::size_t>(std::ranges::count(number_columns, ',')), ',');
@@ -76,8 +77,9 @@ std::string distances_header() {
                        setting_columns, build_columns);
 }
 
-std::string distances_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                           std::int64_t step, double collisions, const Distance& distance) {
+std::string distances_line(const SceneParameters& scene, const TrialStart& start,
+                           const TrialKey& key, std::int64_t step, double collisions,
+                           const Distance& distance) {
     return fmt::format("{},{},{:.6g},{:.6g},{:.6g},{}", setting_fields(scene, start, key), step,
                        collisions, distance.root_mean_square, distance.median, build_fields());
 }

@@ -31,12 +31,13 @@ struct TrialOutcome {
 };
 
 std::string costs_header();
-std::string costs_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
+std::string costs_line(const SceneParameters& scene, const TrialStart& start, const TrialKey& key,
                        const TrialOutcome& outcome, int threads);
 
 std::string distances_header();
 /// `collisions` is how many a disc has had with others in the exact run up to `step`.
-std::string distances_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                           std::int64_t step, double collisions, const Distance& distance);
+std::string distances_line(const SceneParameters& scene, const TrialStart& start,
+                           const TrialKey& key, std::int64_t step, double collisions,
+                           const Distance& distance);
 
 } // namespace carrom

@@ -50,7 +50,7 @@ struct CompareOptions {
 };
 
 /// The reasons why a scene cannot be compared.
-std::vector<Problem> reasons_against(const Scene& scene) {
+std::vector<Problem> reasons_against(const SceneParameters& scene) {
     std::vector<Problem> problems;
     const auto add = [&](const char* text) { problems.push_back({scene.name, 0, text}); };
     if (scene.text_output == TextOutput::none)
@@ -64,12 +64,12 @@ std::vector<Problem> reasons_against(const Scene& scene) {
 }
 
 /// Leaves `stream` at the first line of discs, on rank 0. **Collective.**
-Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
-                        const Communicator& ranks) {
+SceneParameters read_scene_on_all(const CompareOptions& options, std::istream& stream,
+                                  const Communicator& ranks) {
     SceneText text;
     let_root(ranks, [&] { text = read_scene_text(stream, options.scene); });
     broadcast(text, ranks);
-    Scene scene = read_scene(text, options.overrides);
+    SceneParameters scene = read_scene(text, options.overrides);
     if (!scene.disc_columns.empty() && !scene.discs_file.empty()) {
         text.columns = load_columns(scene, &stream, ranks);
         scene = read_scene(text, options.overrides);
@@ -80,7 +80,8 @@ Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
 }
 
 /// Grades step after step; returns whether no line differs. **Collective.**
-bool grade(const Scene& scene, ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
+bool grade(const SceneParameters& scene, ComparedRuns& runs, Grader& grader,
+           const Communicator& ranks) {
     int goes_on = 1, has_left_runs = 0, is_right = 0;
     for (std::int64_t step = 0; step <= scene.steps && goes_on == 1; ++step) {
         ExpectedDiscs expected;
@@ -119,7 +120,7 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
         if (options.output != "-") open(options.output, output_file);
         if (!problems.empty()) throw InputError(std::move(problems));
     });
-    const Scene scene = read_scene_on_all(options, scene_file, ranks);
+    const SceneParameters scene = read_scene_on_all(options, scene_file, ranks);
     ComparedRuns runs(scene, load_discs(scene, &scene_file, ranks), ranks);
     std::istream& output = options.output == "-" ? std::cin : output_file;
     Grader grader(scene, options.tolerance.value_or(1e-6 * scene.radius), output,

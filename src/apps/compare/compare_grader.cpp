@@ -30,8 +30,8 @@ constexpr double coarsest_output = 0.5;
 
 } // namespace
 
-Grader::Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name,
-               bool counts_points)
+Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
+               const std::string& name, bool counts_points)
     : scene_(scene), setting_{scene.box, scene.radius, scene.micro_steps, scene.sync_every},
       tolerance_(tolerance), unit_(static_cast<double>(scene.micro_steps)), output_(stream, name),
       lines_(scene.n_discs), digits_before_(scene.n_discs),
@@ -157,7 +157,7 @@ SharedState Grader::own_state(const Aim& aim, std::int64_t step) const {
     SharedState state{setting_, {}, step * setting_.micro_steps};
     const auto tau = static_cast<double>(state.micro_steps_done % setting_.sync_every);
     for (const StudentLine& line : lines_) {
-        Disc disc = aim.discs[line.id];
+        DiscState disc = aim.discs[line.id];
         disc.x = line.x;
         disc.y = line.y;
         disc.vx = line.vx / unit_;
@@ -169,7 +169,7 @@ SharedState Grader::own_state(const Aim& aim, std::int64_t step) const {
 }
 
 /// Changes numbers to others that the student's program writes in the same way.
-void Grader::move_last_digits(Disc& disc, std::uint64_t seed) const {
+void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     double* const numbers[] = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::uint64_t i = 0; i < 4; ++i) {
         const double digits = 0.5 * digits_before_[disc.id] / (i < 2 ? 1 : unit_);
@@ -184,15 +184,15 @@ Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
     for (std::uint64_t seed = 0; seed < own_runs; ++seed) {
-        std::vector<Disc> discs = own_before_->discs;
+        std::vector<DiscState> discs = own_before_->discs;
         if (seed > 0)
-            for (Disc& disc : discs) move_last_digits(disc, seed);
+            for (DiscState& disc : discs) move_last_digits(disc, seed);
         PlainRule rule(setting_, discs, own_before_->micro_steps_done, Mistake::none);
         for (std::int64_t i = 0; i < setting_.micro_steps; ++i) rule.run_micro_step();
         aim.clock = rule.clock();
         aim.others.emplace_back(rule.discs().begin(), rule.discs().end());
         aim.discs = aim.others.front();
-        for (const Disc& disc : rule.discs())
+        for (const DiscState& disc : rule.discs())
             spread[disc.id] = std::max(
                 spread[disc.id], difference(aim.discs[disc.id], aim.clock, disc, aim.clock, unit_));
     }
@@ -204,8 +204,8 @@ Grader::Aim Grader::aim_from_own_lines() const {
     return aim;
 }
 
-double Grader::difference_to(const std::vector<Disc>& discs, double clock, DiscId id) const {
-    const Disc& disc = discs[id];
+double Grader::difference_to(const std::vector<DiscState>& discs, double clock, DiscId id) const {
+    const DiscState& disc = discs[id];
     const StudentLine& line = lines_[id];
     const double differences[] = {
         std::fabs(line.x - disc.x_at(clock)), std::fabs(line.y - disc.y_at(clock)),
@@ -235,11 +235,11 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines_) {
         if (aim.allowed[line.id] != unlimited) continue;
-        for (const std::vector<Disc>& discs : aim.others)
+        for (const std::vector<DiscState>& discs : aim.others)
             if (discs[line.id].pair_collisions != aim.discs[line.id].pair_collisions ||
                 discs[line.id].wall_collisions != aim.discs[line.id].wall_collisions)
                 is_counter_unknown_[line.id] = true;
-        const auto is_near = [&](const std::vector<Disc>& discs) {
+        const auto is_near = [&](const std::vector<DiscState>& discs) {
             return difference_to(discs, aim.clock, line.id) <= deciding * setting_.radius;
         };
         if (difference_to(aim.discs, aim.clock, line.id) <= tolerance_of(line)) continue;
@@ -254,7 +254,7 @@ bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
 bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
     if (!is_last(step) || step == 0) return true;
     for (const StudentLine& line : lines_) {
-        const Disc& disc = aim.discs[line.id];
+        const DiscState& disc = aim.discs[line.id];
         if (is_counter_unknown_[line.id] || (line.pair_collisions == disc.pair_collisions &&
                                              line.wall_collisions == disc.wall_collisions))
             continue;
@@ -284,7 +284,7 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
     if (!verdict_.empty()) return false;
     const StudentLine& line = lines_[id];
-    const Disc& disc = aim.discs[id];
+    const DiscState& disc = aim.discs[id];
     verdict_ = fmt::format("line {}: step {}, disc {} differs\n", line.number, step, id);
     const auto append = [this](const char* label, double x, double y, double vx, double vy) {
         verdict_ += fmt::format("  {:<9} {:.9g} {:.9g} {:.9g} {:.9g}\n", label, x + 0.0, y + 0.0,

@@ -17,7 +17,7 @@
 #include "apps/compare/compare_mistakes.hpp"
 #include "apps/compare/compare_points.hpp"
 #include "apps/compare/compare_runs.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -25,8 +25,8 @@ class Grader {
 public:
     /// `scene` and `stream` must outlive this. With `counts_points` grading goes on behind a wrong
     /// step, from the student's own lines.
-    Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name,
-           bool counts_points);
+    Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
+           const std::string& name, bool counts_points);
 
     /// Once this is true the program's runs are not needed any more.
     bool has_left_runs() const { return has_left_runs_; }
@@ -49,10 +49,10 @@ public:
 private:
     /// The reference for a step.
     struct Aim {
-        std::vector<Disc> discs;
+        std::vector<DiscState> discs;
         double clock = 0;
-        std::vector<double> allowed;           ///< by id; infinite if roundings decide
-        std::vector<std::vector<Disc>> others; ///< results of other roundings
+        std::vector<double> allowed;                ///< by id; infinite if roundings decide
+        std::vector<std::vector<DiscState>> others; ///< results of other roundings
     };
 
     bool read(std::int64_t step);
@@ -62,10 +62,10 @@ private:
     std::string misplaced(const StudentLine& line, std::int64_t step, DiscId id) const;
     double tolerance_of(const StudentLine& line) const;
     Aim aim_at(const ExpectedDiscs& expected) const;
-    void move_last_digits(Disc& disc, std::uint64_t seed) const;
+    void move_last_digits(DiscState& disc, std::uint64_t seed) const;
     Aim aim_from_own_lines() const;
     SharedState own_state(const Aim& aim, std::int64_t step) const;
-    double difference_to(const std::vector<Disc>& discs, double clock, DiscId id) const;
+    double difference_to(const std::vector<DiscState>& discs, double clock, DiscId id) const;
     bool hold_to(const Aim& aim, std::int64_t step);
     bool hold_counters(const Aim& aim, std::int64_t step);
     bool hold_excused(const Aim& aim, std::int64_t step);
@@ -75,7 +75,7 @@ private:
     const SharedState& shared_state() const { return has_left_runs_ ? *own_before_ : *before_; }
     bool is_last(std::int64_t step) const { return step == scene_.steps; }
 
-    const Scene& scene_;
+    const SceneParameters& scene_;
     RuleSetting setting_;
     double tolerance_, unit_;
     StudentOutput output_;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "scene/line_reader.hpp"
 
 namespace carrom {

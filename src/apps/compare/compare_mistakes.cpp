@@ -74,7 +74,7 @@ std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, M
     for (std::int64_t i = 0; i < micro_steps; ++i) rule.run_micro_step();
     const auto unit = static_cast<double>(state.setting.micro_steps);
     std::vector<GivenDisc> result;
-    for (const Disc& disc : rule.discs())
+    for (const DiscState& disc : rule.discs())
         result.push_back(
             {disc.x_at(rule.clock()), disc.y_at(rule.clock()), disc.vx * unit, disc.vy * unit});
     return result;
@@ -110,7 +110,7 @@ std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_
 }
 
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
-                  const std::vector<Disc>& discs, double clock) {
+                  const std::vector<DiscState>& discs, double clock) {
     const std::vector<GivenDisc> made = run(state, micro_steps, Mistake::none);
     const auto unit = static_cast<double>(state.setting.micro_steps);
     for (std::size_t id = 0; id < discs.size(); ++id)

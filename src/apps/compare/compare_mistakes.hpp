@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/compare/compare_rule.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 
 namespace carrom {
 
@@ -21,7 +21,7 @@ struct GivenDisc {
 /// The begin of a search: a state that the student's output and the rule share.
 struct SharedState {
     RuleSetting setting;
-    std::vector<Disc> discs; ///< by id
+    std::vector<DiscState> discs; ///< by id
     std::int64_t micro_steps_done = 0;
 };
 
@@ -39,7 +39,7 @@ std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_
 
 /// Whether the plain rule leads from the state to the discs at `clock` in `micro_steps`.
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
-                  const std::vector<Disc>& discs, double clock);
+                  const std::vector<DiscState>& discs, double clock);
 
 /// The contacts of the disc in the next micro-step, by the rule: a line for each candidate.
 std::string facts(const SharedState& state, DiscId id);

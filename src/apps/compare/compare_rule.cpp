@@ -16,7 +16,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-void advance(Disc& disc, double time) {
+void advance(DiscState& disc, double time) {
     const double x = disc.x_at(time), y = disc.y_at(time);
     disc.x = x;
     disc.y = y;
@@ -53,10 +53,10 @@ bool sorts_otherwise(Mistake mistake) {
 /// The part of the box that a disc sweeps in a micro-step.
 struct PlainRule::Path {
     double x_low, x_high, y_low, y_high;
-    const Disc* disc;
+    const DiscState* disc;
 };
 
-PlainRule::PlainRule(const RuleSetting& setting, std::vector<Disc> discs,
+PlainRule::PlainRule(const RuleSetting& setting, std::vector<DiscState> discs,
                      std::int64_t micro_steps_done, Mistake mistake)
     : setting_(setting), x_walls_(setting.box.x, setting.radius, 1e-8 * setting.radius),
       y_walls_(setting.box.y, setting.radius, 1e-8 * setting.radius),
@@ -77,7 +77,7 @@ void PlainRule::run_micro_step() {
 }
 
 void PlainRule::synchronize() {
-    for (Disc& disc : discs_) {
+    for (DiscState& disc : discs_) {
         advance(disc, static_cast<double>(setting_.sync_every));
         disc.tau = 0;
     }
@@ -87,7 +87,7 @@ void PlainRule::find_candidates(double m) {
     candidates_.clear();
     std::vector<Path> paths;
     const double margin = 1.01 * setting_.radius + 1e-12 * setting_.box.longest();
-    for (const Disc& disc : discs_) {
+    for (const DiscState& disc : discs_) {
         const auto [x_low, x_high] = std::minmax({disc.x_at(m), disc.x_at(m + 1)});
         const auto [y_low, y_high] = std::minmax({disc.y_at(m), disc.y_at(m + 1)});
         paths.push_back({x_low - margin, x_high + margin, y_low - margin, y_high + margin, &disc});
@@ -103,13 +103,13 @@ void PlainRule::find_candidates(double m) {
                                           : inspect(*b->disc, *a->disc, m);
 }
 
-void PlainRule::inspect(const Disc& p, const Disc& q, double m) {
+void PlainRule::inspect(const DiscState& p, const DiscState& q, double m) {
     const double t = contact_time(p, q, m);
     if (t >= 0 && t <= 1) candidates_.push_back({t, p.id, q.id});
 }
 
 /// The time from the micro-step's start; `never` if there is no contact.
-double PlainRule::contact_time(const Disc& p, const Disc& q, double m) const {
+double PlainRule::contact_time(const DiscState& p, const DiscState& q, double m) const {
     if (const double t = overlap_time(p, q, m); t != never) return t;
     if (mistake_ == Mistake::overlap_at_end) return never;
     const auto contact = pair_contact<double>(p, q, 2 * setting_.radius, deepest_overlap_);
@@ -117,7 +117,7 @@ double PlainRule::contact_time(const Disc& p, const Disc& q, double m) const {
 }
 
 /// The time at which discs collide by mistake that the rule lets pass through each other.
-double PlainRule::overlap_time(const Disc& p, const Disc& q, double m) const {
+double PlainRule::overlap_time(const DiscState& p, const DiscState& q, double m) const {
     const double sigma = 2 * setting_.radius;
     const double at = mistake_ == Mistake::overlap_at_end ? m + 1 : m;
     const double dx = q.x_at(at) - p.x_at(at), dy = q.y_at(at) - p.y_at(at);
@@ -132,7 +132,7 @@ double PlainRule::overlap_time(const Disc& p, const Disc& q, double m) const {
     return (-b + std::sqrt(b * b - a * c)) / a;
 }
 
-double PlainRule::wall_time(const Disc& disc, double m) const {
+double PlainRule::wall_time(const DiscState& disc, double m) const {
     return std::min(x_walls_.time(disc.x, disc.vx, disc.tau, m),
                     y_walls_.time(disc.y, disc.vy, disc.tau, m));
 }
@@ -180,10 +180,10 @@ void PlainRule::keep_all_collisions(double m) {
         candidates_.clear();
         for (const DiscId id : {next.p, next.q}) {
             if (id == Collision::wall) continue;
-            const Disc& disc = discs_[id];
+            const DiscState& disc = discs_[id];
             const double t = wall_time(disc, m);
             if (t != never) candidates_.push_back({t, id});
-            for (const Disc& other : discs_)
+            for (const DiscState& other : discs_)
                 if (other.id != id)
                     other.id < id ? inspect(other, disc, m) : inspect(disc, other, m);
         }
@@ -192,13 +192,13 @@ void PlainRule::keep_all_collisions(double m) {
 }
 
 void PlainRule::keep(const Candidate& candidate, double m) {
-    Disc& p = discs_[candidate.p];
+    DiscState& p = discs_[candidate.p];
     if (is_wall(candidate)) {
         bounce(p, m, candidate.t);
         stop(p, m, candidate.t);
         return;
     }
-    Disc& q = discs_[candidate.q];
+    DiscState& q = discs_[candidate.q];
     collide(p, q, m + candidate.t);
     stop(p, m, candidate.t);
     stop(q, m, candidate.t);
@@ -208,9 +208,9 @@ void PlainRule::keep(const Candidate& candidate, double m) {
 /// The last collision of a disc says from where it flies on. Changes of velocity add up, unless the
 /// last one replaces those before, as in a program that writes the discs into a second array.
 void PlainRule::keep_from_start(const Candidate& candidate, double m) {
-    const auto change = [this](DiscId id, const Disc& made) {
-        const Disc& start = start_[id];
-        Disc& disc = discs_[id];
+    const auto change = [this](DiscId id, const DiscState& made) {
+        const DiscState& start = start_[id];
+        DiscState& disc = discs_[id];
         const bool adds_up = mistake_ == Mistake::each_from_start;
         disc.vx = adds_up ? disc.vx + (made.vx - start.vx) : made.vx;
         disc.vy = adds_up ? disc.vy + (made.vy - start.vy) : made.vy;
@@ -222,12 +222,12 @@ void PlainRule::keep_from_start(const Candidate& candidate, double m) {
         else
             ++disc.wall_collisions;
     };
-    Disc p = start_[candidate.p];
+    DiscState p = start_[candidate.p];
     if (is_wall(candidate)) {
         bounce(p, m, candidate.t);
         change(candidate.p, p);
     } else {
-        Disc q = start_[candidate.q];
+        DiscState q = start_[candidate.q];
         collide(p, q, m + candidate.t);
         change(candidate.p, p);
         change(candidate.q, q);
@@ -236,7 +236,7 @@ void PlainRule::keep_from_start(const Candidate& candidate, double m) {
     stop(discs_[candidate.p], m, candidate.t);
 }
 
-void PlainRule::collide(Disc& p, Disc& q, double time) const {
+void PlainRule::collide(DiscState& p, DiscState& q, double time) const {
     advance(p, time);
     advance(q, time);
     const double ex = q.x - p.x, ey = q.y - p.y;
@@ -250,7 +250,7 @@ void PlainRule::collide(Disc& p, Disc& q, double time) const {
     q.pair_collisions += 1;
 }
 
-void PlainRule::bounce(Disc& disc, double m, double t) const {
+void PlainRule::bounce(DiscState& disc, double m, double t) const {
     const double tx = x_walls_.time(disc.x, disc.vx, disc.tau, m);
     const double ty = y_walls_.time(disc.y, disc.vy, disc.tau, m);
     advance(disc, m + t);
@@ -270,7 +270,7 @@ void PlainRule::bounce(Disc& disc, double m, double t) const {
     disc.wall_collisions += 1;
 }
 
-void PlainRule::stop(Disc& disc, double m, double t) const {
+void PlainRule::stop(DiscState& disc, double m, double t) const {
     if (mistake_ == Mistake::no_stop || mistake_ == Mistake::every_collision) return;
     const double sx = x_walls_.stop(disc.x, disc.vx, 1 - t),
                  sy = y_walls_.stop(disc.y, disc.vy, 1 - t);

@@ -12,7 +12,7 @@
 
 #include <carrom/box.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/resting_walls.hpp"
 #include "engine/collision.hpp"
 
@@ -58,14 +58,14 @@ public:
         bool is_kept = false;
     };
 
-    /// `discs` by id, as a Simulation stores them after `micro_steps_done`.
-    PlainRule(const RuleSetting& setting, std::vector<Disc> discs, std::int64_t micro_steps_done,
-              Mistake mistake);
+    /// `discs` by id, as a DiscSystem stores them after `micro_steps_done`.
+    PlainRule(const RuleSetting& setting, std::vector<DiscState> discs,
+              std::int64_t micro_steps_done, Mistake mistake);
 
     void run_micro_step();
 
     /// By id, at `clock()`.
-    std::span<const Disc> discs() const { return discs_; }
+    std::span<const DiscState> discs() const { return discs_; }
     double clock() const { return static_cast<double>(micro_steps_ % setting_.sync_every); }
     /// The candidates of the last micro-step, in the order of decision.
     std::span<const Candidate> candidates() const { return candidates_; }
@@ -74,26 +74,26 @@ private:
     struct Path;
 
     void find_candidates(double m);
-    void inspect(const Disc& p, const Disc& q, double m);
-    double contact_time(const Disc& p, const Disc& q, double m) const;
-    double overlap_time(const Disc& p, const Disc& q, double m) const;
-    double wall_time(const Disc& disc, double m) const;
+    void inspect(const DiscState& p, const DiscState& q, double m);
+    double contact_time(const DiscState& p, const DiscState& q, double m) const;
+    double overlap_time(const DiscState& p, const DiscState& q, double m) const;
+    double wall_time(const DiscState& disc, double m) const;
     void sort_candidates();
     void keep_candidates(double m);
     void keep_all_collisions(double m);
     void keep(const Candidate& candidate, double m);
     void keep_from_start(const Candidate& candidate, double m);
-    void collide(Disc& p, Disc& q, double time) const;
-    void bounce(Disc& disc, double m, double t) const;
-    void stop(Disc& disc, double m, double t) const;
+    void collide(DiscState& p, DiscState& q, double time) const;
+    void bounce(DiscState& disc, double m, double t) const;
+    void stop(DiscState& disc, double m, double t) const;
     void synchronize();
 
     RuleSetting setting_;
     RestingWalls<double> x_walls_, y_walls_;
     double deepest_overlap_;
     Mistake mistake_;
-    std::vector<Disc> discs_;
-    std::vector<Disc> start_; ///< the discs at the micro-step's start, for `..._from_start`
+    std::vector<DiscState> discs_;
+    std::vector<DiscState> start_; ///< the discs at the micro-step's start, for `..._from_start`
     std::int64_t micro_steps_;
     std::vector<Candidate> candidates_;
 };

@@ -8,16 +8,16 @@
 #include <memory>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
 /// Discs on rank 0, by id.
 struct ExpectedDiscs {
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     double clock = 0;
     std::vector<double> spread; ///< the largest difference of a number in another run, per step
 };
@@ -25,18 +25,18 @@ struct ExpectedDiscs {
 class ComparedRuns {
 public:
     /// `ranks` must outlive this. **Collective.**
-    ComparedRuns(const Scene& scene, const std::vector<InputDisc>& discs,
+    ComparedRuns(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const Communicator& ranks);
 
     /// Goes on to that step. Rank 0 gets discs, the others nothing. **Collective.**
     ExpectedDiscs at(std::int64_t step);
 
 private:
-    std::vector<Disc> gather(const Simulation& simulation) const;
+    std::vector<DiscState> gather(const DiscSystem& system) const;
 
     const Communicator& ranks_;
     std::uint64_t n_discs_;
-    std::vector<std::unique_ptr<Simulation>> runs_;
+    std::vector<std::unique_ptr<DiscSystem>> runs_;
 };
 
 /// A number from -1 to 1, the same for the same arguments.
@@ -46,6 +46,7 @@ double drawn(std::uint64_t id, std::uint64_t seed);
 double nudged(double place, std::uint64_t id, std::uint64_t seed);
 
 /// The largest difference between the four numbers of two discs; `unit` multiplies velocities.
-double difference(const Disc& a, double clock_a, const Disc& b, double clock_b, double unit);
+double difference(const DiscState& a, double clock_a, const DiscState& b, double clock_b,
+                  double unit);
 
 } // namespace carrom

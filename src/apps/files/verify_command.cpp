@@ -24,14 +24,14 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Describes a number that no state of a run can have; empty if there is none.
-std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header,
+std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader& header,
                     const Extent& box) {
     const double clock = header.clock();
     if (disc.has_departed())
         return disc.vx == 0 && disc.vy == 0
                    ? ""
                    : fmt::format("disc {} has left the box, yet moves", disc.id);
-    const Disc shown = header.frame.in_box(disc, clock);
+    const DiscState shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of
     // L - r.
@@ -74,7 +74,7 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     std::string flaw;
     std::uint64_t sums[] = {0, 0};
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
-        const Disc& disc = checkpoint.discs[i];
+        const DiscState& disc = checkpoint.discs[i];
         if (flaw.empty()) flaw = flaw_of(disc, species.of(disc.id).radius, header, room);
         header.columns.for_each([&](SideColumn column) {
             if (flaw.empty() && !std::isfinite(checkpoint.columns[column][i]))

@@ -49,7 +49,7 @@ struct ReplicasOptions {
 };
 
 /// The seeds of the scene, which make replicas differ.
-std::vector<const Key*> seeds_of(const Scene& scene) {
+std::vector<const Key*> seeds_of(const SceneParameters& scene) {
     std::vector<const Key*> seeds;
     for (const Key& key : keys())
         if (key.is_seed && key.has_meaning(scene)) seeds.push_back(&key);
@@ -57,7 +57,8 @@ std::vector<const Key*> seeds_of(const Scene& scene) {
 }
 
 /// The options of one replica.
-RunOptions options_of(const ReplicasOptions& options, const Scene& scene, std::int64_t k) {
+RunOptions options_of(const ReplicasOptions& options, const SceneParameters& scene,
+                      std::int64_t k) {
     RunOptions one = options.run;
     one.folder = (std::filesystem::path(options.folder) / fmt::format("{:04}", k)).string();
     one.quiet = true;
@@ -73,7 +74,7 @@ RunOptions options_of(const ReplicasOptions& options, const Scene& scene, std::i
 /// Throws InputError if the folder has a run of another scene.
 bool is_done(const RunOptions& one, const Communicator& rank) {
     if (!one.resume) return false;
-    const Scene scene = load_scene_alone(one, {}, rank);
+    const SceneParameters scene = load_scene_alone(one, {}, rank);
     if (last_step_reported(one.folder) != scene.steps) return false;
     const std::string difference = difference_from_run(one.folder, scene);
     if (!difference.empty())
@@ -82,7 +83,8 @@ bool is_done(const RunOptions& one, const Communicator& rank) {
 }
 
 /// Runs this rank's replicas one after the other. Returns `stopped` if it was asked to stop.
-ExitCode run_mine(const ReplicasOptions& options, const Scene& scene, const Communicator& ranks) {
+ExitCode run_mine(const ReplicasOptions& options, const SceneParameters& scene,
+                  const Communicator& ranks) {
     const Communicator alone = Communicator::of_this_rank();
     for (std::int64_t k = ranks.rank(); k < options.count; k += ranks.size()) {
         const RunOptions one = options_of(options, scene, k);
@@ -94,7 +96,8 @@ ExitCode run_mine(const ReplicasOptions& options, const Scene& scene, const Comm
 }
 
 /// Collects the results of all ranks. Throws the first failure of any rank on all.
-bool all_are_done(const ReplicasOptions& options, const Scene& scene, const Communicator& ranks) {
+bool all_are_done(const ReplicasOptions& options, const SceneParameters& scene,
+                  const Communicator& ranks) {
     constexpr double patience_seconds = 1e9; // other ranks may have long runs to finish
     ExitCode code = ExitCode::success, failure_code = ExitCode::success;
     std::string failure;
@@ -115,7 +118,7 @@ ExitCode run_replicas(const ReplicasOptions& options, const std::vector<Problem>
                       const Communicator& ranks) {
     RunOptions first = options.run;
     first.overrides.push_back("output.folder=" + options.folder);
-    const Scene scene = load_scene_alone(first, problems, ranks);
+    const SceneParameters scene = load_scene_alone(first, problems, ranks);
     if (scene.reads_disc_lines() || seeds_of(scene).empty())
         throw InputError({{scene.name, 0,
                            "replicas differ by the seed of their discs, and this scene lists its "

@@ -16,7 +16,7 @@ namespace carrom {
 
 namespace {
 
-std::vector<LocalIndex> order_by_id(std::span<const Disc> discs) {
+std::vector<LocalIndex> order_by_id(std::span<const DiscState> discs) {
     std::vector<LocalIndex> order(discs.size());
     std::iota(order.begin(), order.end(), LocalIndex{0});
     std::sort(order.begin(), order.end(),
@@ -25,7 +25,7 @@ std::vector<LocalIndex> order_by_id(std::span<const Disc> discs) {
 }
 
 /// Adding +0 turns -0 into +0, so that two states of the same hash give the same text.
-DiscLine line_of(const Disc& disc, double clock, double velocity_unit) {
+DiscLine line_of(const DiscState& disc, double clock, double velocity_unit) {
     return {disc.id,
             disc.x_at(clock) + 0.0,
             disc.y_at(clock) + 0.0,
@@ -68,7 +68,7 @@ void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& li
     text.push_back('\n');
 }
 
-DiscLines::DiscLines(const Scene& scene, const std::string& path, int digits,
+DiscLines::DiscLines(const SceneParameters& scene, const std::string& path, int digits,
                      const Communicator& ranks, std::uint64_t slab)
     : ranks_(ranks), wanted_(scene.text_output), last_step_(scene.steps), n_discs_(scene.n_discs),
       digits_(digits), slab_(slab), output_(ranks.is_root() ? path : std::string()) {
@@ -93,9 +93,9 @@ bool DiscLines::is_due(std::int64_t step) const {
     return wanted_ == TextOutput::every_step || step == 0 || step == last_step_;
 }
 
-void DiscLines::write(const Simulation& simulation) {
-    const std::span<const Disc> discs = simulation.shown();
-    const double clock = simulation.clock(), velocity_unit = simulation.velocity_unit();
+void DiscLines::write(const DiscSystem& system) {
+    const std::span<const DiscState> discs = system.shown();
+    const double clock = system.clock(), velocity_unit = system.velocity_unit();
     const std::vector<LocalIndex> order = order_by_id(discs);
     auto next = order.begin();
     std::vector<DiscLine> mine;
@@ -104,7 +104,7 @@ void DiscLines::write(const Simulation& simulation) {
         mine.clear();
         for (; next != order.end() && discs[*next].id < end; ++next)
             mine.push_back(line_of(discs[*next], clock, velocity_unit));
-        write_slab(begin, end, simulation.step(), mine);
+        write_slab(begin, end, system.step(), mine);
     }
 }
 

@@ -12,8 +12,8 @@
 
 #include "parallel/communicator.hpp"
 #include "run/files/data_output.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -34,8 +34,8 @@ public:
     static constexpr std::uint64_t default_slab = 1 << 16;
 
     /// Writes to the file `path`, or to standard output if it is empty. `ranks` must outlive this.
-    DiscLines(const Scene& scene, const std::string& path, int digits, const Communicator& ranks,
-              std::uint64_t slab = default_slab);
+    DiscLines(const SceneParameters& scene, const std::string& path, int digits,
+              const Communicator& ranks, std::uint64_t slab = default_slab);
 
     /// The next step after `step` that has to be written, or the last one.
     std::int64_t next_due(std::int64_t step) const;
@@ -43,7 +43,7 @@ public:
     bool is_due(std::int64_t step) const;
 
     /// Writes the present step. If that fails every rank throws. **Collective.**
-    void write(const Simulation& simulation);
+    void write(const DiscSystem& system);
 
     /// To be called after the last step. Every rank throws unless all lines have been
     /// written. **Collective.**

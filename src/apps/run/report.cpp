@@ -51,7 +51,7 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
 }
 
 /// Thermodynamics is at the top of the report, because most readers want it.
-void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
+void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& scene,
                         const Averages& averages) {
     const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
     report["radius"] = scene.radius;
@@ -89,7 +89,7 @@ template <class Numbers> nlohmann::ordered_json by_name(const Numbers& numbers) 
 
 /// The velocity of the centre of mass of the discs in the box. Where discs of several masses have
 /// left, the mass of the others is not known.
-nlohmann::ordered_json drift_velocity(const Scene& scene, const Totals& end) {
+nlohmann::ordered_json drift_velocity(const SceneParameters& scene, const Totals& end) {
     const std::uint64_t n_departed = std::accumulate(end.departed.begin(), end.departed.end(),
                                                      std::uint64_t{0});
     double mass = static_cast<double>(end.n_discs - n_departed);
@@ -105,7 +105,7 @@ nlohmann::ordered_json drift_velocity(const Scene& scene, const Totals& end) {
 
 } // namespace
 
-std::string report_text(const Scene& scene, const RunResult& result) {
+std::string report_text(const SceneParameters& scene, const RunResult& result) {
     nlohmann::ordered_json report = {
         {"version", version()},
         {"scene", scene.name},

@@ -9,6 +9,6 @@
 namespace carrom {
 
 /// A JSON object; keys are described in docs/reference/report.md.
-std::string report_text(const Scene& scene, const RunResult& result);
+std::string report_text(const SceneParameters& scene, const RunResult& result);
 
 } // namespace carrom

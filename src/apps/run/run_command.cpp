@@ -30,8 +30,8 @@
 #include "run/run.hpp"
 #include "run/start/load.hpp"
 #include "run/start/restart.hpp"
+#include "simulation/disc_system.hpp"
 #include "simulation/known_bits.hpp"
-#include "simulation/simulation.hpp"
 
 namespace carrom {
 
@@ -60,7 +60,7 @@ could not be written; 70 a broken invariant; 75 stopped on request before the en
 
 /// Rank 0 prints the summary and writes the report. If the report cannot be written
 /// every rank throws. **Collective.**
-void print_result(const RunOptions& options, const Scene& scene, const RunResult& result,
+void print_result(const RunOptions& options, const SceneParameters& scene, const RunResult& result,
                   const Communicator& ranks) {
     std::string failure;
     if (ranks.is_root()) {
@@ -77,7 +77,7 @@ void print_result(const RunOptions& options, const Scene& scene, const RunResult
 }
 
 /// The error of a run that has given up a step after `step`; `kept` says what is left.
-StopRequested given_up(std::int64_t step, const std::string& kept, const Scene& scene) {
+StopRequested given_up(std::int64_t step, const std::string& kept, const SceneParameters& scene) {
     return StopRequested(fmt::format(
         "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,
         scene.steps, kept,
@@ -115,7 +115,7 @@ private:
     void write_if_due() {
         if (!lines_.is_due(run_.step())) return;
         progress_.finish(); // both may go to the same terminal
-        lines_.write(run_.simulation());
+        lines_.write(run_.system());
     }
 
     const Run& run_;
@@ -127,7 +127,7 @@ private:
 /// Runs to the end of the scene with all outputs on the way, or to where the run is
 /// asked to stop: then it returns false. **Collective.**
 bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double& output_seconds) {
-    const Scene& scene = run.scene();
+    const SceneParameters& scene = run.scene();
     Stopwatch watch;
     Recordings recordings(run, options.messages);
     Checkpoints checkpoints(run, scene.checkpoint);
@@ -154,7 +154,7 @@ bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double
 }
 
 /// **Collective.**
-void check_every_step(Simulation& simulation, const Scene& scene) {
+void check_every_step(DiscSystem& system, const SceneParameters& scene) {
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         throw InputError({{"--check", 0,
                            "its bounds are those of time.precision = \"double\" and "
@@ -163,7 +163,7 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
         throw InputError(
             {{"--check", 0,
               "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
-    simulation.check_every_step(scene);
+    system.check_every_step(scene);
 }
 
 void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
@@ -194,15 +194,15 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     warn_of_threads(tuning.threads, options.threads.has_value(), ranks);
     warn_of_other_bits(ranks);
     Run run(std::move(loaded.scene), std::move(loaded.start), ranks, tuning, options.messages);
-    const Scene& scene = run.scene();
+    const SceneParameters& scene = run.scene();
     const std::string narrow = warning_of_narrow_strips(scene, ranks.size(), tuning.threads);
     if (!narrow.empty()) options.messages.warn("{}: warning: {}\n", scene.name, narrow);
-    Simulation& simulation = run.simulation();
-    if (options.check) check_every_step(simulation, scene);
+    DiscSystem& system = run.system();
+    if (options.check) check_every_step(system, scene);
     RunResult result;
     result.threads = tuning.threads;
-    result.first_step = simulation.step();
-    result.start = simulation.totals();
+    result.first_step = system.step();
+    result.start = system.totals();
     if (result.first_step == 0) warn_of_close_pairs(scene, result.start, options.messages);
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
@@ -216,7 +216,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     }
     result.wall_seconds = run.seconds().steps;
     fill_end(result, run);
-    PhaseSeconds phases = simulation.phase_seconds();
+    PhaseSeconds phases = system.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);

@@ -33,12 +33,12 @@ double imbalance_of(double seconds, const Communicator& ranks) {
 } // namespace
 
 void fill_end(RunResult& result, const Run& run) {
-    const Simulation& simulation = run.simulation();
-    result.last_step = simulation.step();
-    result.end = simulation.totals();
+    const DiscSystem& system = run.system();
+    result.last_step = system.step();
+    result.end = system.totals();
     result.averages = run.sampler().averages();
     result.tables = run.sampler().tables();
-    result.runs = simulation.rollback_counts();
+    result.runs = system.rollback_counts();
 }
 
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {
@@ -68,7 +68,7 @@ double overlapping_pairs_per_disc(const RunResult& result) {
                  static_cast<double>(result.end.n_discs));
 }
 
-double deepest_overlap(const Scene& scene, const RunResult& result) {
+double deepest_overlap(const SceneParameters& scene, const RunResult& result) {
     return ratio(result.end.deepest_overlap, 2 * scene.radius);
 }
 
@@ -89,7 +89,7 @@ double energy_drift(const RunResult& result) {
     return ratio(all(result.end) - all(result.start), all(result.start));
 }
 
-double collisions_per_disc(const Scene& scene, const RunResult& result) {
+double collisions_per_disc(const SceneParameters& scene, const RunResult& result) {
     const std::uint64_t taken_part = (result.end.wall_collisions - result.start.wall_collisions) +
                                      2 * (result.end.pair_collisions -
                                           result.start.pair_collisions);
@@ -142,7 +142,7 @@ namespace {
 
 /// The number of others within a common diameter of a disc's centre, if discs did not
 /// collide.
-double ideal_overlaps(const Scene& scene) {
+double ideal_overlaps(const SceneParameters& scene) {
     const std::vector<Species> alike = {{scene.n_discs, scene.radius, 1}};
     const std::vector<Species>& species = scene.effects.species.empty() ? alike
                                                                         : scene.effects.species;
@@ -158,7 +158,7 @@ double ideal_overlaps(const Scene& scene) {
 
 /// Discs that overlap pass through each other. So their share of the overlaps of an ideal
 /// gas shows how much of the hardness is lost. 0.8 and 3.2 are fitted to lost_collisions.csv.
-LostCollisions lost_collisions(const Scene& scene, const RunResult& result) {
+LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& result) {
     const double ideal = ideal_overlaps(scene);
     if (scene.method != Method::time_stepped || !(ideal > 0) ||
         scene.effects.contact.kind == ContactKind::none)
@@ -175,7 +175,7 @@ LostCollisions lost_collisions(const Scene& scene, const RunResult& result) {
     return lost;
 }
 
-std::string warning_of_lost_collisions(const Scene& scene, const RunResult& result) {
+std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result) {
     const LostCollisions lost = lost_collisions(scene, result);
     if (!(lost.share > 0.01)) return {};
     const auto digits = [](double percent) { return percent < 9.5 ? 1 : 0; };

@@ -10,8 +10,8 @@
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "run/run.hpp"
-#include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -53,7 +53,7 @@ double energy_drift(const RunResult& result);
 
 /// Collisions of a disc per micro-step, on average. The error of the time-stepped
 /// method grows with this number.
-double collisions_per_disc(const Scene& scene, const RunResult& result);
+double collisions_per_disc(const SceneParameters& scene, const RunResult& result);
 
 /// Candidates that were not carried out, of all candidates since this process began.
 double rejected_share(const RunResult& result);
@@ -69,13 +69,13 @@ struct LostCollisions {
     double share = 0;          ///< share of the pair collisions that the event-driven method finds
     double pressure_error = 0; ///< relative; negative if the pressure is too low
 };
-LostCollisions lost_collisions(const Scene& scene, const RunResult& result);
+LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& result);
 /// One line if more than a hundredth is lost, else empty.
-std::string warning_of_lost_collisions(const Scene& scene, const RunResult& result);
+std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result);
 
 /// Overlapping pairs of a disc at the end, on average.
 double overlapping_pairs_per_disc(const RunResult& result);
 /// The deepest of these overlaps, in diameters of the scene's largest disc.
-double deepest_overlap(const Scene& scene, const RunResult& result);
+double deepest_overlap(const SceneParameters& scene, const RunResult& result);
 
 } // namespace carrom

@@ -16,7 +16,7 @@ namespace carrom {
 namespace {
 
 /// Choices that change the default's bits, and so its promise; empty for the default.
-std::string arithmetic_text(const Scene& scene) {
+std::string arithmetic_text(const SceneParameters& scene) {
     std::string text;
     if (scene.precision == Precision::single) text += ", precision = \"single\"";
     if (scene.arithmetic == Arithmetic::naive)
@@ -25,7 +25,7 @@ std::string arithmetic_text(const Scene& scene) {
     return text;
 }
 
-std::string radii_text(const Scene& scene) {
+std::string radii_text(const SceneParameters& scene) {
     double least = scene.radius;
     for (const Species& one : scene.effects.species) least = std::min(least, one.radius);
     return least < scene.radius ? fmt::format("radii {:g} to {:g}", least, scene.radius)
@@ -104,7 +104,7 @@ std::string counted_pressure_text(const Averages& averages) {
                        estimate_text(averages.virial_pressure));
 }
 
-std::string speeds_text(const Scene& scene, const Averages& averages) {
+std::string speeds_text(const SceneParameters& scene, const Averages& averages) {
     const auto n = static_cast<double>(scene.n_discs);
     if (scene.effects.are_any())
         return fmt::format("mean {}; kurtosis {}", estimate_text(averages.mean_speed),
@@ -114,7 +114,7 @@ std::string speeds_text(const Scene& scene, const Averages& averages) {
                        2 * n / (n + 1));
 }
 
-std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& tables) {
+std::string measured_text(const SceneParameters& scene, const std::vector<MeasuredTable>& tables) {
     if (tables.empty())
         return fmt::format("nothing yet: the first sample is that of step {}",
                            scene.measurements->from_step);
@@ -125,7 +125,7 @@ std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& 
 }
 
 /// "120 of 400 discs: left 70, top 50" if a side is open.
-std::string departed_text(const Scene& scene, const Totals& totals) {
+std::string departed_text(const SceneParameters& scene, const Totals& totals) {
     std::uint64_t all = 0;
     std::string boundaries;
     for (std::size_t side = 0; side < boundary_names.size(); ++side) {
@@ -142,7 +142,7 @@ std::string plural(int count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-std::string scene_lines(const Scene& scene) {
+std::string scene_lines(const SceneParameters& scene) {
     const std::string grown = scene.effects.growth == 0
                                   ? ""
                                   : fmt::format(", {:.4g} at the last step", scene.last_packing());
@@ -172,7 +172,7 @@ std::string time_lines(const RunResult& result) {
     return text;
 }
 
-std::string average_lines(const Scene& scene, const Averages& averages) {
+std::string average_lines(const SceneParameters& scene, const Averages& averages) {
     std::string text;
     if (averages.steps == 0) return text;
     if (!std::isnan(averages.collision_frequency.value))
@@ -189,7 +189,7 @@ std::string average_lines(const Scene& scene, const Averages& averages) {
 }
 
 /// How the method has treated collisions.
-std::string method_line(const Scene& scene, const RunResult& result) {
+std::string method_line(const SceneParameters& scene, const RunResult& result) {
     if (scene.method == Method::event_driven)
         return labelled_line("windows", windows_text(result.runs));
     return labelled_line(
@@ -198,7 +198,7 @@ std::string method_line(const Scene& scene, const RunResult& result) {
                     result.end.rejected_candidates, 100 * rejected_share(result)));
 }
 
-std::string collision_lines(const Scene& scene, const RunResult& result) {
+std::string collision_lines(const SceneParameters& scene, const RunResult& result) {
     const Totals& end = result.end;
     std::string text = labelled_line(
         "collisions",
@@ -217,7 +217,7 @@ std::string collision_lines(const Scene& scene, const RunResult& result) {
     return text;
 }
 
-std::string energy_text(const Scene& scene, const RunResult& result) {
+std::string energy_text(const SceneParameters& scene, const RunResult& result) {
     std::string others;
     if (scene.effects.have_spins())
         others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
@@ -230,7 +230,7 @@ std::string energy_text(const Scene& scene, const RunResult& result) {
 
 } // namespace
 
-std::string summary_text(const Scene& scene, const RunResult& result) {
+std::string summary_text(const SceneParameters& scene, const RunResult& result) {
     const Totals& end = result.end;
     std::string text = scene_lines(scene) + time_lines(result) + collision_lines(scene, result);
     text += labelled_line("energy", energy_text(scene, result));

@@ -9,6 +9,6 @@
 namespace carrom {
 
 /// Lines of text, each with a line end.
-std::string summary_text(const Scene& scene, const RunResult& result);
+std::string summary_text(const SceneParameters& scene, const RunResult& result);
 
 } // namespace carrom

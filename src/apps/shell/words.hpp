@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 

@@ -32,7 +32,7 @@ constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< a rank has whole r
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
 
 void check_correlations(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const std::string wave = correlation_wavenumber.key_name(),
                       overlap = overlap_distance.key_name();
     if (!draft.settings.has(wave))
@@ -285,7 +285,7 @@ private:
     std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
 };
 
-bool needs_another_box(const Scene& s) {
+bool needs_another_box(const SceneParameters& s) {
     return measures(s, "correlations") &&
            (s.effects.have_open_boundaries() || s.effects.are_sheared());
 }

@@ -18,11 +18,12 @@ public:
     void sample(const SampledState& state) override {
         const Extent& box = state.box;
         const std::size_t n = n_bins_of(run_);
-        const double time = run_.simulation.clock(), last = static_cast<double>(n - 1);
+        const double time = run_.system.clock(), last = static_cast<double>(n - 1);
         const double per_x = static_cast<double>(n) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n) / (box.y_high - box.y_low);
         std::vector<std::uint64_t> x(n, 0), y(n, 0);
-        for (const Disc& disc : state.inside) { // the upper edge of the box belongs to its last bin
+        for (const DiscState& disc : state.inside) {
+            // the upper edge of the box belongs to its last bin
             count(x, std::clamp((disc.x_at(time) - box.x_low) * per_x, 0.0, last));
             count(y, std::clamp((disc.y_at(time) - box.y_low) * per_y, 0.0, last));
         }

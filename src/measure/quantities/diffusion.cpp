@@ -23,7 +23,7 @@ std::int64_t window_of(const MeasurementOutput& output) {
 
 /// Without a complete window there is no coefficient of diffusion. A restart may
 /// complete one, so this is no error.
-void warn_of_short_run(Scene& scene) {
+void warn_of_short_run(SceneParameters& scene) {
     const MeasurementOutput& output = *scene.measurements;
     const std::int64_t window = window_of(output), steps = scene.steps - output.from_step;
     if (scene.steps == 0 || steps < 0 || window <= steps) return;
@@ -39,7 +39,7 @@ void warn_of_short_run(Scene& scene) {
 }
 
 void check_window(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const std::string key = correlation_steps.key_name();
     const std::int64_t every = scene.measurements->every_steps;
     if (!draft.settings.has(key))
@@ -144,7 +144,7 @@ public:
     void begin() override { flights_.follow(); }
 
     void sample(const SampledState& state) override {
-        const std::span<const Disc> discs = flights_.flown(state.shown);
+        const std::span<const DiscState> discs = flights_.flown(state.shown);
         const auto add = [&] {
             const std::array<double, 3> means = flights_.means(discs, state.n_discs);
             numbers_.insert(numbers_.end(), means.begin(), means.end());
@@ -194,7 +194,7 @@ MeasuredQuantity diffusion_quantity() {
                         .why = "discs drift apart with the flow",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "diffusion") && s.effects.are_sheared();
                             }},
                        {.one = "\"diffusion\"",
@@ -203,7 +203,7 @@ MeasuredQuantity diffusion_quantity() {
                                "displacements in its table",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "diffusion") && measures(s, "displacement");
                             }},
                        {.one = "\"diffusion\"",
@@ -211,7 +211,7 @@ MeasuredQuantity diffusion_quantity() {
                         .why = "with open sides velocities and densities alone are measured",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "diffusion") && s.effects.have_open_boundaries();
                             }}},
              .check_times = check_window},

@@ -14,7 +14,7 @@ public:
     void begin() override { flights_.follow(); }
 
     void sample(const SampledState& state) override {
-        const std::span<const Disc> discs = flights_.flown(state.shown);
+        const std::span<const DiscState> discs = flights_.flown(state.shown);
         if (state.is_first) flights_.begin(discs);
         const std::array<double, 3> means = flights_.means(discs, state.n_discs);
         squares_.insert(squares_.end(), means.begin(), means.begin() + 2);
@@ -55,7 +55,7 @@ MeasuredQuantity displacement_quantity() {
                         .why = "discs drift apart with the flow",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "displacement") && s.effects.are_sheared();
                             }},
                        {.one = "\"displacement\"",
@@ -63,7 +63,7 @@ MeasuredQuantity displacement_quantity() {
                         .why = "with open sides velocities and densities alone are measured",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "displacement") &&
                                        s.effects.have_open_boundaries();
                             }}}},

@@ -30,7 +30,7 @@ public:
 
     void sample(const SampledState& state) override {
         std::vector<DensityModes> modes;
-        for (const std::vector<Disc>& discs : by_species(state.shown))
+        for (const std::vector<DiscState>& discs : by_species(state.shown))
             modes.push_back(waves_.modes(run_, discs));
         std::vector<double> now;
         for (std::size_t b = 0; b < n_species_; ++b) {
@@ -74,9 +74,9 @@ public:
     }
 
 private:
-    std::vector<std::vector<Disc>> by_species(std::span<const Disc> discs) const {
-        std::vector<std::vector<Disc>> all(n_species_);
-        for (const Disc& disc : discs) {
+    std::vector<std::vector<DiscState>> by_species(std::span<const DiscState> discs) const {
+        std::vector<std::vector<DiscState>> all(n_species_);
+        for (const DiscState& disc : discs) {
             std::size_t species = 0;
             for (DiscId end = count_of(0); disc.id >= end; end += count_of(species)) ++species;
             all[species].push_back(disc);
@@ -90,7 +90,7 @@ private:
     std::size_t n_species_;
 };
 
-bool is_partial_structure_factor_measured(const Scene& scene) {
+bool is_partial_structure_factor_measured(const SceneParameters& scene) {
     return measures(scene, "partial_structure_factor");
 }
 
@@ -104,7 +104,7 @@ MeasuredQuantity partial_structure_factor_quantity() {
                      .why = "it has a curve for each two species; \"structure_factor\" takes all "
                             "discs together",
                      .keys = {quantities_key},
-                     .is_broken = [](const Scene& s) {
+                     .is_broken = [](const SceneParameters& s) {
                          const std::size_t n = s.effects.species.size();
                          return is_partial_structure_factor_measured(s) &&
                                 (n < 2 || n > most_species);

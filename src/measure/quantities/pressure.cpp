@@ -14,14 +14,14 @@ class Pressure : public Measurement {
 public:
     using Measurement::Measurement;
 
-    void begin() override { sampler_.emplace(run_.simulation, run_.ranks); }
+    void begin() override { sampler_.emplace(run_.system, run_.ranks); }
 
     void sample(const SampledState& state) override {
         if (!state.is_first) sampler_->sample(static_cast<double>(run_.output.every_steps));
     }
 
     void keep(KeptNumbers& kept) override {
-        PressureSampler::keep(kept, sampler_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, sampler_, run_.system, run_.ranks);
     }
 
     std::vector<MeasuredTable> tables() const override {

@@ -33,7 +33,7 @@ std::size_t n_cells_of(const MeasurementOutput& output) {
 }
 
 void check_grid(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     const MeasurementOutput& output = *scene.measurements;
     const std::size_t n_cells = n_cells_of(output);
     if (n_cells > scene.n_discs)
@@ -85,7 +85,7 @@ public:
           n_kinds_(profile_species.of(run.output) != 0
                        ? std::max<std::size_t>(run.scene.effects.species.size(), 1)
                        : 1),
-          species_(run.simulation.species_table()), sums_(0, 1, 1) {
+          species_(run.system.species_table()), sums_(0, 1, 1) {
         const auto& sides = run.scene.effects.boundaries;
         are_sides_moving_ = std::any_of(sides.begin(), sides.end(), [](const Boundary& side) {
             return side.speed != 0 || side.amplitude != 0;
@@ -96,7 +96,7 @@ public:
         DiscId end = 0;
         for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
     }
-    ~Profiles() override { run_.simulation.forget(*this); }
+    ~Profiles() override { run_.system.forget(*this); }
 
     void begin() override {
         speed_ = std::max(usual_speed(run_), driven_speed(run_.scene));
@@ -115,7 +115,7 @@ public:
 
     void sample(const SampledState& state) override {
         const Extent& box = state.box;
-        const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
+        const double time = run_.system.clock(), unit = run_.system.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
         const auto place = [](double x, std::size_t n) {    // the edges belong to the last cells
@@ -123,7 +123,7 @@ public:
             return static_cast<std::size_t>(
                 std::clamp<std::int64_t>(cell, 0, static_cast<std::int64_t>(n) - 1));
         };
-        for (const Disc& disc : state.inside) {
+        for (const DiscState& disc : state.inside) {
             std::size_t cell = place((disc.y_at(time) - box.y_low) * per_y, n_y_) * n_x_ +
                                place((disc.x_at(time) - box.x_low) * per_x, n_x_);
             if (n_kinds_ > 1) cell += kind_of(disc.id) * n_cells();
@@ -180,8 +180,8 @@ private:
     /// Sums are empty then. **Collective.**
     void follow() {
         sums_ = FieldSums(n_kinds_ * n_cells(), std::max(speed_, 0x1p-200), run_.scene.radius);
-        run_.simulation.forget(*this);
-        run_.simulation.follow_pairs(*this);
+        run_.system.forget(*this);
+        run_.system.follow_pairs(*this);
     }
 
     std::size_t cell_of(std::int64_t column, std::int64_t row) const {
@@ -273,7 +273,7 @@ private:
         note(all);
         if (n_kinds_ > 1) note(sums);
         note(all.total());
-        head_.to_step = static_cast<double>(run_.simulation.step());
+        head_.to_step = static_cast<double>(run_.system.step());
         for (double* edge : {&head_.x_low, &head_.x_high, &head_.y_low, &head_.y_high})
             *edge /= static_cast<double>(per_block_);
         for (double* number : numbers_of(head_)) heads_.push_back(*number);

@@ -13,7 +13,7 @@ namespace {
 
 /// The species whose pairs are counted apart: the scene's, or a single one if discs
 /// are alike or of more than eight species.
-std::vector<Species> species_apart(const Scene& scene) {
+std::vector<Species> species_apart(const SceneParameters& scene) {
     constexpr std::size_t most = 8;
     const std::vector<Species>& species = scene.effects.species;
     if (species.empty() || species.size() > most) return {{scene.n_discs, scene.radius, 1}};
@@ -38,7 +38,7 @@ public:
         std::vector<DiscId> species_ends;
         for (const Species& one : species)
             species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
-        run_.simulation.count_pair_distances(width, species_ends, pairs);
+        run_.system.count_pair_distances(width, species_ends, pairs);
         std::vector<std::uint64_t> now(pairs.size(), 0);
         add_over(run_.ranks, std::move(pairs), now);
         std::vector<double> ideal_now(now.size(), 0);
@@ -115,7 +115,7 @@ public:
 
 private:
     /// If there are several kinds of pairs, the curve of all pairs comes first.
-    static std::size_t n_curves(const Scene& scene) {
+    static std::size_t n_curves(const SceneParameters& scene) {
         const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
         return n_kinds > 1 ? n_kinds + 1 : 1;
     }
@@ -159,7 +159,7 @@ MeasuredQuantity radial_distribution_quantity() {
                                "is periodic all round",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "radial_distribution") &&
                                        s.effects.growth != 0 &&
                                        !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
@@ -169,7 +169,7 @@ MeasuredQuantity radial_distribution_quantity() {
                         .why = "with open sides velocities and densities alone are measured",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "radial_distribution") &&
                                        s.effects.have_open_boundaries();
                             }},
@@ -179,7 +179,7 @@ MeasuredQuantity radial_distribution_quantity() {
                                "box that is periodic all round",
                         .keys = {quantities_key},
                         .is_broken =
-                            [](const Scene& s) {
+                            [](const SceneParameters& s) {
                                 return measures(s, "radial_distribution") &&
                                        !s.effects.species.empty() &&
                                        !(s.effects.is_periodic_x() && s.effects.is_periodic_y());

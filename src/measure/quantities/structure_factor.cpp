@@ -59,7 +59,7 @@ public:
     }
 };
 
-bool is_structure_factor_measured(const Scene& scene) {
+bool is_structure_factor_measured(const SceneParameters& scene) {
     return measures(scene, "structure_factor");
 }
 

@@ -16,11 +16,11 @@ class Thermo : public Measurement {
 public:
     Thermo(MeasuredRun& run, const Measurements& others) : Measurement(run), others_(others) {}
 
-    void begin() override { sampler_.emplace(run_.simulation, run_.ranks); }
+    void begin() override { sampler_.emplace(run_.system, run_.ranks); }
 
     void sample(const SampledState& state) override {
         if (!state.is_first) sampler_->sample(static_cast<double>(run_.output.every_steps));
-        const Totals totals = run_.simulation.energies();
+        const Totals totals = run_.system.energies();
         const MotionSample& now = sampler_->last();
         rows_.insert(rows_.end(),
                      {totals.kinetic_energy + totals.rotational_energy + totals.potential_energy,
@@ -30,7 +30,7 @@ public:
 
     void keep(KeptNumbers& kept) override {
         kept(rows_);
-        PressureSampler::keep(kept, sampler_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, sampler_, run_.system, run_.ranks);
     }
 
     std::vector<MeasuredTable> tables() const override { return {}; }

@@ -40,12 +40,12 @@ public:
     explicit Transport(MeasuredRun& run)
         : Measurement(run), scheme_(static_cast<std::uint64_t>(correlation_points.of(run.output))),
           heat_{ExactSum(1), ExactSum(1)} {}
-    ~Transport() override { run_.simulation.forget(*this); }
+    ~Transport() override { run_.system.forget(*this); }
 
     void begin() override {
-        pressure_.emplace(run_.simulation, run_.ranks);
+        pressure_.emplace(run_.system, run_.ranks);
         speed_ = std::max(usual_speed(run_), 0x1p-200);
-        const Totals totals = run_.simulation.energies();
+        const Totals totals = run_.system.energies();
         const double n = static_cast<double>(totals.n_discs);
         drift_ = {totals.momentum_x / n, totals.momentum_y / n};
         usual_trace_ = usual_pressure_per_density(n * std::numbers::pi * run_.scene.radius *
@@ -54,7 +54,7 @@ public:
                         n * (drift_[0] * drift_[0] + drift_[1] * drift_[1]) / 2) *
                        static_cast<double>(run_.output.every_steps);
         follow();
-        last_step_ = run_.simulation.step();
+        last_step_ = run_.system.step();
     }
 
     void take(std::span<const PairEvent> events) override {
@@ -80,8 +80,8 @@ public:
     void sample(const SampledState& state) override {
         if (state.is_first) return note({});
         const double steps = static_cast<double>(run_.output.every_steps),
-                     unit = run_.simulation.velocity_unit();
-        for (const Disc& disc : state.shown) {
+                     unit = run_.system.velocity_unit();
+        for (const DiscState& disc : state.shown) {
             const double vx = disc.vx * unit, vy = disc.vy * unit, e = energy(vx, vy) * steps;
             heat_[0].add(e * (vx - drift_[0]));
             heat_[1].add(e * (vy - drift_[1]));
@@ -103,12 +103,12 @@ public:
         pressure_->forget_pressures();
         for (std::size_t k = 0; k < n_components; ++k) change[k] += moments_[k];
         note(change);
-        last_step_ = run_.simulation.step();
+        last_step_ = run_.system.step();
     }
 
     void keep(KeptNumbers& kept) override {
         kept.same(static_cast<std::int64_t>(scheme_.points()));
-        PressureSampler::keep(kept, pressure_, run_.simulation, run_.ranks);
+        PressureSampler::keep(kept, pressure_, run_.system, run_.ranks);
         kept(speed_), kept(drift_), kept(last_step_), kept(n_samples_), kept(temperature_);
         kept(usual_trace_), kept(moments_);
         if (kept.is_restored()) follow();
@@ -153,8 +153,8 @@ private:
         const double usual = speed_ * speed_ * speed_ *
                              static_cast<double>(run_.output.every_steps) * 0x1p70;
         heat_ = {ExactSum(usual), ExactSum(usual)};
-        run_.simulation.forget(*this);
-        run_.simulation.follow_pairs(*this);
+        run_.system.forget(*this);
+        run_.system.follow_pairs(*this);
     }
 
     /// Compares the moments of a sample with earlier ones, and keeps them.
@@ -238,7 +238,7 @@ std::vector<MeasuredTable> Transport::tables() const {
     return {table};
 }
 
-bool is_another_gas(const Scene& s) {
+bool is_another_gas(const SceneParameters& s) {
     const Effects& effects = s.effects;
     return measures(s, "transport") &&
            (!effects.is_periodic_x() || !effects.is_periodic_y() || effects.are_sheared() ||

@@ -27,11 +27,11 @@ public:
 
     void sample(const SampledState& state) override {
         const std::size_t n = n_bins_of(run_);
-        const double unit = run_.simulation.velocity_unit(), largest = largest_velocity_;
+        const double unit = run_.system.velocity_unit(), largest = largest_velocity_;
         const double per_component = static_cast<double>(n) / (2 * largest),
                      per_speed = static_cast<double>(n) / largest;
         std::vector<std::uint64_t> vx(n, 0), vy(n, 0), speeds(n, 0);
-        for (const Disc& disc : state.inside) {
+        for (const DiscState& disc : state.inside) {
             const double u = disc.vx * unit, v = disc.vy * unit;
             count(vx, (u + largest) * per_component);
             count(vy, (v + largest) * per_component);

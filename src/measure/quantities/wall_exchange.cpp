@@ -22,7 +22,7 @@ class WallExchange : public Measurement, public WallFollower {
 public:
     explicit WallExchange(MeasuredRun& run)
         : Measurement(run), since_last_{WallSums(1), WallSums(1)} {}
-    ~WallExchange() override { run_.simulation.forget(*this); }
+    ~WallExchange() override { run_.system.forget(*this); }
 
     void begin() override {
         speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
@@ -74,8 +74,8 @@ private:
     }
     void follow() {
         clear();
-        run_.simulation.forget(*this);
-        run_.simulation.follow_walls(*this);
+        run_.system.forget(*this);
+        run_.system.follow_walls(*this);
     }
 
     MeasuredTable history() const {
@@ -114,7 +114,7 @@ private:
     std::array<WallSums, 2> since_last_; ///< heat and shear on this rank since the last sample
 };
 
-bool measures_exchange(const Scene& s) { return measures(s, "wall_exchange"); }
+bool measures_exchange(const SceneParameters& s) { return measures(s, "wall_exchange"); }
 
 } // namespace
 

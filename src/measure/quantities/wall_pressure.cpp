@@ -11,7 +11,7 @@ namespace {
 class WallPressure : public Measurement, public WallFollower {
 public:
     explicit WallPressure(MeasuredRun& run) : Measurement(run), since_last_(1) {}
-    ~WallPressure() override { run_.simulation.forget(*this); }
+    ~WallPressure() override { run_.system.forget(*this); }
 
     void begin() override {
         speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
@@ -72,8 +72,8 @@ private:
     }
     void follow() {
         clear();
-        run_.simulation.forget(*this);
-        run_.simulation.follow_walls(*this);
+        run_.system.forget(*this);
+        run_.system.follow_walls(*this);
     }
 
     MeasuredTable history() const {
@@ -115,7 +115,7 @@ private:
     std::array<std::uint64_t, 4> counts_{};
 };
 
-bool measures_wall_pressure(const Scene& s) { return measures(s, "wall_pressure"); }
+bool measures_wall_pressure(const SceneParameters& s) { return measures(s, "wall_pressure"); }
 
 } // namespace
 

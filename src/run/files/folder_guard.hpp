@@ -13,7 +13,7 @@
 
 #include "io/write_lock.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "simulation/advance.hpp"
 
 namespace carrom {
@@ -22,7 +22,8 @@ namespace carrom {
 class FolderGuard : public StepAction {
 public:
     /// `locks` are rank 0's. All arguments must outlive this.
-    FolderGuard(std::span<const WriteLock> locks, const Scene& scene, const Communicator& ranks)
+    FolderGuard(std::span<const WriteLock> locks, const SceneParameters& scene,
+                const Communicator& ranks)
         : locks_(locks), scene_(scene), ranks_(ranks) {}
 
     std::int64_t next_due(std::int64_t) const override {
@@ -38,7 +39,7 @@ public:
 
 private:
     std::span<const WriteLock> locks_;
-    const Scene& scene_;
+    const SceneParameters& scene_;
     const Communicator& ranks_;
 };
 

@@ -34,7 +34,7 @@ WriteProblem write_problem_of_new_folder(const std::string& folder) {
 }
 
 /// The problem in the folder that keeps the run from writing there.
-std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
+std::string problem_in_folder(const RunOptions& options, const SceneParameters& scene) {
     const std::string& folder = scene.folder;
     std::error_code ignored;
     for (const std::string& path : files_of_run(folder)) {
@@ -73,7 +73,7 @@ WriteLock locked(const std::string& folder, PlaceProblems& found) {
 
 /// Makes and locks nothing without `locks`. With `locks` it adds to them, and only if
 /// there are no problems.
-void check_places(PlaceProblems& found, const RunOptions& options, const Scene& scene,
+void check_places(PlaceProblems& found, const RunOptions& options, const SceneParameters& scene,
                   const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations,
                   std::vector<WriteLock>* locks) {
     const std::string& folder = scene.folder;
@@ -113,7 +113,7 @@ void PlaceProblems::agree(const Communicator& ranks) const {
     carrom::agree(ranks, failures.empty(), InputError(failures).what(), ExitCode::output_failure);
 }
 
-std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& scene,
+std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParameters& scene,
                                      const std::vector<NamedFile>& sources,
                                      const std::vector<NamedFile>& others,
                                      const Communicator& ranks) {
@@ -124,14 +124,14 @@ std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& sce
     return locks;
 }
 
-std::vector<Problem> problems_of_outputs(const RunOptions& options, const Scene& scene,
+std::vector<Problem> problems_of_outputs(const RunOptions& options, const SceneParameters& scene,
                                          const std::vector<NamedFile>& sources) {
     PlaceProblems found;
     check_places(found, options, scene, sources, {}, nullptr);
     return found.all();
 }
 
-void prepare_outputs(const Scene& scene, bool begins_anew, const Communicator& ranks) {
+void prepare_outputs(const SceneParameters& scene, bool begins_anew, const Communicator& ranks) {
     if (scene.folder.empty()) return;
     on_root(ranks, scene.folder, ExitCode::output_failure, [&] {
         if (begins_anew) remove_run(scene.folder);

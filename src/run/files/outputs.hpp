@@ -11,7 +11,7 @@
 #include "parallel/communicator.hpp"
 #include "run/files/destinations.hpp"
 #include "run/start/run_options.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -32,18 +32,18 @@ struct PlaceProblems {
 /// write to `sources`, which are read, or to one place twice; `others` are its other
 /// outputs. CollectiveError, code 4, if the place is right and the disk refuses. Makes
 /// the folder. Rank 0's lock must live as long as the run writes. **Collective.**
-std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& scene,
+std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParameters& scene,
                                      const std::vector<NamedFile>& sources,
                                      const std::vector<NamedFile>& others,
                                      const Communicator& ranks);
 
 /// The problems of a run that will not begin, so that all are printed at once. Makes
 /// nothing, locks nothing.
-std::vector<Problem> problems_of_outputs(const RunOptions& options, const Scene& scene,
+std::vector<Problem> problems_of_outputs(const RunOptions& options, const SceneParameters& scene,
                                          const std::vector<NamedFile>& sources);
 
 /// Prepares the folder of a run that is sure to begin. A run that starts at its
 /// beginning has the folder for itself. **Collective.**
-void prepare_outputs(const Scene& scene, bool begins_anew, const Communicator& ranks);
+void prepare_outputs(const SceneParameters& scene, bool begins_anew, const Communicator& ranks);
 
 } // namespace carrom

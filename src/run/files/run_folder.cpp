@@ -101,7 +101,7 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
 
 /// The settings that a copy of the scene lists in its first lines: those of `--set`, and where
 /// files are, because the copy is in another folder.
-std::vector<std::string> overrides_for_copy(const Scene& scene) {
+std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
@@ -110,7 +110,7 @@ std::vector<std::string> overrides_for_copy(const Scene& scene) {
     return overrides;
 }
 
-std::string text_of_copy(const Scene& scene) {
+std::string text_of_copy(const SceneParameters& scene) {
     std::string text;
     for (const std::string& override : overrides_for_copy(scene))
         text += fmt::format("{}{}\n", override_mark, override);
@@ -162,7 +162,7 @@ std::string recorded_beyond_start(const std::string& folder) {
     });
 }
 
-std::string problem_with_tables(const Scene& scene) {
+std::string problem_with_tables(const SceneParameters& scene) {
     if (!scene.measurements) return {};
     const std::string& folder = scene.measurements->folder;
     std::error_code error;
@@ -185,7 +185,7 @@ std::string problem_with_tables(const Scene& scene) {
                        is_readable ? "is no table that a run has written" : "cannot be read");
 }
 
-std::string problem_with_copy(const Scene& scene) {
+std::string problem_with_copy(const SceneParameters& scene) {
     for (const std::string& line : overrides_for_copy(scene))
         if (line.find_first_of("\r\n") != std::string::npos)
             return "its copy of the scene names the file of discs on one line, and the path of "
@@ -208,7 +208,7 @@ std::vector<std::string> overrides_of_copy(const std::string& path) {
     return overrides;
 }
 
-std::string difference_from_run(const std::string& folder, const Scene& scene) {
+std::string difference_from_run(const std::string& folder, const SceneParameters& scene) {
     const std::string path = scene_copy_of(folder);
     if (path.empty()) return "there is no scene.toml";
     try {
@@ -220,9 +220,9 @@ std::string difference_from_run(const std::string& folder, const Scene& scene) {
         text.discs_follow = scene.discs_follow; // the copy does not have the discs
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
-        Scene there = read_scene(text, overrides), here = scene;
+        SceneParameters there = read_scene(text, overrides), here = scene;
         there.discs_file = here.discs_file; // relative to another folder
-        for (Scene* one : {&there, &here})
+        for (SceneParameters* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
         const std::vector<std::string> differences = physical_differences(there, here);
         return differences.empty() ? "" : differences.front();
@@ -259,7 +259,7 @@ std::string problem_of_removal(const std::string& folder) {
     return {};
 }
 
-void prepare_folder(const Scene& scene) {
+void prepare_folder(const SceneParameters& scene) {
     remove_unfinished(scene.folder);
     const std::string copy = in(scene.folder, scene.lines_before_discs > 0 ? copies[1] : copies[0]);
     std::vector<std::string> wanted = {scene.checkpoint->folder};

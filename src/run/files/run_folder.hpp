@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -26,10 +26,10 @@ std::string trace_of_run(const std::string& folder);
 std::string recorded_beyond_start(const std::string& folder);
 
 /// Describes a file of somebody else that a table of the scene may replace; empty if there is none.
-std::string problem_with_tables(const Scene& scene);
+std::string problem_with_tables(const SceneParameters& scene);
 
 /// Describes why a copy of the scene could not be read again; empty if it can.
-std::string problem_with_copy(const Scene& scene);
+std::string problem_with_copy(const SceneParameters& scene);
 
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
@@ -39,7 +39,7 @@ std::vector<std::string> overrides_of_copy(const std::string& path);
 
 /// Describes the difference between the folder's run and the scene; empty if there is
 /// none. A folder without a readable scene is a difference, too.
-std::string difference_from_run(const std::string& folder, const Scene& scene);
+std::string difference_from_run(const std::string& folder, const SceneParameters& scene);
 
 /// Removes the files of a run, the copy of its scene first. Leaves all other files,
 /// and all files behind symbolic links.
@@ -49,6 +49,6 @@ void remove_run(const std::string& folder);
 std::string problem_of_removal(const std::string& folder);
 
 /// Makes the folders and writes the copy of the scene. Throws FileError.
-void prepare_folder(const Scene& scene);
+void prepare_folder(const SceneParameters& scene);
 
 } // namespace carrom

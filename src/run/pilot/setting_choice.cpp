@@ -62,7 +62,7 @@ std::int64_t sixteenth_of_trial(double n_discs, double pairs_per_step, double ac
 
 /// The settings that all trials share.
 struct Pilot {
-    const Scene& scene;
+    const SceneParameters& scene;
     const TrialStart& start;
     std::int64_t sixteenth; ///< a sixteenth of a trial, in steps
     const Communicator& communicator;
@@ -156,7 +156,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
 }
 
 /// Throws InputError with a way out.
-TrialStart start_of_pilot(const Scene& scene, const std::vector<InputDisc>& discs,
+TrialStart start_of_pilot(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                           const Communicator& communicator, const Tuning& tuning) {
     try {
         return bring_to_equilibrium(scene, discs, approach, communicator, tuning);
@@ -184,7 +184,7 @@ TrialError error_of(const Trial& trial, const Trial& exact) {
             std::sqrt(1 / pairs(trial) + 1 / pairs(exact))};
 }
 
-void decide_on(Scene& scene, const RunSetting& setting) {
+void decide_on(SceneParameters& scene, const RunSetting& setting) {
     scene = with_setting(std::move(scene), setting);
     std::erase_if(scene.overrides,
                   [](const std::string& text) { return text.starts_with("time.accuracy"); });
@@ -193,8 +193,9 @@ void decide_on(Scene& scene, const RunSetting& setting) {
     scene.overrides.push_back(fmt::format("time.micro_steps={}", setting.micro_steps));
 }
 
-void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, const Messages& messages,
-                    const Communicator& communicator, const Tuning& tuning) {
+void choose_setting(SceneParameters& scene, const std::vector<InputDisc>& discs,
+                    const Messages& messages, const Communicator& communicator,
+                    const Tuning& tuning) {
     Choice choice;
     if (*scene.accuracy < least_accuracy) {
         choice = {{Method::event_driven},

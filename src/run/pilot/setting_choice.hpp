@@ -21,11 +21,12 @@ namespace carrom {
 /// them over `time.accuracy`, so that checkpoints hold the choice. It rests on
 /// measured times, so it may differ on another machine. Throws InputError if discs
 /// overlap or hardly meet. **Collective.**
-void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, const Messages& messages,
-                    const Communicator& communicator, const Tuning& tuning);
+void choose_setting(SceneParameters& scene, const std::vector<InputDisc>& discs,
+                    const Messages& messages, const Communicator& communicator,
+                    const Tuning& tuning);
 
 /// Sets the setting in the scene, in place of `time.accuracy`.
-void decide_on(Scene& scene, const RunSetting& setting);
+void decide_on(SceneParameters& scene, const RunSetting& setting);
 
 /// The difference between a trial and the exact one.
 struct TrialError {

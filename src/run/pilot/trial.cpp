@@ -30,10 +30,10 @@ double collisions_per_disc(const Totals& totals) {
 
 } // namespace
 
-std::vector<InputDisc> discs_now(const Simulation& simulation) {
+std::vector<InputDisc> discs_now(const DiscSystem& system) {
     std::vector<InputDisc> discs;
-    const double clock = simulation.clock(), unit = simulation.velocity_unit();
-    for (const Disc& disc : simulation.discs())
+    const double clock = system.clock(), unit = system.velocity_unit();
+    for (const DiscState& disc : system.discs())
         discs.push_back(
             {disc.id, disc.x_at(clock), disc.y_at(clock), disc.vx * unit, disc.vy * unit});
     std::sort(discs.begin(), discs.end(),
@@ -41,7 +41,7 @@ std::vector<InputDisc> discs_now(const Simulation& simulation) {
     return discs;
 }
 
-Scene with_setting(Scene scene, const RunSetting& setting) {
+SceneParameters with_setting(SceneParameters scene, const RunSetting& setting) {
     scene.method = setting.method;
     scene.micro_steps = setting.micro_steps;
     scene.precision = setting.precision;
@@ -51,11 +51,12 @@ Scene with_setting(Scene scene, const RunSetting& setting) {
     return scene;
 }
 
-TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs, double wanted,
-                                const Communicator& communicator, const Tuning& tuning) {
-    Scene exact = with_setting(scene, {Method::event_driven});
+TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputDisc> discs,
+                                double wanted, const Communicator& communicator,
+                                const Tuning& tuning) {
+    SceneParameters exact = with_setting(scene, {Method::event_driven});
     exact.steps = unlimited_steps;
-    Simulation simulation(exact, std::move(discs), communicator, tuning);
+    DiscSystem system(exact, std::move(discs), communicator, tuning);
     double done = 0, before = 0;
     std::int64_t from = 0;
     for (std::int64_t step = 1; done < wanted;
@@ -65,24 +66,24 @@ TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs
                 {{scene.name, 0,
                   "its discs meet too seldom for errors of collision rates to mean anything"}});
         before = done;
-        from = simulation.step();
-        advance_to(simulation, step);
-        done = collisions_per_disc(simulation.totals());
+        from = system.step();
+        advance_to(system, step);
+        done = collisions_per_disc(system.totals());
     }
     TrialStart start;
-    start.discs = discs_now(simulation);
-    start.hash = simulation.totals().hash;
-    start.frequency = (done - before) / static_cast<double>(simulation.step() - from);
+    start.discs = discs_now(system);
+    start.hash = system.totals().hash;
+    start.frequency = (done - before) / static_cast<double>(system.step() - from);
     return start;
 }
 
-Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart& start,
+Trial run_trial(const SceneParameters& scene, const RunSetting& setting, const TrialStart& start,
                 const TrialLength& length, const Communicator& communicator, const Tuning& tuning) {
-    Scene here = with_setting(scene, setting);
+    SceneParameters here = with_setting(scene, setting);
     here.steps = length.steps;
     here.measurements.reset();
-    Simulation simulation(here, start.discs, communicator, tuning);
-    Sampler sampler(here, simulation, communicator);
+    DiscSystem system(here, start.discs, communicator, tuning);
+    Sampler sampler(here, system, communicator);
     sampler.sample_if_due();
     StepAction* const actions[] = {&sampler};
     std::set<std::int64_t> sampled_steps{length.steps};
@@ -96,12 +97,12 @@ Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart&
     for (const std::int64_t stop : stops) {
         Stopwatch watch;
         const double before = process_seconds();
-        advance_to(simulation, stop, actions);
+        advance_to(system, stop, actions);
         trial.core_seconds += process_seconds() - before;
         trial.wall_seconds += watch.lap();
-        if (stop == length.early_step) trial.early = discs_now(simulation);
+        if (stop == length.early_step) trial.early = discs_now(system);
         if (!sampled_steps.contains(stop)) continue;
-        trial.totals = simulation.totals();
+        trial.totals = system.totals();
         trial.overlapping_pairs_per_disc += 2 *
                                             static_cast<double>(trial.totals.overlapping_pairs) /
                                             static_cast<double>(trial.totals.n_discs *

@@ -10,9 +10,9 @@
 #include <carrom/averages.hpp>
 
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 #include "simulation/advance.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom {
 
@@ -28,7 +28,7 @@ struct RunSetting {
 };
 
 /// The scene with that setting.
-Scene with_setting(Scene scene, const RunSetting& setting);
+SceneParameters with_setting(SceneParameters scene, const RunSetting& setting);
 
 /// Discs in equilibrium by the event-driven method, from which trials start.
 struct TrialStart {
@@ -40,7 +40,7 @@ struct TrialStart {
 /// Runs `discs` under the event-driven method until a disc has had
 /// `collisions_per_disc` with others, on average. Throws InputError if discs overlap
 /// or hardly meet. **Collective.**
-TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs,
+TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputDisc> discs,
                                 double collisions_per_disc, const Communicator& communicator,
                                 const Tuning& tuning);
 
@@ -57,7 +57,7 @@ struct Trial {
 };
 
 /// This rank's discs as they are now, by id, in the scene's units.
-std::vector<InputDisc> discs_now(const Simulation& simulation);
+std::vector<InputDisc> discs_now(const DiscSystem& system);
 
 struct TrialLength {
     std::int64_t steps = 1;
@@ -66,7 +66,7 @@ struct TrialLength {
 };
 
 /// **Collective.**
-Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart& start,
+Trial run_trial(const SceneParameters& scene, const RunSetting& setting, const TrialStart& start,
                 const TrialLength& length, const Communicator& communicator, const Tuning& tuning);
 
 } // namespace carrom

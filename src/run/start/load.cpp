@@ -81,7 +81,7 @@ void check_destinations(const RunOptions& options, PlaceProblems& found) {
 }
 
 /// The files that are read; outputs must be others.
-std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
+std::vector<NamedFile> read_for(const RunOptions& options, const SceneParameters& scene) {
     std::vector<NamedFile> sources = read_by(options);
     if (!scene.discs_file.empty() || !scene.discs_from.empty())
         sources.push_back({"the file of discs", discs_path(scene)});
@@ -89,7 +89,7 @@ std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
 }
 
 /// A run writes into one folder. A wrong name of it is a problem already.
-void check_folder(const Scene& scene, Problems& problems) {
+void check_folder(const SceneParameters& scene, Problems& problems) {
     const bool is_needed = scene.checkpoint || scene.trajectory || scene.collisions ||
                            scene.measurements;
     const auto is_of_folder = [](const Problem& problem) {
@@ -104,8 +104,8 @@ void check_folder(const Scene& scene, Problems& problems) {
 }
 
 /// Loads the scene and opens its input. **Collective.**
-Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
-                 const Communicator& ranks, SceneSource& source) {
+SceneParameters load_scene(const RunOptions& options, const Problems& problems_so_far,
+                           const Communicator& ranks, SceneSource& source) {
     PlaceProblems found; // all ranks' together: one rank lists each
     Problems& problems = found.problems;
     bool is_readable = true;
@@ -118,7 +118,7 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
                                           options.input == "-" ? "standard input" : options.input);
         });
     }
-    Scene scene;
+    SceneParameters scene;
     if (ranks.all(is_readable)) {
         broadcast(source.text, ranks);
         Problems same_everywhere;
@@ -149,7 +149,7 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
 }
 
 /// A wrong number of discs would otherwise end the run later without a reason. **Collective.**
-void check_memory(const Scene& scene, const Communicator& ranks) {
+void check_memory(const SceneParameters& scene, const Communicator& ranks) {
     // Measured on one rank and on two by tests/performance/memory.py. Ranks that share a box keep
     // halos and send discs to each other.
     const bool are_many = ranks.size() > 1;
@@ -166,7 +166,7 @@ void check_memory(const Scene& scene, const Communicator& ranks) {
 }
 
 /// The course program's own scenes are as fast. **Collective.**
-void warn_of_units(const RunOptions& options, const Scene& scene,
+void warn_of_units(const RunOptions& options, const SceneParameters& scene,
                    const std::vector<InputDisc>& discs, const Communicator& ranks) {
     if (scene.lines_before_discs > 0) return;
     double fastest = 0;
@@ -202,8 +202,8 @@ RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
 
 } // namespace
 
-Scene load_scene_alone(const RunOptions& options, const Problems& problems,
-                       const Communicator& ranks) {
+SceneParameters load_scene_alone(const RunOptions& options, const Problems& problems,
+                                 const Communicator& ranks) {
     SceneSource source;
     return load_scene(options, problems, ranks, source);
 }
@@ -224,7 +224,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
         check_folder(loaded.scene, missing);
         if (!missing.empty()) throw InputError(missing);
     }
-    const Scene& scene = loaded.scene;
+    const SceneParameters& scene = loaded.scene;
     try {
         if (!loaded.start.stored) check_memory(scene, ranks);
         loaded.locks = claim_outputs(options, scene, read_for(options, scene), named_by(options),

@@ -12,13 +12,13 @@
 #include "parallel/communicator.hpp"
 #include "run/start/run_options.hpp"
 #include "run/start/run_start.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
 /// A scene and where its run starts.
 struct Loaded {
-    Scene scene;
+    SceneParameters scene;
     RunStart start;
     std::vector<WriteLock> locks; ///< rank 0's, on all outputs
 };
@@ -32,7 +32,7 @@ Loaded load(const RunOptions& options, const std::vector<Problem>& problems,
 
 /// Returns the scene alone; finds the problems of its text and its outputs' places.
 /// Makes and locks nothing. **Collective.**
-Scene load_scene_alone(const RunOptions& options, const std::vector<Problem>& problems,
-                       const Communicator& ranks);
+SceneParameters load_scene_alone(const RunOptions& options, const std::vector<Problem>& problems,
+                                 const Communicator& ranks);
 
 } // namespace carrom

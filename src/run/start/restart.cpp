@@ -32,7 +32,7 @@ std::string place_of(const RunOptions& options) {
 bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
 
 /// The folder to search; empty if a file was named. **Collective.**
-std::string folder_to_search(const RunOptions& options, const Scene& scene,
+std::string folder_to_search(const RunOptions& options, const SceneParameters& scene,
                              const Communicator& ranks) {
     if (is_own(options)) {
         if (scene.checkpoint) return scene.checkpoint->folder;
@@ -70,15 +70,15 @@ std::vector<std::string> candidates_in(
 
 /// Reads the checkpoint, and fills in the scene if there is none yet. Throws if the
 /// checkpoint is not of that scene's run.
-Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene,
+Checkpoint read_matching(const std::string& path, const RunOptions& options, SceneParameters& scene,
                          const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
-    const Scene there = scene_of(checkpoint.header, {});
+    const SceneParameters there = scene_of(checkpoint.header, {});
     std::vector<std::string> overrides = options.overrides;
     const bool asks_again = std::erase_if(overrides, [](const std::string& text) {
                                 return text.starts_with("time.accuracy=");
                             }) > 0;
-    Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
+    SceneParameters here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
     if (here.accuracy || asks_again) {
         if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
         options.messages.note(
@@ -99,7 +99,7 @@ std::string reasons(const InputError& error) {
 
 /// The newest of the candidates that is undamaged and of this run. **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
-                                      const RunOptions& options, Scene& scene,
+                                      const RunOptions& options, SceneParameters& scene,
                                       const Communicator& ranks) {
     const auto pass_over = [&options](const std::string& path, const std::string& reason) {
         const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
@@ -120,8 +120,9 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
 
 } // namespace
 
-std::vector<std::string> earlier_checkpoints(const std::string& folder, const Scene& scene,
-                                             std::int64_t step, const Communicator& ranks) {
+std::vector<std::string> earlier_checkpoints(const std::string& folder,
+                                             const SceneParameters& scene, std::int64_t step,
+                                             const Communicator& ranks) {
     std::vector<std::string> paths;
     for (const std::string& path : candidates_in(folder, ranks, step)) {
         try {
@@ -137,13 +138,14 @@ std::vector<std::string> earlier_checkpoints(const std::string& folder, const Sc
     return paths;
 }
 
-std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,
+std::vector<std::string> restart_candidates(const RunOptions& options, const SceneParameters& scene,
                                             const Communicator& ranks) {
     const std::string folder = folder_to_search(options, scene, ranks);
     return folder.empty() ? std::vector<std::string>{} : candidates_in(folder, ranks);
 }
 
-void begin_anew(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+void begin_anew(const RunOptions& options, const SceneParameters& scene,
+                const Communicator& ranks) {
     let_root(ranks, [&] {
         const std::string recorded = recorded_beyond_start(scene.folder);
         if (!recorded.empty())

@@ -25,15 +25,16 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
 /// Called if nothing was found and the folder is locked: prints that the run begins at
 /// step 0. Throws on every rank (exit code 2) if that would replace what a run has
 /// recorded after its start. **Collective.**
-void begin_anew(const RunOptions& options, const Scene& scene, const Communicator& ranks);
+void begin_anew(const RunOptions& options, const SceneParameters& scene, const Communicator& ranks);
 
 /// The checkpoints to choose from, newest first; none if the options name a file. **Collective.**
-std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,
+std::vector<std::string> restart_candidates(const RunOptions& options, const SceneParameters& scene,
                                             const Communicator& ranks);
 
 /// Undamaged checkpoints in a folder that are of the scene's run and of earlier steps
 /// than `step`, oldest first. **Collective.**
-std::vector<std::string> earlier_checkpoints(const std::string& folder, const Scene& scene,
-                                             std::int64_t step, const Communicator& ranks);
+std::vector<std::string> earlier_checkpoints(const std::string& folder,
+                                             const SceneParameters& scene, std::int64_t step,
+                                             const Communicator& ranks);
 
 } // namespace carrom

@@ -7,7 +7,7 @@
 
 #include "core/stored_samples.hpp"
 #include "engine/stored_state.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 

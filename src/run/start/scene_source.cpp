@@ -32,7 +32,7 @@ template <class Read> Problems problems_of(const Read& read) {
 
 /// Replaces the lines after the scene's text by the discs of `discs.from`. Returns the
 /// settings that say so, the same on every rank. **Collective.**
-std::vector<std::string> follow_with_discs_from(const Scene& scene,
+std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
                                                 std::unique_ptr<std::istream>& stream,
                                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
@@ -61,10 +61,10 @@ std::vector<std::string> follow_with_discs_from(const Scene& scene,
 
 } // namespace
 
-Scene read_with_files(SceneSource& source, std::vector<std::string> settings, Problems& problems,
-                      Problems& of_root, const Communicator& ranks) {
+SceneParameters read_with_files(SceneSource& source, std::vector<std::string> settings,
+                                Problems& problems, Problems& of_root, const Communicator& ranks) {
     Problems found;
-    Scene scene;
+    SceneParameters scene;
     const auto read_again = [&] {
         found.clear();
         scene = read_scene(source.text, settings, found);
@@ -85,10 +85,10 @@ Scene read_with_files(SceneSource& source, std::vector<std::string> settings, Pr
     return scene;
 }
 
-Scene read_with_files(SceneSource& source, const std::vector<std::string>& settings,
-                      const Communicator& ranks) {
+SceneParameters read_with_files(SceneSource& source, const std::vector<std::string>& settings,
+                                const Communicator& ranks) {
     Problems same_everywhere, problems;
-    Scene scene = read_with_files(source, settings, same_everywhere, problems, ranks);
+    SceneParameters scene = read_with_files(source, settings, same_everywhere, problems, ranks);
     if (ranks.is_root()) {
         append(problems, same_everywhere);
         if (are_columns_wrong(source)) {
@@ -105,7 +105,7 @@ bool are_columns_wrong(const SceneSource& source) {
     return source.text.columns && !source.text.columns->is_whole;
 }
 
-Problems disc_line_problems_of(const Scene& scene, std::istream* stream) {
+Problems disc_line_problems_of(const SceneParameters& scene, std::istream* stream) {
     Problems problems;
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;

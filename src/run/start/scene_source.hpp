@@ -13,7 +13,7 @@
 #include "core/errors.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/read_scene.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -31,19 +31,19 @@ struct SceneSource {
 /// that follow its text. Columns of its file of discs are read, too; they are
 /// incomplete if lines are wrong, see `disc_line_problems_of`. Appends to `problems`
 /// what all ranks find, and to `of_root` what rank 0 finds. **Collective.**
-Scene read_with_files(SceneSource& source, std::vector<std::string> settings,
-                      std::vector<Problem>& problems, std::vector<Problem>& of_root,
-                      const Communicator& ranks);
+SceneParameters read_with_files(SceneSource& source, std::vector<std::string> settings,
+                                std::vector<Problem>& problems, std::vector<Problem>& of_root,
+                                const Communicator& ranks);
 
 /// Reads the scene; throws InputError on every rank with all problems. **Collective.**
-Scene read_with_files(SceneSource& source, const std::vector<std::string>& settings,
-                      const Communicator& ranks);
+SceneParameters read_with_files(SceneSource& source, const std::vector<std::string>& settings,
+                                const Communicator& ranks);
 
 /// Whether the columns of the file of discs could not be read.
 bool are_columns_wrong(const SceneSource& source);
 
 /// Problems in the lines of discs of a scene that cannot be run, so that all are printed at
 /// once. The lines follow a header in `stream`, or have their own file. Called on one rank.
-std::vector<Problem> disc_line_problems_of(const Scene& scene, std::istream* stream);
+std::vector<Problem> disc_line_problems_of(const SceneParameters& scene, std::istream* stream);
 
 } // namespace carrom

@@ -40,7 +40,8 @@ Need reflecting(std::size_t side) {
             words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", word_of(one.kind));
     if (const auto last = words.rfind(", "); last != std::string::npos)
         words.replace(last, 2, " or ");
-    return {fmt::format("without {} = {}", side_key(side, "kind"), words), [side](const Scene& s) {
+    return {fmt::format("without {} = {}", side_key(side, "kind"), words),
+            [side](const SceneParameters& s) {
                 return declaration_of(s.effects.boundaries[side].kind).has_restitution;
             }};
 }
@@ -98,15 +99,16 @@ std::string side_key(std::size_t side, std::string_view name) {
 }
 
 Need side_needs(std::size_t side, BoundaryKind kind) {
-    return {fmt::format("without {} = \"{}\"", side_key(side, "kind"), word_of(kind)),
-            [side, kind](const Scene& s) { return s.effects.boundaries[side].kind == kind; }};
+    return {
+        fmt::format("without {} = \"{}\"", side_key(side, "kind"), word_of(kind)),
+        [side, kind](const SceneParameters& s) { return s.effects.boundaries[side].kind == kind; }};
 }
 
 std::string loss_text(const Boundary& side) {
     return side.restitution < 1 ? fmt::format(" of restitution {:g}", side.restitution) : "";
 }
 
-bool has_room(const Scene& scene, double width, double height) {
+bool has_room(const SceneParameters& scene, double width, double height) {
     const double covered = scene.packing() * scene.box.x * scene.box.y;
     const bool is_full = scene.effects.contact.kind != ContactKind::none &&
                          covered > largest_packing * width * height;

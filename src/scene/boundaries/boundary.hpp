@@ -54,6 +54,6 @@ Need side_needs(std::size_t side, BoundaryKind kind);
 /// " of restitution 0.9" for summaries; empty if the wall is elastic.
 std::string loss_text(const Boundary& side);
 /// Whether the discs may fit into a box of this width and height.
-bool has_room(const Scene& scene, double width, double height);
+bool has_room(const SceneParameters& scene, double width, double height);
 
 } // namespace carrom

@@ -26,17 +26,17 @@ std::vector<Rule> rules_of_moving_sides() {
     return {
         rule("a moving wall", "time.method = \"time-stepped\"",
              "walls are at rest there; take time.method = \"event-driven\"", BoundaryKind::moving,
-             [](const Scene& s) { return has_moving(s) && is_time_stepped(s); }),
+             [](const SceneParameters& s) { return has_moving(s) && is_time_stepped(s); }),
         rule("a moving wall", "obstacles", "this version does not have both", BoundaryKind::moving,
-             [](const Scene& s) { return has_moving(s) && has_obstacles(s); }),
+             [](const SceneParameters& s) { return has_moving(s) && has_obstacles(s); }),
         rule("an open side", "a moving wall", "this version does not have both", BoundaryKind::open,
-             [](const Scene& s) { return has_moving(s) && has_open(s); }),
+             [](const SceneParameters& s) { return has_moving(s) && has_open(s); }),
     };
 }
 
 /// Walls that move must leave room for the discs until the last step.
 void check_moving_walls(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     const auto& sides = scene.effects.boundaries;
     const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;

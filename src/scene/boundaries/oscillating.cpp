@@ -39,15 +39,16 @@ std::vector<Rule> rules_of_oscillating_sides() {
         rule("an oscillating wall", "time.method = \"time-stepped\"",
              "walls are at rest there; take time.method = \"event-driven\"",
              BoundaryKind::oscillating,
-             [](const Scene& s) { return has_oscillating(s) && is_time_stepped(s); }),
+             [](const SceneParameters& s) { return has_oscillating(s) && is_time_stepped(s); }),
         rule("an oscillating wall", "obstacles", "this version does not have both",
              BoundaryKind::oscillating,
-             [](const Scene& s) { return has_oscillating(s) && has_obstacles(s); }),
+             [](const SceneParameters& s) { return has_oscillating(s) && has_obstacles(s); }),
         rule("an oscillating wall", "drag", "contacts are found on straight lines and parabolas",
              BoundaryKind::oscillating,
-             [](const Scene& s) { return has_oscillating(s) && s.effects.drag != 0; }),
+             [](const SceneParameters& s) { return has_oscillating(s) && s.effects.drag != 0; }),
         rule("an open side", "an oscillating wall", "this version does not have both",
-             BoundaryKind::open, [](const Scene& s) { return has_oscillating(s) && has_open(s); }),
+             BoundaryKind::open,
+             [](const SceneParameters& s) { return has_oscillating(s) && has_open(s); }),
     };
 }
 
@@ -59,14 +60,14 @@ void check_contact_at_oscillating_walls(const SceneDraft& draft) {
 }
 
 /// Discs that are generated lie between the lines of the walls.
-bool begins_before_its_line(const Scene& scene, std::size_t side) {
+bool begins_before_its_line(const SceneParameters& scene, std::size_t side) {
     if (scene.generator == Generator::file) return false;
     const double place = oscillation_at(scene.effects.boundaries[side], 0).place;
     return (side % 2 == 0 ? place : -place) > 0x1p-52 * scene.box.longest();
 }
 
 void check_oscillating_wall(const SceneDraft& draft, std::size_t side) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     const Boundary& wall = scene.effects.boundaries[side];
     const double least = smallest_period * steps_between_syncs(scene);
     const std::string amplitude = side_key(side, "amplitude"), phase = side_key(side, "phase");

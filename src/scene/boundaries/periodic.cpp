@@ -8,7 +8,7 @@ namespace carrom {
 namespace {
 
 /// Whether one of two opposite sides is periodic without the other.
-bool is_half_periodic(const Scene& s, std::size_t low) {
+bool is_half_periodic(const SceneParameters& s, std::size_t low) {
     const auto& sides = s.effects.boundaries;
     return (sides[low].kind == BoundaryKind::periodic) !=
            (sides[low + 1].kind == BoundaryKind::periodic);
@@ -18,21 +18,21 @@ std::vector<Rule> rules_of_periodic_sides() {
     return {
         rule("a periodic side", "an open side", "this version does not have both",
              BoundaryKind::periodic,
-             [](const Scene& s) { return s.effects.are_periodic() && has_open(s); }),
+             [](const SceneParameters& s) { return s.effects.are_periodic() && has_open(s); }),
         rule("a periodic side", "walls or an open side opposite (left, right)",
              "box.left.kind and box.right.kind must both be \"periodic\", or neither",
              {"box.left.kind", "box.right.kind"},
-             [](const Scene& s) { return is_half_periodic(s, 0); }),
+             [](const SceneParameters& s) { return is_half_periodic(s, 0); }),
         rule("a periodic side", "walls or an open side opposite (bottom, top)",
              "box.bottom.kind and box.top.kind must both be \"periodic\", or neither",
              {"box.bottom.kind", "box.top.kind"},
-             [](const Scene& s) { return is_half_periodic(s, 2); }),
+             [](const SceneParameters& s) { return is_half_periodic(s, 2); }),
     };
 }
 
 /// Holds for sheared sides, too.
 void check_periodic_box(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);
     const double period = periods.shortest();
     if (!periods.are_any() || period >= 4 * scene.radius * (1 + 1e-6)) return;

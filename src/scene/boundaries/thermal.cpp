@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-const Need any_thermal_side{"without a side of kind = \"thermal\"", [](const Scene& s) {
+const Need any_thermal_side{"without a side of kind = \"thermal\"", [](const SceneParameters& s) {
                                 return has_boundary(s.effects, BoundaryKind::thermal);
                             }};
 

@@ -36,14 +36,14 @@ CheckAllowance allowance_of(const Effects& effects) {
     return all;
 }
 
-double usual_speed_of_effects(const Scene& scene) {
+double usual_speed_of_effects(const SceneParameters& scene) {
     double speed = 0;
     for (const EffectDeclaration& effect : all_effects())
         if (effect.usual_speed) speed = std::max(speed, effect.usual_speed(scene));
     return speed;
 }
 
-SyncEffects sync_effects_of(const Scene& scene) {
+SyncEffects sync_effects_of(const SceneParameters& scene) {
     SyncEffects acting;
     for (const EffectDeclaration& effect : all_effects())
         if (effect.at_syncs)

@@ -14,12 +14,13 @@ namespace carrom {
 namespace {
 
 const Need lossy_pairs{"without effects.contact.kind = \"restitution\" or \"rough\"",
-                       [](const Scene& s) { return are_pairs_lossy(s.effects); }};
-const Need rough{"without effects.contact.kind = \"rough\"",
-                 [](const Scene& s) { return s.effects.contact.kind == ContactKind::rough; }};
+                       [](const SceneParameters& s) { return are_pairs_lossy(s.effects); }};
+const Need rough{"without effects.contact.kind = \"rough\"", [](const SceneParameters& s) {
+                     return s.effects.contact.kind == ContactKind::rough;
+                 }};
 const Need loss_or_gravity{"without discs, walls or obstacles of restitution, a wall that "
                            "oscillates, or gravity",
-                           [](const Scene& s) { return lose_energy_or_fall(s.effects); }};
+                           [](const SceneParameters& s) { return lose_energy_or_fall(s.effects); }};
 constexpr Range shares{0, 1};
 
 std::vector<Key> keys_of_contact() {
@@ -71,12 +72,12 @@ std::vector<Rule> rules_of_contacts() {
     return {
         rule("several species", "effects.contact.kind = \"none\"",
              "this version does not have both", {"effects.contact.kind"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_species(s) && s.effects.contact.kind == ContactKind::none;
              }),
         rule("spins in discs.columns", "discs that are not rough",
              "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_column(s, disc_column_of(SideColumn::spin)) && !is_rough(s);
              }),
     };

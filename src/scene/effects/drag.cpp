@@ -24,15 +24,15 @@ std::vector<Rule> rules_of_drag() {
         rule("drag", "time.method = \"time-stepped\"",
              "discs keep their speed there; take time.method = \"event-driven\"",
              {"effects.drag.rate"},
-             [](const Scene& s) { return s.effects.drag != 0 && is_time_stepped(s); }),
+             [](const SceneParameters& s) { return s.effects.drag != 0 && is_time_stepped(s); }),
         rule("drag", "rough discs", "spins would need a drag of their own", {"effects.drag.rate"},
-             [](const Scene& s) { return s.effects.drag != 0 && is_rough(s); }),
+             [](const SceneParameters& s) { return s.effects.drag != 0 && is_rough(s); }),
     };
 }
 
 /// Long times between syncs would leave almost nothing of the velocities.
 void check_times_of_drag(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     const double interval = steps_between_syncs(scene);
     if (scene.effects.drag * interval > longest_drag)
         draft.refuse({"effects.drag.rate"},

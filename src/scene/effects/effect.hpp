@@ -7,10 +7,10 @@
 // engines loop over `all_effects`, and name no effect. An effect stores nothing beside the discs'
 // states and columns, so checkpoints need no word for it.
 //
-// The folder belongs to the scene because keys and rules are functions of a Scene. It is above the
-// dynamics, where the templates of the hot paths are, and below the engines. So an effect that acts
-// at syncs has its physics in its own file here; one that acts in collisions or in flight has its
-// physics in src/dynamics, and its words here.
+// The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
+// above the dynamics, where the templates of the hot paths are, and below the engines. So an effect
+// that acts at syncs has its physics in its own file here; one that acts in collisions or in flight
+// has its physics in src/dynamics, and its words here.
 //
 // To add an effect: a file in this folder, and its name in the list of src/scene/CMakeLists.txt.
 #pragma once
@@ -45,9 +45,9 @@ struct EffectDeclaration {
     std::string (*summary)(const Effects&) = nullptr;
     CheckAllowance (*allowance)(const Effects&) = nullptr;
     /// A speed per step that it is likely to give to discs.
-    double (*usual_speed)(const Scene&) = nullptr;
+    double (*usual_speed)(const SceneParameters&) = nullptr;
     /// Nothing in a scene without it.
-    std::unique_ptr<SyncEffect> (*at_syncs)(const Scene&) = nullptr;
+    std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
 };
 
 /// In the order of the list, which is that of the reference.
@@ -59,8 +59,8 @@ std::string summary_of(const Effects& effects);
 /// What the self-check cannot hold against a run with these effects and sides of the box.
 CheckAllowance allowance_of(const Effects& effects);
 /// The largest of all effects'.
-double usual_speed_of_effects(const Scene& scene);
+double usual_speed_of_effects(const SceneParameters& scene);
 /// In the order in which they act.
-SyncEffects sync_effects_of(const Scene& scene);
+SyncEffects sync_effects_of(const SceneParameters& scene);
 
 } // namespace carrom

@@ -28,7 +28,7 @@ std::vector<Key> keys_of_gravity() {
 /// Whether discs that gravity drives along periodic sides find a steady flow: something has to take
 /// the momentum along the sides `low` and `low + 1`, and something the energy. Obstacles take
 /// momentum, because discs have to go round them.
-bool are_stopped(const Scene& s, std::size_t low) {
+bool are_stopped(const SceneParameters& s, std::size_t low) {
     const Effects& e = s.effects;
     const ThermostatKind kind = e.thermostat.kind;
     if (e.drag != 0 || kind == ThermostatKind::langevin || kind == ThermostatKind::andersen)
@@ -56,28 +56,32 @@ std::vector<Rule> rules_of_gravity() {
         rule("gravity", "time.method = \"time-stepped\"",
              "discs fly straight there; take time.method = \"event-driven\"",
              {"effects.gravity.y", "effects.gravity.x"},
-             [](const Scene& s) { return s.effects.gravity.is_any() && is_time_stepped(s); }),
+             [](const SceneParameters& s) {
+                 return s.effects.gravity.is_any() && is_time_stepped(s);
+             }),
         rule("gravity along x", "periodic sides left and right where nothing stops discs", why,
              {"effects.gravity.x"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.effects.gravity.x != 0 && s.effects.is_periodic_x() &&
                         !s.effects.are_sheared() && !are_stopped(s, 2);
              }),
         rule("gravity along y", "periodic sides bottom and top where nothing stops discs", why,
              {"effects.gravity.y"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.effects.gravity.y != 0 && s.effects.is_periodic_y() &&
                         !s.effects.are_sheared() && !are_stopped(s, 0);
              }),
         rule("gravity along periodic sides", "sheared sides",
              "nothing stops discs in a flow without walls",
              {"effects.gravity.x", "effects.gravity.y"},
-             [](const Scene& s) { return s.effects.are_sheared() && s.effects.gravity.is_any(); }),
+             [](const SceneParameters& s) {
+                 return s.effects.are_sheared() && s.effects.gravity.is_any();
+             }),
     };
 }
 
 /// Whether what is pulled with `g` falls by more than half the box from sync to sync.
-bool falls_too_far(const Scene& scene, double g) {
+bool falls_too_far(const SceneParameters& scene, double g) {
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
     if (drag * time > longest_drag) return false; // a problem already
     const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
@@ -87,7 +91,7 @@ bool falls_too_far(const Scene& scene, double g) {
 /// Strong gravity needs syncs that follow each other sooner than they do by default. Where one in
 /// each micro-step is too late, check_fall says so.
 void shorten_sync(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     const Gravity& g = scene.effects.gravity;
     const std::int64_t by_default = scene.sync_every;
     if (draft.settings.has("time.sync_every") || scene.box == Box()) return;
@@ -99,7 +103,7 @@ void shorten_sync(const SceneDraft& draft) {
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the
 /// box's.
 void check_fall(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
                                  {"effects.gravity.y", scene.effects.gravity.y}}) {
         if (!falls_too_far(scene, g)) continue;
@@ -137,7 +141,7 @@ EffectDeclaration gravity() {
                                                                     e.drag != 0};
                 },
             .usual_speed =
-                [](const Scene& s) {
+                [](const SceneParameters& s) {
                     const Gravity& g = s.effects.gravity;
                     return std::sqrt(2 * (std::fabs(g.x) + std::fabs(g.y)) * s.box.longest());
                 }};

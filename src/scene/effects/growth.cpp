@@ -26,22 +26,22 @@ std::vector<Rule> rules_of_growth() {
     return {
         rule("growing discs", "time.method = \"time-stepped\"",
              "radii stay there; take time.method = \"event-driven\"", {"effects.growth.rate"},
-             [](const Scene& s) { return has_growth(s) && is_time_stepped(s); }),
+             [](const SceneParameters& s) { return has_growth(s) && is_time_stepped(s); }),
         rule("growing discs", "rough discs, or effects.contact.kind = \"none\"",
              "this version does not have both", {"effects.growth.rate"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_growth(s) &&
                         (is_rough(s) || s.effects.contact.kind == ContactKind::none);
              }),
         rule("growing discs", "gravity, drag or obstacles", "this version does not have both",
              {"effects.growth.rate"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_growth(s) &&
                         (s.effects.gravity.is_any() || s.effects.drag != 0 || has_obstacles(s));
              }),
         rule("growing discs", "a thermal, a moving, an oscillating or an open side",
              "this version does not have both", {"effects.growth.rate"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_growth(s) && (has_moving(s) || has_oscillating(s) || has_open(s) ||
                                           has_boundary(s.effects, BoundaryKind::thermal));
              }),
@@ -50,7 +50,7 @@ std::vector<Rule> rules_of_growth() {
 
 /// Discs that grow must have room until the last step.
 void check_growth(const SceneDraft& draft) {
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     if (scene.effects.growth == 0) return;
     const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
     const double densest = scene.effects.species.empty() ? largest_packing : 1;
@@ -82,7 +82,7 @@ EffectDeclaration growth() {
                     return e.growth != 0 ? fmt::format("radii growing by {:g} a step", e.growth)
                                          : "";
                 },
-            .usual_speed = [](const Scene& s) { return s.radius * s.effects.growth; }};
+            .usual_speed = [](const SceneParameters& s) { return s.radius * s.effects.growth; }};
 }
 
 } // namespace effects

@@ -17,7 +17,7 @@ namespace {
 constexpr double largest_in_period = 0.99;
 
 const Need some_obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
-                          [](const Scene& s) { return s.effects.obstacles.are_any(); }};
+                          [](const SceneParameters& s) { return s.effects.obstacles.are_any(); }};
 
 std::vector<Key> keys_of_obstacles() {
     return {
@@ -41,7 +41,7 @@ std::vector<Rule> rules_of_obstacles() {
         rule("obstacles", "drag and gravity at once",
              "contacts with bodies are found on straight lines and parabolas",
              {"effects.drag.rate"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_obstacles(s) && s.effects.drag > 0 && s.effects.gravity.is_any();
              }),
         rule("obstacles",
@@ -49,7 +49,7 @@ std::vector<Rule> rules_of_obstacles() {
              "these generators know nothing of obstacles; insert discs at random (at a packing "
              "fraction that allows it), or list them",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return has_obstacles(s) &&
                         (s.generator == Generator::lattice ||
                          s.generator == Generator::triangular ||

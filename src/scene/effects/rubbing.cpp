@@ -56,24 +56,26 @@ std::vector<Key> keys_of_rubbing() {
         add_surface(
             all, table, [side](auto& s) -> auto& { return s.effects.boundaries[side].surface; },
             {"without " + table + ".kind = \"wall\", \"moving\" or \"oscillating\"",
-             [side](const Scene& s) { return reflects(s.effects.boundaries[side]); }},
+             [side](const SceneParameters& s) { return reflects(s.effects.boundaries[side]); }},
             {"without " + table + ".tangential_restitution above -1",
-             [side](const Scene& s) {
+             [side](const SceneParameters& s) {
                  return s.effects.boundaries[side].surface.tangential_restitution != -1;
              }},
             {"without " + table + ".kind = \"thermal\" or a tangential_restitution above -1",
-             [side](const Scene& s) { return slides(s.effects.boundaries[side]); }},
+             [side](const SceneParameters& s) { return slides(s.effects.boundaries[side]); }},
             side < 2 ? "Velocity of the surface along +y; the side stays where it is."
                      : "Velocity of the surface along +x; the side stays where it is.");
     }
     add_surface(
         all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.obstacles.surface; },
         {"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
-         [](const Scene& s) { return has_obstacles(s); }},
+         [](const SceneParameters& s) { return has_obstacles(s); }},
         {"without effects.obstacles.tangential_restitution above -1",
-         [](const Scene& s) { return s.effects.obstacles.surface.tangential_restitution != -1; }},
+         [](const SceneParameters& s) {
+             return s.effects.obstacles.surface.tangential_restitution != -1;
+         }},
         {"without effects.obstacles.tangential_restitution above -1",
-         [](const Scene& s) { return s.effects.obstacles.surface.rubs(); }},
+         [](const SceneParameters& s) { return s.effects.obstacles.surface.rubs(); }},
         "Velocity of the surface, counterclockwise around the body, which stays where it is.");
     return all;
 }
@@ -82,7 +84,7 @@ std::vector<Rule> rules_of_rubbing() {
     return {
         rule("walls that rub", "growing discs", "this version does not have both",
              {"effects.growth.rate"},
-             [](const Scene& s) { return has_growth(s) && do_sides_rub(s.effects); }),
+             [](const SceneParameters& s) { return has_growth(s) && do_sides_rub(s.effects); }),
     };
 }
 
@@ -135,7 +137,7 @@ CheckAllowance allowance_of_rubbing(const Effects& effects) {
     return allowance;
 }
 
-double usual_speed_of_surfaces(const Scene& scene) {
+double usual_speed_of_surfaces(const SceneParameters& scene) {
     double speed = std::fabs(scene.effects.obstacles.surface.velocity);
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.surface.velocity));

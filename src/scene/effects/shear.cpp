@@ -14,7 +14,7 @@ namespace carrom {
 namespace {
 
 const Need sheared{"without box.bottom.kind = \"sheared\" and box.top.kind = \"sheared\"",
-                   [](const Scene& s) { return s.effects.are_sheared(); }};
+                   [](const SceneParameters& s) { return s.effects.are_sheared(); }};
 
 std::vector<Key> keys_of_shear() {
     return {
@@ -32,7 +32,7 @@ std::vector<Rule> rules_of_shear() {
         rule("a sheared side", "another kind of side opposite",
              "box.bottom.kind and box.top.kind must both be \"sheared\", or neither",
              {"box.bottom.kind", "box.top.kind"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  const auto& sides = s.effects.boundaries;
                  return (sides[2].kind == BoundaryKind::sheared) !=
                         (sides[3].kind == BoundaryKind::sheared);
@@ -40,7 +40,7 @@ std::vector<Rule> rules_of_shear() {
         rule("sheared sides left or right", "a flow along x",
              "the flow is along x and grows with y; make bottom and top sheared",
              {"box.left.kind", "box.right.kind"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  const auto& sides = s.effects.boundaries;
                  return sides[0].kind == BoundaryKind::sheared ||
                         sides[1].kind == BoundaryKind::sheared;
@@ -48,19 +48,21 @@ std::vector<Rule> rules_of_shear() {
         rule("sheared sides", "walls or open sides left and right",
              "the flow goes through them; make box.left.kind and box.right.kind \"periodic\"",
              {"box.left.kind", "box.right.kind"},
-             [](const Scene& s) { return s.effects.are_sheared() && !s.effects.is_periodic_x(); }),
+             [](const SceneParameters& s) {
+                 return s.effects.are_sheared() && !s.effects.is_periodic_x();
+             }),
         rule("sheared sides", "drag or obstacles",
              "both stand still, and the flow has no place where it does",
              {"effects.drag.rate", "effects.obstacles.discs", "effects.obstacles.segments"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.effects.are_sheared() && (s.effects.drag != 0 || has_obstacles(s));
              }),
         rule("sheared sides", "growing discs", "this version does not have both",
              {"effects.growth.rate"},
-             [](const Scene& s) { return s.effects.are_sheared() && has_growth(s); }),
+             [](const SceneParameters& s) { return s.effects.are_sheared() && has_growth(s); }),
         rule("sheared sides", "\"image\"", "images move: whole numbers do not say where they are",
              {"output.trajectory.fields"},
-             [](const Scene& s) {
+             [](const SceneParameters& s) {
                  return s.trajectory && s.trajectory->has_image && s.effects.are_sheared();
              }),
     };
@@ -68,7 +70,7 @@ std::vector<Rule> rules_of_shear() {
 
 /// A flow has the temperature that its rate and its losses give it, whatever it began with.
 void warn_of_temperature(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     if (!scene.effects.are_sheared() || !draft.settings.has("discs.temperature")) return;
     const Thermostat& thermostat = scene.effects.thermostat;
     if (thermostat.has_temperature() && thermostat.temperature == scene.temperature) return;
@@ -96,7 +98,8 @@ EffectDeclaration shear() {
                 [](const Effects& e) {
                     return e.are_sheared() ? fmt::format("shear at the rate {:g}", e.shear) : "";
                 },
-            .usual_speed = [](const Scene& s) { return std::fabs(s.effects.shear) * s.box.y; }};
+            .usual_speed =
+                [](const SceneParameters& s) { return std::fabs(s.effects.shear) * s.box.y; }};
 }
 
 } // namespace effects

@@ -40,7 +40,7 @@ namespace {
 /// The thermostat with a micro-step as the unit of time, and what all kinds need.
 class ThermostatEffect : public SyncEffect {
 public:
-    explicit ThermostatEffect(const Scene& scene)
+    explicit ThermostatEffect(const SceneParameters& scene)
         : setting_(scene.effects.thermostat), inertia_(scene.effects.contact.inertia),
           interval_(static_cast<double>(scene.sync_every)),
           n_discs_(static_cast<double>(scene.n_discs)) {
@@ -85,14 +85,13 @@ public:
         const double bound = n_discs_ * heaviest_ * size * 0x1p10;
         std::vector<ExactSum> sums(2, ExactSum(bound));
         sums.emplace_back(2 * n_discs_ * heaviest_);
-        const auto kick_of = [&](DiscId id) {
-            DiscRandom random = random_of(at, id);
+        const auto kick_by = [size](DiscRandom random) {
             const NormalPair n = random_normals(random);
             return NormalPair{size * n.x, size * n.y};
         };
         at.add_up(sums, [&](std::size_t i, std::vector<ExactSum>& parts) {
             const DiscId id = at.discs[i].id;
-            const NormalPair kick = kick_of(id);
+            const NormalPair kick = kick_by(random_of(at, id));
             const double mass = at.species.of(id).mass;
             parts[0].add(mass * kick.x);
             parts[1].add(mass * kick.y);
@@ -101,14 +100,10 @@ public:
         const double mass = sums[2].value();
         if (!(mass > 0)) return;
         const double mean_x = sums[0].value() / mass, mean_y = sums[1].value() / mass;
-        at.in_parts([&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                Disc& disc = at.discs[i];
-                if (disc.has_departed()) continue;
-                const NormalPair kick = kick_of(disc.id);
-                disc.vx += kick.x - mean_x;
-                disc.vy += kick.y - mean_y;
-            }
+        for_each(at, [&](std::size_t i, DiscRandom random) {
+            const NormalPair kick = kick_by(random);
+            at.discs[i].vx += kick.x - mean_x;
+            at.discs[i].vy += kick.y - mean_y;
         });
     }
 };
@@ -121,7 +116,7 @@ public:
         const double kept = drag_slowing(setting_.rate, interval_);
         for_each(at, [&](std::size_t i, DiscRandom random) {
             if (random.uniform() < kept) return;
-            Disc& disc = at.discs[i];
+            DiscState& disc = at.discs[i];
             const SizeAndMass& body = at.species.of(disc.id);
             const double speed = thermal_speed(body);
             const NormalPair n = random_normals(random);
@@ -140,7 +135,7 @@ public:
         const double kept = drag_slowing(setting_.rate, interval_);
         const double noise = std::sqrt((1 - kept) * (1 + kept));
         for_each(at, [&](std::size_t i, DiscRandom random) {
-            Disc& disc = at.discs[i];
+            DiscState& disc = at.discs[i];
             const SizeAndMass& body = at.species.of(disc.id);
             const double speed = noise * thermal_speed(body);
             const NormalPair n = random_normals(random);
@@ -160,7 +155,7 @@ public:
     void act(const SyncDiscs& at) const override {
         double largest = 0; // the largest velocity, surfaces of rough discs included
         for (std::size_t i = 0; i < at.discs.size(); ++i) {
-            const Disc& disc = at.discs[i];
+            const DiscState& disc = at.discs[i];
             largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
             if (!at.spins.empty())
                 largest = std::max(largest, at.species.of(disc.id).radius * std::fabs(at.spins[i]));
@@ -183,7 +178,7 @@ public:
                      mean_y = sums[1].value() / sums[2].value(), n = sums[3].value();
         std::vector<ExactSum> energy(1, ExactSum(16 * mass_bound * largest * largest));
         at.add_up(energy, [&](std::size_t i, std::vector<ExactSum>& parts) {
-            const Disc& disc = at.discs[i];
+            const DiscState& disc = at.discs[i];
             const SizeAndMass& body = at.species.of(disc.id);
             const double wx = disc.vx - mean_x, wy = disc.vy - mean_y;
             const double turning = at.spins.empty() ? 0 : body.radius * at.spins[i];
@@ -196,7 +191,7 @@ public:
         const double factor = std::sqrt(wanted / now);
         at.in_parts([&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                Disc& disc = at.discs[i];
+                DiscState& disc = at.discs[i];
                 if (disc.has_departed()) continue;
                 disc.vx = mean_x + factor * (disc.vx - mean_x);
                 disc.vy = mean_y + factor * (disc.vy - mean_y);
@@ -210,7 +205,7 @@ using Kinds = std::initializer_list<ThermostatKind>;
 
 Need kinds(std::string text, Kinds kinds) {
     return {"without effects.thermostat.kind = " + std::move(text),
-            [all = std::vector(kinds)](const Scene& s) {
+            [all = std::vector(kinds)](const SceneParameters& s) {
                 return std::find(all.begin(), all.end(), s.effects.thermostat.kind) != all.end();
             }};
 }
@@ -280,13 +275,15 @@ std::vector<Rule> rules_of_thermostat() {
              "both slow discs down; kind = \"langevin\" has a friction of its own",
              {"effects.thermostat.kind"},
              {},
-             [](const Scene& s) { return s.effects.thermostat.is_any() && s.effects.drag != 0; }}};
+             [](const SceneParameters& s) {
+                 return s.effects.thermostat.is_any() && s.effects.drag != 0;
+             }}};
 }
 
 /// A sync that follows long after another one would leave nothing of the velocities.
 void check_times_of_thermostat(const SceneDraft& draft) {
     constexpr double longest = 4;
-    const Scene& scene = draft.scene;
+    const SceneParameters& scene = draft.scene;
     const double interval = static_cast<double>(scene.sync_every) /
                             static_cast<double>(scene.micro_steps);
     const double rate = scene.effects.thermostat.rate;
@@ -298,7 +295,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
 }
 
 /// The kT that a thermostat brings a gas to; that of kicks if discs are thin and lose energy.
-double temperature_in_the_end(const Scene& scene) {
+double temperature_in_the_end(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     if (t.has_temperature()) return t.temperature;
     const double e = scene.effects.contact.restitution,
@@ -309,7 +306,7 @@ double temperature_in_the_end(const Scene& scene) {
 
 /// A flow, or discs that lose energy, must not come far from their temperature between two acts.
 void warn_of_rare_acts(const SceneDraft& draft) {
-    Scene& scene = draft.scene;
+    SceneParameters& scene = draft.scene;
     if (!scene.effects.thermostat.is_any() || scene.steps == 0) return;
     const double interval = steps_between_syncs(scene);
     if (interval > static_cast<double>(scene.steps)) {
@@ -361,12 +358,12 @@ std::string summary_of_thermostat(const Effects& effects) {
 
 /// Where noise heats discs that were at rest, they get as fast as it makes them in a flight of a
 /// radius.
-double usual_speed_of_thermostat(const Scene& scene) {
+double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));
 }
 
-std::unique_ptr<SyncEffect> thermostat_at_syncs(const Scene& scene) {
+std::unique_ptr<SyncEffect> thermostat_at_syncs(const SceneParameters& scene) {
     switch (scene.effects.thermostat.kind) {
     case ThermostatKind::none: break;
     case ThermostatKind::kicks: return std::make_unique<Kicks>(scene);

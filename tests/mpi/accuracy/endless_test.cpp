@@ -17,8 +17,8 @@ namespace {
 constexpr double room = 0x1p-20;
 constexpr std::uint64_t n_bounces = 1 << 20;
 
-Scene narrow_room() {
-    Scene scene = read_scene(
+SceneParameters narrow_room() {
+    SceneParameters scene = read_scene(
         "[box]\nsize = 3\n[discs]\nradius = 1\nlist = [[1, 1, 1, 0]]\n[time]\nsteps = 1\n",
         "narrow.toml");
     scene.box = 2 + room;
@@ -27,11 +27,11 @@ Scene narrow_room() {
 
 /// What ends the run; empty if nothing does.
 std::string end_of(const RunSetting& setting, const Communicator& world, Totals& totals) {
-    const Scene scene = with_setting(narrow_room(), setting);
+    const SceneParameters scene = with_setting(narrow_room(), setting);
     try {
-        Simulation simulation(scene, scene.listed_discs, world, {});
-        advance_to(simulation, 1);
-        totals = simulation.totals();
+        DiscSystem system(scene, scene.listed_discs, world, {});
+        advance_to(system, 1);
+        totals = system.totals();
     } catch (const CollectiveError& error) {
         CHECK(error.code() == ExitCode::collective_failure);
         return error.what();

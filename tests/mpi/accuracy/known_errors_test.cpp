@@ -21,8 +21,8 @@ constexpr double table_error = 0.012;
 
 /// 256 discs of diameter 1 that collide with others once in four steps; `frequency` is that of kT =
 /// 1 in this box.
-Scene known_gas(double packing, double frequency, std::uint64_t seed) {
-    Scene scene;
+SceneParameters known_gas(double packing, double frequency, std::uint64_t seed) {
+    SceneParameters scene;
     scene.name = "known gas";
     scene.n_discs = 256;
     scene.radius = 0.5;
@@ -56,7 +56,8 @@ Loss measure(double packing, double frequency, const RunSetting& setting,
         exact; ///< by packing and start
     std::vector<double> rates, overlaps;
     for (int start = 0; start < n_starts; ++start) {
-        const Scene scene = known_gas(packing, frequency, 100 + static_cast<std::uint64_t>(start));
+        const SceneParameters scene = known_gas(packing, frequency,
+                                                100 + static_cast<std::uint64_t>(start));
         TrialLength length;
         length.steps = 1200; // some 300 collisions a disc
         auto& [begin, rate] = exact[{packing, start}];
@@ -180,7 +181,7 @@ TEST_CASE("Under the event-driven method no precision and no formula changes the
 TEST_CASE("Single precision rounds every state, keeps energy to its own rounding, and says so in "
           "the bits") {
     const Communicator world = Communicator::world();
-    const Scene scene = known_gas(0.3, 2.4595, 7);
+    const SceneParameters scene = known_gas(0.3, 2.4595, 7);
     const TrialStart start = bring_to_equilibrium(scene, initial_state(scene, nullptr, world), 5,
                                                   world, {});
     const TrialLength length{200, 200, 1};
@@ -207,12 +208,12 @@ TEST_CASE("Micro-steps by a power of two are exact scaling: the same bits as vel
                                     {Method::time_stepped, 8},
                                     {Method::time_stepped, 64},
                                     {Method::event_driven, 8}}) {
-        Scene scene = known_gas(0.3, 2.4595, 11);
+        SceneParameters scene = known_gas(0.3, 2.4595, 11);
         scene.method = method;
         scene.steps = 40;
         scene.micro_steps = k;
         std::vector<InputDisc> discs = initial_state(scene, nullptr, world);
-        Simulation scaled(scene, discs, world, {});
+        DiscSystem scaled(scene, discs, world, {});
         while (scaled.step() < 40) scaled.advance_towards(40);
         for (InputDisc& disc : discs) {
             disc.vx /= static_cast<double>(k);
@@ -220,7 +221,7 @@ TEST_CASE("Micro-steps by a power of two are exact scaling: the same bits as vel
         }
         scene.micro_steps = 1;
         scene.steps = 40 * k;
-        Simulation by_hand(scene, discs, world, {});
+        DiscSystem by_hand(scene, discs, world, {});
         while (by_hand.step() < scene.steps) by_hand.advance_towards(scene.steps);
         CHECK(scaled.totals().pair_collisions > 100);
         CHECK(scaled.totals().hash == by_hand.totals().hash);

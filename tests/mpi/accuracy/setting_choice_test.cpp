@@ -14,13 +14,13 @@ using namespace carrom;
 
 namespace {
 
-Scene unknown_gas(const std::string& more) {
+SceneParameters unknown_gas(const std::string& more) {
     return read_scene("[box]\nsize = 50\n[time]\nsteps = 10\n[discs]\n" + more, "gas.toml");
 }
 
 /// The errors of a chosen setting, over several starts that the pilot has not seen.
-void check_delivery(Scene scene, double accuracy, const Communicator& world, int n_starts = 3,
-                    double pairs = 1e5) {
+void check_delivery(SceneParameters scene, double accuracy, const Communicator& world,
+                    int n_starts = 3, double pairs = 1e5) {
     scene.accuracy = accuracy;
     choose_setting(scene, initial_state(scene, nullptr, world), Messages(), world, {});
     CHECK_FALSE(scene.accuracy);
@@ -29,7 +29,7 @@ void check_delivery(Scene scene, double accuracy, const Communicator& world, int
             setting.method == Method::event_driven);
     double frequency = 0, pressure = 0, error = 0;
     for (int start = 0; start < n_starts; ++start) {
-        Scene other = scene;
+        SceneParameters other = scene;
         other.seed = 900 + static_cast<std::uint64_t>(start);
         const TrialStart begin = bring_to_equilibrium(other, initial_state(other, nullptr, world),
                                                       10, world, {});
@@ -74,25 +74,26 @@ TEST_CASE("An accuracy is delivered where errors are small at first and grow for
 TEST_CASE("What no pilot can see is left to the event-driven method, and the choice is written "
           "over the question") {
     const Communicator world = Communicator::world();
-    Scene scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
+    SceneParameters scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
     scene.overrides = {"time.accuracy=1e-6", "time.steps=9"};
     scene.accuracy = 1e-6;
     choose_setting(scene, initial_state(scene, nullptr, world), Messages(), world, {});
     CHECK(scene.method == Method::event_driven);
     CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.method=event-driven",
                                                       "time.micro_steps=1"});
-    const Scene again = read_scene({"gas.toml",
-                                    "[box]\nsize = 50\n[discs]\ncount = 300\npacking = "
-                                    "0.1\n[time]\nsteps = 1\naccuracy = 0.1\n",
-                                    0, false},
-                                   scene.overrides);
+    const SceneParameters again = read_scene({"gas.toml",
+                                              "[box]\nsize = 50\n[discs]\ncount = 300\npacking = "
+                                              "0.1\n[time]\nsteps = 1\naccuracy = 0.1\n",
+                                              0, false},
+                                             scene.overrides);
     CHECK((again.method == Method::event_driven && !again.accuracy && again.steps == 9));
 }
 
 TEST_CASE("Discs that never meet have no error to choose by") {
     const Communicator world = Communicator::world();
-    Scene scene = read_scene("[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, "
-                             "0, 1]]\n[time]\nsteps = 5\naccuracy = 0.1\n",
-                             "two.toml");
+    SceneParameters scene = read_scene(
+        "[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, "
+        "0, 1]]\n[time]\nsteps = 5\naccuracy = 0.1\n",
+        "two.toml");
     CHECK_THROWS_AS(choose_setting(scene, scene.listed_discs, Messages(), world, {}), InputError);
 }

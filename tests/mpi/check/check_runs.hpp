@@ -18,7 +18,7 @@
 #include "scene_tools.hpp"
 #include "scenes.hpp"
 #include "shape_parts.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 #include "time_stepped.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
 
@@ -26,22 +26,22 @@ namespace carrom::test {
 
 inline constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-inline std::vector<Disc> share_of(const TestScene& scene, const Communicator& world) {
-    std::vector<Disc> mine;
-    for (const Disc& disc : reference::stored_states(scene.setting, scene.discs)) {
+inline std::vector<DiscState> share_of(const TestScene& scene, const Communicator& world) {
+    std::vector<DiscState> mine;
+    for (const DiscState& disc : reference::stored_states(scene.setting, scene.discs)) {
         if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
             mine.push_back(disc);
     }
     return mine;
 }
 
-inline Scene checked_scene(const TestScene& test_scene, Method method) {
-    Scene scene = scene_of(test_scene);
+inline SceneParameters checked_scene(const TestScene& test_scene, Method method) {
+    SceneParameters scene = scene_of(test_scene);
     scene.method = method;
     return scene;
 }
 
-inline std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state,
+inline std::unique_ptr<Engine> engine_of(const SceneParameters& scene, StoredState state,
                                          const Communicator& world) {
     if (scene.method == Method::event_driven)
         return make_event_driven_engine(scene, std::move(state), world, {});
@@ -52,20 +52,20 @@ inline std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state,
 /// refuses the scene.
 inline std::string failure_of(const TestScene& test_scene, Method method,
                               const Communicator& world) {
-    Scene scene = checked_scene(test_scene, method);
+    SceneParameters scene = checked_scene(test_scene, method);
     try {
         std::vector<InputDisc> mine;
         for (const InputDisc& disc : test_scene.discs) {
             if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
                 mine.push_back(disc);
         }
-        Simulation simulation(scene, std::move(mine), world, {});
-        simulation.check_every_step(scene);
+        DiscSystem system(scene, std::move(mine), world, {});
+        system.check_every_step(scene);
         const std::int64_t last = std::min<std::int64_t>(test_scene.steps,
                                                          method == Method::event_driven ? 4
                                                          : world.size() == 1            ? 70
                                                                                         : 6);
-        while (simulation.step() < last) simulation.advance_towards(last);
+        while (system.step() < last) system.advance_towards(last);
     } catch (const CheckFailure& failure) {
         return failure.what();
     } catch (const InputError&) { // overlaps, in the event-driven method
@@ -150,14 +150,14 @@ public:
     }
 
     /// This rank's own disc of that id, or null.
-    Disc* own(DiscId id) {
+    DiscState* own(DiscId id) {
         for (std::size_t i = 0; i < local_view.n_own; ++i) {
             if (local_view.discs[i].id == id) return &local_view.discs[i];
         }
         return nullptr;
     }
     void sort_into_cells() { local_view.sort_into_cells(scene_.box.x, scene_.radius); }
-    const Scene& scene() const { return scene_; }
+    const SceneParameters& scene() const { return scene_; }
     const Communicator& world() const { return world_; }
 
     /// The first collision of a pair on any rank, the same on all.
@@ -205,7 +205,7 @@ public:
 private:
     Communicator world_;
     TestScene test_scene_;
-    Scene scene_;
+    SceneParameters scene_;
     std::unique_ptr<Engine> engine_;
     StateCheck check_;
 };

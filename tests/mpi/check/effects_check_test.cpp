@@ -19,16 +19,16 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
             scene.steps = 60;
             scene.setting.sync_every = 7;
             scene.setting.micro_steps = 2;
-            Scene checked = checked_scene(scene, method);
+            SceneParameters checked = checked_scene(scene, method);
             std::vector<InputDisc> mine;
             for (const InputDisc& disc : scene.discs)
                 if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
                     mine.push_back(disc);
-            Simulation simulation(checked, std::move(mine), world, {});
-            simulation.check_every_step(checked);
+            DiscSystem system(checked, std::move(mine), world, {});
+            system.check_every_step(checked);
             INFO(named.name << (method == Method::time_stepped ? ", one" : ", all"));
             CHECK_NOTHROW([&] {
-                while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+                while (system.step() < scene.steps) system.advance_towards(scene.steps);
             }());
         }
     }
@@ -51,7 +51,7 @@ std::optional<Invariant> found_in(const Effects& effects,
 TEST_CASE("check: with effects, what is wrong is found all the same") {
     const auto faster = [](DiscId id, double factor) {
         return [=](OneStep& step) {
-            Disc* const disc = step.own(id);
+            DiscState* const disc = step.own(id);
             if (!disc) return;
             disc->x += disc->vx * (1 - factor) * (step.local_view.time - disc->tau); // where it was
             disc->vx *= factor;
@@ -74,7 +74,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
         CHECK(found_in(named.effects, collided_disc_faster(3)) == Invariant::energy);
     }
     const auto turns_faster = [](OneStep& step, DiscId id) {
-        if (const Disc* const disc = step.own(id))
+        if (const DiscState* const disc = step.own(id))
             step.spins[static_cast<std::size_t>(disc - step.local_view.discs.data())] += 0.2;
     };
     for (const NamedEffects& named : all_effects()) {
@@ -91,7 +91,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
     Effects piston;
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
     CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
-              if (Disc* const disc = step.own(7))
+              if (DiscState* const disc = step.own(7))
                   disc->x += step.scene().box.x - step.scene().radius - 0.2 -
                              disc->x_at(step.local_view.time);
           }) == Invariant::in_box);
@@ -105,7 +105,7 @@ TEST_CASE("check: a disc beyond an oscillating wall is found where the wall is")
     shaken.boundaries[1] = {BoundaryKind::oscillating, 1, 0, 0, 0.5, 8, std::numbers::pi};
     const auto beside_wall = [](double gap) {
         return [=](OneStep& step) {
-            if (Disc* const disc = step.own(7))
+            if (DiscState* const disc = step.own(7))
                 disc->x += step.scene().box.x - step.scene().radius - gap -
                            disc->x_at(step.local_view.time);
         };

@@ -5,7 +5,7 @@ namespace carrom::test {
 
 void LocalDiscs::sort_into_cells(double box_size, double radius) {
     const double reach = 2 * radius * (1 + 1e-6);
-    const std::span<Disc> all(discs);
+    const std::span<DiscState> all(discs);
     grid.sort(all.first(n_own),
               make_geometry({0, box_size, 0, box_size}, Axis::x, reach, discs.size(), 0), time,
               time, 1, 1);
@@ -13,7 +13,7 @@ void LocalDiscs::sort_into_cells(double box_size, double radius) {
 }
 
 LocalDiscs copy_of(const LocalView& local_view) {
-    const std::span<const Disc> discs = local_view.population.discs;
+    const std::span<const DiscState> discs = local_view.population.discs;
     return {{discs.begin(), discs.end()},
             local_view.population.n_own,
             *local_view.grid,
@@ -22,13 +22,13 @@ LocalDiscs copy_of(const LocalView& local_view) {
             local_view.frame};
 }
 
-LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius,
-                        int rank, int n_ranks) {
+LocalDiscs view_by_hand(const std::vector<DiscState>& discs, double time, double box_size,
+                        double radius, int rank, int n_ranks) {
     std::vector<double> cuts;
     for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
     LocalDiscs local_view{{}, 0, {}, Strips(cuts), time, {}};
-    std::vector<Disc> halo;
-    for (const Disc& disc : discs)
+    std::vector<DiscState> halo;
+    for (const DiscState& disc : discs)
         (local_view.strips.owner(disc.x_at(time)) == rank ? local_view.discs : halo)
             .push_back(disc);
     local_view.n_own = local_view.discs.size();

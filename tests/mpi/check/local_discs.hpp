@@ -11,7 +11,7 @@
 namespace carrom::test {
 
 struct LocalDiscs {
-    std::vector<Disc> discs; ///< own ones first
+    std::vector<DiscState> discs; ///< own ones first
     std::size_t n_own = 0;
     CellGrid grid;
     Strips strips;
@@ -28,7 +28,7 @@ struct LocalDiscs {
 LocalDiscs copy_of(const LocalView& local_view);
 
 /// All of the few `discs`, those in this rank's equal strip as its own, the others as its halo.
-LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius,
-                        int rank, int n_ranks);
+LocalDiscs view_by_hand(const std::vector<DiscState>& discs, double time, double box_size,
+                        double radius, int rank, int n_ranks);
 
 } // namespace carrom::test

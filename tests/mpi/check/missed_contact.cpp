@@ -20,10 +20,10 @@ namespace {
 
 /// Thirty discs in rows, still but for disc 5, which reaches disc 9 half-way through the second
 /// step.
-std::vector<Disc> thirty_discs() {
-    std::vector<Disc> discs;
+std::vector<DiscState> thirty_discs() {
+    std::vector<DiscState> discs;
     for (DiscId id = 0; id < 30; ++id) {
-        Disc& disc = discs.emplace_back();
+        DiscState& disc = discs.emplace_back();
         disc.id = id;
         disc.x = 5 + 10 * static_cast<double>(id % 6);
         disc.y = 5 + 10 * static_cast<double>(id / 6);
@@ -39,7 +39,7 @@ std::vector<Disc> thirty_discs() {
 int main(int argc, char** argv) {
     const Mpi mpi(argc, argv);
     return run_on_all(Communicator::world(), [&](const Communicator& world) {
-        Scene scene;
+        SceneParameters scene;
         scene.name = "thirty discs";
         scene.box = 60;
         scene.radius = 1;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
             scene.effects.boundaries[3] = {BoundaryKind::thermal, 1, 2, 0};
             scene.effects.thermal_seed = 77;
         }
-        const std::vector<Disc> discs = thirty_discs();
+        const std::vector<DiscState> discs = thirty_discs();
         const auto at = [&](double time) {
             return view_by_hand(discs, time, scene.box.x, scene.radius, world.rank(), world.size());
         };

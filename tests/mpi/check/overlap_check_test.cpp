@@ -22,8 +22,8 @@ constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 /// rests or flies.
 struct Passing {
     Communicator world = Communicator::world();
-    Scene scene;
-    std::vector<Disc> discs{2};
+    SceneParameters scene;
+    std::vector<DiscState> discs{2};
     std::unique_ptr<StateCheck> check;
     std::int64_t step = 0;
 

@@ -16,7 +16,7 @@
 #include "check/check_failure.hpp"
 #include "check/state_check.hpp"
 #include "scene_tools.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
 
 using namespace carrom;
@@ -34,28 +34,28 @@ std::vector<InputDisc> share_of(const std::vector<InputDisc>& discs, const Commu
     return mine;
 }
 
-Scene scene_of(const TestScene& test, Method method) {
-    Scene scene = test::scene_of(test);
+SceneParameters scene_of(const TestScene& test, Method method) {
+    SceneParameters scene = test::scene_of(test);
     scene.method = method;
     return scene;
 }
 
 StateHash hash_after(const TestScene& test, Method method, bool is_checked,
                      const Communicator& world) {
-    const Scene scene = scene_of(test, method);
-    Simulation simulation(scene, share_of(test.discs, world), world, {});
-    if (is_checked) simulation.check_every_step(scene);
-    while (simulation.step() < test.steps) simulation.advance_towards(test.steps);
-    return simulation.totals().hash;
+    const SceneParameters scene = scene_of(test, method);
+    DiscSystem system(scene, share_of(test.discs, world), world, {});
+    if (is_checked) system.check_every_step(scene);
+    while (system.step() < test.steps) system.advance_towards(test.steps);
+    return system.totals().hash;
 }
 
 /// What the check finds as discs that have flown on for a micro-step meet nobody, whatever is
 /// there.
 std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
-    const Scene scene = scene_of(test, Method::time_stepped);
-    std::vector<Disc> before, now;
+    const SceneParameters scene = scene_of(test, Method::time_stepped);
+    std::vector<DiscState> before, now;
     for (const InputDisc& input : share_of(test.discs, world)) {
-        Disc& disc = before.emplace_back();
+        DiscState& disc = before.emplace_back();
         disc.id = input.id;
         disc.x = input.x, disc.y = input.y, disc.vx = input.vx;
         now.push_back(disc);

@@ -28,7 +28,7 @@ TestScene sheared_gas() {
 /// What the check finds in 30 steps if the engine's work of images is multiplied by that.
 std::string failure_with(const TestScene& test, Method method, double factor,
                          const Communicator& world) {
-    const Scene scene = checked_scene(test, method);
+    const SceneParameters scene = checked_scene(test, method);
     StoredState state;
     state.discs = share_of(test, world);
     if (test.setting.are_rough())

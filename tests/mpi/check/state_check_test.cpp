@@ -35,14 +35,14 @@ TEST_CASE("check: nothing is wrong in a step that is not spoilt") {
 
 TEST_CASE("check: a number that is not finite") {
     expect(Invariant::finite, [](OneStep& step) {
-        if (Disc* const disc = step.own(7)) disc->y = std::numeric_limits<double>::quiet_NaN();
+        if (DiscState* const disc = step.own(7)) disc->y = std::numeric_limits<double>::quiet_NaN();
         return 7;
     });
 }
 
 TEST_CASE("check: a disc that nobody owns any more") {
     expect(Invariant::owned_once, [](OneStep& step) {
-        if (Disc* const disc = step.own(7)) {
+        if (DiscState* const disc = step.own(7)) {
             std::swap(*disc, step.local_view.discs[step.local_view.n_own - 1]);
             --step.local_view.n_own;
         }
@@ -67,7 +67,7 @@ TEST_CASE("check: a disc that does not exist") {
 TEST_CASE("check: a disc outside the box, by little") {
     expect(Invariant::in_box, [](OneStep& step) {
         const double size = step.scene().box.x;
-        if (Disc* const disc = step.own(7))
+        if (DiscState* const disc = step.own(7))
             disc->y += (size - step.scene().radius) * (1 + 1e-12) -
                        disc->y_at(step.local_view.time);
         return 7;
@@ -77,7 +77,7 @@ TEST_CASE("check: a disc outside the box, by little") {
 TEST_CASE("check: a disc in another rank's strip") {
     if (Communicator::world().size() == 1) return;
     expect(Invariant::in_strip, [](OneStep& step) {
-        if (Disc* const disc = step.own(7)) {
+        if (DiscState* const disc = step.own(7)) {
             const double from_left = step.scene().radius,
                          from_right = step.scene().box.x - step.scene().radius;
             const bool is_left = step.local_view.strips.owner(from_left) == step.world().rank();
@@ -89,7 +89,7 @@ TEST_CASE("check: a disc in another rank's strip") {
 
 TEST_CASE("check: a disc in another cell than it is filed under") {
     expect(Invariant::in_cell, [](OneStep& step) {
-        if (Disc* const disc = step.own(7)) {
+        if (DiscState* const disc = step.own(7)) {
             const double y = disc->y_at(step.local_view.time),
                          width = step.local_view.grid.geometry().cell_width;
             disc->y += y > step.scene().box.x / 2 ? -width : width;
@@ -130,7 +130,7 @@ TEST_CASE("check: a collision that is not in the log") {
 TEST_CASE("check: a velocity that has changed without a collision") {
     expect(Invariant::motion, [](OneStep& step) {
         const DiscId id = step.free_disc();
-        if (Disc* const disc = step.own(id)) disc->vx = std::nextafter(disc->vx, 10);
+        if (DiscState* const disc = step.own(id)) disc->vx = std::nextafter(disc->vx, 10);
         return id;
     });
 }

@@ -16,8 +16,8 @@ namespace {
 
 Averages averages_of(const TestScene& scene, Method method = Method::event_driven) {
     const Communicator world = Communicator::world();
-    Simulation simulation = simulation_of(scene, method, world);
-    Averaging averaging(scene, simulation, world);
+    DiscSystem system = system_of(scene, method, world);
+    Averaging averaging(scene, system, world);
     averaging.advance_to(scene.steps);
     return averaging.averages();
 }
@@ -45,9 +45,9 @@ TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Ma
     scene.setting.effects.gravity = {0, -0.01};
     scene.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, temperature, 0};
     const Communicator world = Communicator::world();
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 2000); // several flights
-    Averaging averaging(scene, simulation, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 2000); // several flights
+    Averaging averaging(scene, system, world);
     averaging.advance_to(4000);
     const Averages averages = averaging.averages();
     CHECK(averages.mean_speed.value ==
@@ -95,10 +95,10 @@ TEST_CASE("effects: the frequency of collisions is what is counted, whatever the
     scene.setting.effects.gravity = {0, -0.005};
     scene.setting.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.02};
     set_drag(scene, 0.005);
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    Averaging averaging(scene, simulation, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    Averaging averaging(scene, system, world);
     averaging.advance_to(scene.steps);
-    const Totals totals = simulation.totals();
+    const Totals totals = system.totals();
     CHECK(totals.pair_collisions > 300);
     CHECK(averaging.averages().collision_frequency.value ==
           Approx(2 * static_cast<double>(totals.pair_collisions) / (300.0 * 96)).epsilon(1e-12));

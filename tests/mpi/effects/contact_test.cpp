@@ -14,11 +14,12 @@ using namespace carrom::test;
 
 namespace {
 
-std::vector<Disc> gathered(std::span<const Disc> own, const Communicator& world) {
-    std::vector<Disc> all;
+std::vector<DiscState> gathered(std::span<const DiscState> own, const Communicator& world) {
+    std::vector<DiscState> all;
     stream_to_root(
         world, own,
-        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+        [&](std::span<const DiscState> some) { all.insert(all.end(), some.begin(), some.end()); },
+        1000);
     world.broadcast(all);
     return all;
 }
@@ -44,15 +45,15 @@ TEST_CASE("effects: a thin gas cools by Haff's law") {
     TestScene scene = gas(2500, 0.03, 0.1, 601);
     const double restitution = 0.95, loss = 1 - restitution * restitution;
     scene.setting.effects.contact = {ContactKind::restitution, restitution, 0.001};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 300); // some three collisions a disc: speeds were not Maxwell's
-    const Totals start = simulation.totals();
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 300); // some three collisions a disc: speeds were not Maxwell's
+    const Totals start = system.totals();
     std::vector<double> slownesses;
     for (std::int64_t step = 300; step <= 2700; step += 800) {
-        advance_to(simulation, step);
-        slownesses.push_back(1 / std::sqrt(simulation.totals().kinetic_energy));
+        advance_to(system, step);
+        slownesses.push_back(1 / std::sqrt(system.totals().kinetic_energy));
     }
-    const Totals end = simulation.totals();
+    const Totals end = system.totals();
     const double n = static_cast<double>(scene.discs.size());
     const double pairs = static_cast<double>(end.pair_collisions - start.pair_collisions);
     const double cooling = std::log(start.kinetic_energy / end.kinetic_energy);
@@ -73,15 +74,15 @@ TEST_CASE("effects: inelastic collapse comes to an end, and energy only falls") 
     for (const std::size_t n : {3u, 30u}) {
         TestScene scene = cradle(n, 0.5, 0.25, 1);
         scene.setting.effects.contact = {ContactKind::restitution, 0.05, 0.001};
-        Simulation simulation = simulation_of(scene, Method::event_driven, world);
-        double before = simulation.totals().kinetic_energy;
+        DiscSystem system = system_of(scene, Method::event_driven, world);
+        double before = system.totals().kinetic_energy;
         for (std::int64_t step = 10; step <= 100; step += 10) {
-            advance_to(simulation, step);
-            const double now = simulation.totals().kinetic_energy;
+            advance_to(system, step);
+            const double now = system.totals().kinetic_energy;
             CHECK(now <= before * (1 + 1e-12));
             before = now;
         }
-        CHECK(simulation.totals().overlapping_pairs == 0);
+        CHECK(system.totals().overlapping_pairs == 0);
     }
 }
 
@@ -90,20 +91,20 @@ TEST_CASE("effects: discs that do not meet fly as if each were alone") {
     TestScene scene = gas(400, 0.3, 2, 602);
     scene.steps = 100;
     scene.setting.effects.contact.kind = ContactKind::none;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, scene.steps);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, scene.steps);
     const double r = scene.setting.radius;
     const long double length = static_cast<long double>(scene.setting.box_size) - 2 * r;
     std::vector<InputDisc> start(scene.discs.size());
     for (const InputDisc& disc : scene.discs) start[disc.id] = disc;
     double farthest = 0;
-    for (const Disc& disc : gathered(simulation.discs(), world)) {
+    for (const DiscState& disc : gathered(system.discs(), world)) {
         const InputDisc& first = start[disc.id];
         const auto [x, x_sign] = reflected(first.x - r, 100.0L * first.vx, length);
         const auto [y, y_sign] = reflected(first.y - r, 100.0L * first.vy, length);
-        farthest = std::max(
-            {farthest, std::fabs(static_cast<double>(disc.x_at(simulation.clock()) - r - x)),
-             std::fabs(static_cast<double>(disc.y_at(simulation.clock()) - r - y))});
+        farthest = std::max({farthest,
+                             std::fabs(static_cast<double>(disc.x_at(system.clock()) - r - x)),
+                             std::fabs(static_cast<double>(disc.y_at(system.clock()) - r - y))});
         CHECK(disc.vx == x_sign * first.vx);
         CHECK(disc.vy == y_sign * first.vy);
         CHECK(disc.pair_collisions == 0);

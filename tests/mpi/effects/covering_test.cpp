@@ -305,15 +305,15 @@ StateHash reference_hash(const Plan& plan, const Communicator& world) {
 }
 
 StateHash engine_hash(const Plan& plan, const Communicator& world) {
-    Simulation first = simulation_of(plan.scene, plan.method, world, plan.tuning);
+    DiscSystem first = system_of(plan.scene, plan.method, world, plan.tuning);
     advance_to(first, plan.is_restarted ? plan.scene.steps / 2 : plan.scene.steps);
     if (!plan.is_restarted) return first.totals().hash;
-    Scene scene = scene_of(plan.scene);
+    SceneParameters scene = scene_of(plan.scene);
     scene.method = plan.method;
     const StoredState state{{first.discs().begin(), first.discs().end()},
                             first.micro_steps_done(),
                             SideColumns(first.side_columns())};
-    Simulation second(scene, state, world, plan.tuning);
+    DiscSystem second(scene, state, world, plan.tuning);
     advance_to(second, plan.scene.steps);
     return second.totals().hash;
 }

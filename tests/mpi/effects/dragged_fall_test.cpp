@@ -47,11 +47,12 @@ Long time_down(Long depth, Long speed, Long late) {
 }
 
 /// The disc as the box sees it; one rank has it. **Collective.**
-Disc only_disc(const Simulation& simulation, const Communicator& world) {
-    std::vector<Disc> all;
+DiscState only_disc(const DiscSystem& system, const Communicator& world) {
+    std::vector<DiscState> all;
     stream_to_root(
-        world, simulation.shown(),
-        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 10);
+        world, system.shown(),
+        [&](std::span<const DiscState> some) { all.insert(all.end(), some.begin(), some.end()); },
+        10);
     world.broadcast(all);
     return all.at(0);
 }
@@ -60,10 +61,10 @@ Disc only_disc(const Simulation& simulation, const Communicator& world) {
 
 TEST_CASE("effects: a ball falls through the air as the formula says, and no faster than g / c") {
     const Communicator world = Communicator::world();
-    Simulation simulation = simulation_of(ball(120, 1), Method::event_driven, world);
+    DiscSystem system = system_of(ball(120, 1), Method::event_driven, world);
     for (const std::int64_t step : {20, 50, 123, 400, 600}) { // between syncs, too
-        advance_to(simulation, step);
-        const Disc disc = only_disc(simulation, world);
+        advance_to(system, step);
+        const DiscState disc = only_disc(system, world);
         const auto time = static_cast<Long>(step);
         CHECK(disc.y == Approx(static_cast<double>(121 + height_after(time, 0))).epsilon(1e-13));
         CHECK(disc.vy == Approx(static_cast<double>(speed_after(time, 0))).epsilon(1e-13));
@@ -79,10 +80,10 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
     for (const double restitution : {1.0, 0.8}) {
         TestScene scene = ball(50, restitution);
         scene.setting.effects.contact.contact_time = 0.02; // it comes to rest, and bounces on
-        Simulation simulation = simulation_of(scene, Method::event_driven, world);
+        DiscSystem system = system_of(scene, Method::event_driven, world);
         std::vector<Collision> log, all;
-        simulation.log_to(&log);
-        advance_to(simulation, 700);
+        system.log_to(&log);
+        advance_to(system, 700);
         stream_to_root(
             world, std::span<const Collision>(log),
             [&](std::span<const Collision> some) {
@@ -121,14 +122,14 @@ TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever l
     CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g);
 
     scene = ball(47, 0.8); // 50 would come down at a sync, which counts as a touch
-    Simulation thin = [&] {
+    DiscSystem thin = [&] {
         set_drag(scene, 1e-13);
-        return simulation_of(scene, Method::event_driven, world);
+        return system_of(scene, Method::event_driven, world);
     }();
     scene.setting.effects.drag = 0;
-    Simulation none = simulation_of(scene, Method::event_driven, world);
-    for (Simulation* simulation : {&thin, &none}) advance_to(*simulation, 700);
-    const Disc in_thin = only_disc(thin, world), in_none = only_disc(none, world);
+    DiscSystem none = system_of(scene, Method::event_driven, world);
+    for (DiscSystem* system : {&thin, &none}) advance_to(*system, 700);
+    const DiscState in_thin = only_disc(thin, world), in_none = only_disc(none, world);
     CHECK(in_thin.wall_collisions == in_none.wall_collisions);
     CHECK(in_none.wall_collisions > 5);
     CHECK(in_thin.y == Approx(in_none.y).margin(1e-8));
@@ -141,17 +142,17 @@ TEST_CASE("effects: a gas in the air loses energy at the rate of twice that of i
     scene.setting.effects.gravity = {0.004, -0.01};
     scene.setting.sync_every = 16;
     set_drag(scene, 0.01);
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const Totals start = simulation.totals();
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const Totals start = system.totals();
     // d(K + U)/dt = -2 c K, by Simpson's rule: K is smooth in elastic collisions.
     double integral = 0;
     constexpr int last = 40;
     for (int step = 0; step <= last; ++step) {
-        advance_to(simulation, step);
+        advance_to(system, step);
         const double weight = step == 0 || step == last ? 1.0 : step % 2 == 1 ? 4.0 : 2.0;
-        integral += weight / 3 * simulation.totals().kinetic_energy;
+        integral += weight / 3 * system.totals().kinetic_energy;
     }
-    const Totals end = simulation.totals();
+    const Totals end = system.totals();
     const double lost = (start.kinetic_energy + start.potential_energy) -
                         (end.kinetic_energy + end.potential_energy);
     CHECK(lost == Approx(2 * 0.01 * integral).epsilon(1e-4));
@@ -166,9 +167,9 @@ TEST_CASE("effects: what a wall pushes through the air goes with it") {
     scene.setting.effects.boundaries[0] = {BoundaryKind::moving, 0.5, 0, 0.05};
     scene.setting.effects.contact.contact_time = 0.05;
     set_drag(scene, rate);
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 1000);
-    const Disc disc = only_disc(simulation, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 1000);
+    const DiscState disc = only_disc(system, world);
     CHECK(disc.x - 1 == Approx(0.05 * 1000).margin(1e-6)); // it hops by c u t^2 / 8
     CHECK(disc.vx == Approx(0.05).margin(1e-4));
     CHECK(disc.wall_collisions > 1000);

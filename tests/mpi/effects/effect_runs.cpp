@@ -20,9 +20,9 @@ std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& worl
 
 } // namespace
 
-Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world,
-                         const Tuning& tuning) {
-    Scene all = scene_of(scene);
+DiscSystem system_of(const TestScene& scene, Method method, const Communicator& world,
+                     const Tuning& tuning) {
+    SceneParameters all = scene_of(scene);
     all.method = method;
     Tuning threaded = tuning;
     threaded.threads = omp_get_max_threads();
@@ -31,11 +31,11 @@ Simulation simulation_of(const TestScene& scene, Method method, const Communicat
 }
 
 Totals run_with_restart(const TestScene& scene, Method method, const Communicator& world) {
-    Simulation first = simulation_of(scene, method, world);
+    DiscSystem first = system_of(scene, method, world);
     advance_to(first, scene.steps / 2);
-    Scene again = scene_of(scene);
+    SceneParameters again = scene_of(scene);
     again.method = method;
-    Simulation second(again,
+    DiscSystem second(again,
                       {{first.discs().begin(), first.discs().end()},
                        first.micro_steps_done(),
                        SideColumns(first.side_columns())},
@@ -45,10 +45,10 @@ Totals run_with_restart(const TestScene& scene, Method method, const Communicato
 }
 
 void check_shared_run(const TestScene& scene, Method method, const Communicator& world) {
-    Scene whole = scene_of(scene);
+    SceneParameters whole = scene_of(scene);
     whole.method = method;
-    Simulation shared = simulation_of(scene, method, world);
-    Simulation single(whole, scene.discs, Communicator::of_this_rank(), Tuning{});
+    DiscSystem shared = system_of(scene, method, world);
+    DiscSystem single(whole, scene.discs, Communicator::of_this_rank(), Tuning{});
     shared.check_every_step(whole);
     CHECK_NOTHROW(advance_to(shared, scene.steps));
     advance_to(single, scene.steps);
@@ -77,9 +77,9 @@ void set_drag(TestScene& scene, double rate) {
 }
 
 Totals run(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning) {
-    Simulation simulation = simulation_of(scene, method, world, tuning);
-    advance_to(simulation, scene.steps);
-    return simulation.totals();
+    DiscSystem system = system_of(scene, method, world, tuning);
+    advance_to(system, scene.steps);
+    return system.totals();
 }
 
 } // namespace carrom::test

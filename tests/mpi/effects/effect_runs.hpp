@@ -4,13 +4,13 @@
 
 #include "scene_tools.hpp"
 #include "simulation/advance.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom::test {
 
 /// The scene's discs are dealt to the ranks at random. **Collective.**
-Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world,
-                         const Tuning& tuning = {});
+DiscSystem system_of(const TestScene& scene, Method method, const Communicator& world,
+                     const Tuning& tuning = {});
 
 /// To the scene's last step. **Collective.**
 Totals run(const TestScene& scene, Method method, const Communicator& world,

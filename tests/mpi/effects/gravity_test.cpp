@@ -28,10 +28,10 @@ TestScene ball(double height, double restitution) {
 
 /// Times of all collisions with walls, ascending. **Collective.**
 std::vector<double> wall_times(TestScene scene, std::int64_t steps, const Communicator& world) {
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
     std::vector<Collision> log, all;
-    simulation.log_to(&log);
-    advance_to(simulation, steps);
+    system.log_to(&log);
+    advance_to(system, steps);
     stream_to_root(
         world, std::span<const Collision>(log),
         [&](std::span<const Collision> some) { all.insert(all.end(), some.begin(), some.end()); },
@@ -92,16 +92,16 @@ TEST_CASE("effects: a gas that falls keeps its energy") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(400, 0.2, 0.5, 603);
     scene.setting.effects.gravity = {0.004, -0.01};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const Totals start = simulation.totals();
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const Totals start = system.totals();
     for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
-        advance_to(simulation, step);
-        const Totals now = simulation.totals();
+        advance_to(system, step);
+        const Totals now = system.totals();
         CHECK(now.kinetic_energy + now.potential_energy ==
               Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
         CHECK(now.overlapping_pairs == 0);
     }
-    CHECK(simulation.totals().pair_collisions > 400);
+    CHECK(system.totals().pair_collisions > 400);
 }
 
 // Over a floor of temperature T an ideal gas has the density exp(-g y / T), whatever the disc's
@@ -114,10 +114,10 @@ TEST_CASE("effects: the barometric formula over a thermal floor") {
     effects.contact.kind = ContactKind::none;
     effects.gravity = {0, -g};
     effects.boundaries[2] = {BoundaryKind::thermal, 1, temperature, 0};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 3001); // twenty flights; the box is some 28 times T / g high
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 3001); // twenty flights; the box is some 28 times T / g high
     std::vector<double> heights, all;
-    for (const Disc& disc : simulation.shown()) heights.push_back(disc.y - scene.setting.radius);
+    for (const DiscState& disc : system.shown()) heights.push_back(disc.y - scene.setting.radius);
     stream_to_root(
         world, std::span<const double>(heights),
         [&](std::span<const double> some) { all.insert(all.end(), some.begin(), some.end()); },
@@ -157,22 +157,22 @@ TEST_CASE(
     TestScene scene = gas(300, 0.3, 0.5, 605);
     const double rate = 0.01;
     scene.setting.effects.drag = rate;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const double start = simulation.totals().kinetic_energy;
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const double start = system.totals().kinetic_energy;
     for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
-        advance_to(simulation, step);
-        const Totals now = simulation.totals();
+        advance_to(system, step);
+        const Totals now = system.totals();
         CHECK(now.kinetic_energy ==
               Approx(start * std::exp(-2 * rate * static_cast<double>(step))).epsilon(1e-12));
         CHECK(now.overlapping_pairs == 0);
     }
-    CHECK(simulation.totals().pair_collisions > 100);
+    CHECK(system.totals().pair_collisions > 100);
 
     TestScene alone = empty_scene("one disc", 100, 1, 300);
     add_disc(alone, 5, 50, 0.5, 0);
     alone.setting.effects.drag = rate;
-    Simulation flight = simulation_of(alone, Method::event_driven, world);
+    DiscSystem flight = system_of(alone, Method::event_driven, world);
     advance_to(flight, 300);
-    for (const Disc& disc : flight.shown())
+    for (const DiscState& disc : flight.shown())
         CHECK(disc.x == Approx(5 + 0.5 * -std::expm1(-3.0) / rate).epsilon(1e-13));
 }

@@ -16,16 +16,16 @@ namespace {
 constexpr Boundary periodic_side{BoundaryKind::periodic, 1, 0, 0};
 
 /// Where a rank has the disc; NaN where no rank has it.
-Disc disc_of(const Simulation& simulation, DiscId id, const Communicator& world) {
+DiscState disc_of(const DiscSystem& system, DiscId id, const Communicator& world) {
     double numbers[] = {0, 0, 0, 0};
     std::uint64_t owner = 0;
-    for (const Disc& disc : simulation.shown()) {
+    for (const DiscState& disc : system.shown()) {
         if (disc.id != id) continue;
         owner = static_cast<std::uint64_t>(world.rank()) + 1;
-        numbers[0] = disc.x_at(simulation.clock());
-        numbers[1] = disc.y_at(simulation.clock());
-        numbers[2] = disc.vx * simulation.velocity_unit();
-        numbers[3] = disc.vy * simulation.velocity_unit();
+        numbers[0] = disc.x_at(system.clock());
+        numbers[1] = disc.y_at(system.clock());
+        numbers[2] = disc.vx * system.velocity_unit();
+        numbers[3] = disc.vy * system.velocity_unit();
     }
     owner = world.max(owner);
     REQUIRE(owner > 0);
@@ -43,17 +43,17 @@ TEST_CASE("growth: two discs at rest meet when they have grown, and part faster 
     scene.setting.sync_every = 7;
     add_disc(scene, 18, 20);
     add_disc(scene, 22, 20);
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 12);
-    const Disc p = disc_of(simulation, 0, world), q = disc_of(simulation, 1, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 12);
+    const DiscState p = disc_of(system, 0, world), q = disc_of(system, 1, world);
     // They met at -1/4 relative to their surfaces, so each one leaves at 1/4.
     CHECK(p.x == Approx(18 - 4 * 0.25).epsilon(1e-14));
     CHECK(q.x == Approx(22 + 4 * 0.25).epsilon(1e-14));
     CHECK(p.vx == Approx(-0.25).epsilon(1e-14));
     CHECK(q.vx == Approx(0.25).epsilon(1e-14));
     CHECK(p.vy == 0);
-    CHECK(simulation.totals().pair_collisions == 1);
-    CHECK(simulation.totals().kinetic_energy == Approx(0.0625).epsilon(1e-13));
+    CHECK(system.totals().pair_collisions == 1);
+    CHECK(system.totals().kinetic_energy == Approx(0.0625).epsilon(1e-13));
 }
 
 TEST_CASE("growth: discs of two masses that fly towards each other, and a disc at a wall") {
@@ -65,10 +65,10 @@ TEST_CASE("growth: discs of two masses that fly towards each other, and a disc a
     add_disc(scene, 20, 20, 0.5, 0.125); // distance 12, diameters 3 + 3t/4
     add_disc(scene, 32, 20, -1, 0.125);  // 12 - 3t/2 = 3 + 3t/4: contact at step 4
     add_disc(scene, 50, 62, 0.25, 0);    // 2 from the top, r = 1 + t/4: contact at step 4
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 6);
-    const Disc p = disc_of(simulation, 0, world), q = disc_of(simulation, 1, world),
-               at_wall = disc_of(simulation, 2, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 6);
+    const DiscState p = disc_of(system, 0, world), q = disc_of(system, 1, world),
+                    at_wall = disc_of(system, 2, world);
     // Surfaces meet at -3/2 - 3/4, and part so: w = 3/4 + 9/4 = 3, and the momentum is 1/2.
     CHECK(p.vx == Approx(-0.625).epsilon(1e-14));
     CHECK(q.vx == Approx(2.375).epsilon(1e-14));
@@ -103,13 +103,13 @@ TEST_CASE("growth: transposed scenes give transposed discs") {
     scene.steps = 20;
     scene.setting.effects.growth = 0.01;
     const TestScene other = transposed(scene);
-    Simulation first = simulation_of(scene, Method::event_driven, world),
-               second = simulation_of(other, Method::event_driven, world);
+    DiscSystem first = system_of(scene, Method::event_driven, world),
+               second = system_of(other, Method::event_driven, world);
     advance_to(first, 20);
     advance_to(second, 20);
     int differences = 0;
     for (DiscId id = 0; id < scene.discs.size(); ++id) {
-        const Disc a = disc_of(first, id, world), b = disc_of(second, id, world);
+        const DiscState a = disc_of(first, id, world), b = disc_of(second, id, world);
         differences += a.x != b.y || a.y != b.x || a.vx != b.vy || a.vy != b.vx;
     }
     CHECK(differences == 0);

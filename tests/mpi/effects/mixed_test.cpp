@@ -108,12 +108,12 @@ TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its
             scene.setting.effects.contact = contact;
             for (const Method method : {Method::time_stepped, Method::event_driven}) {
                 check_bits(scene, method);
-                Simulation simulation = simulation_of(scene, method, world);
-                advance_to(simulation, scene.steps);
-                const Totals totals = simulation.totals();
+                DiscSystem system = system_of(scene, method, world);
+                advance_to(system, scene.steps);
+                const Totals totals = system.totals();
                 CHECK((totals.departed[0] > 2 && totals.departed[3] > 2));
-                const std::span<const Disc> discs = simulation.discs();
-                const std::span<const double> spins = simulation.spins();
+                const std::span<const DiscState> discs = system.discs();
+                const std::span<const double> spins = system.spins();
                 for (std::size_t i = 0; i < discs.size(); ++i) {
                     if (!discs[i].has_departed()) continue;
                     const double radius = scene.setting.radius_of(discs[i].id);
@@ -154,20 +154,20 @@ TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching 
         scene.setting.effects.species = {{1, 4, 5}, {1, 1, 0.5}};
         add_disc(scene, 20, 32, 1, 0);
         add_disc(scene, 35, 32, 0, 0);
-        Simulation simulation = simulation_of(scene, method, world);
+        DiscSystem system = system_of(scene, method, world);
         std::vector<Collision> log;
-        simulation.log_to(&log);
-        advance_to(simulation, scene.steps);
-        for (const Disc& disc : simulation.discs()) {
+        system.log_to(&log);
+        advance_to(system, scene.steps);
+        for (const DiscState& disc : system.discs()) {
             const double expected = disc.id == 0 ? (5 - 0.5) / 5.5 : 2 * 5 / 5.5;
             CHECK(disc.vx == Approx(expected).epsilon(1e-14));
-            CHECK(disc.x_at(simulation.clock()) ==
+            CHECK(disc.x_at(system.clock()) ==
                   Approx(disc.id == 0 ? 30 + 2 * expected : 35 + 2 * expected).epsilon(1e-14));
             CHECK(disc.pair_collisions == 1);
         }
         for (const Collision& collision : log)
             CHECK(collision.impulse == Approx(0.5 * 2 * 5 / 5.5).epsilon(1e-14));
-        const Totals totals = simulation.totals();
+        const Totals totals = system.totals();
         CHECK(totals.kinetic_energy == Approx(2.5).epsilon(1e-14));
         CHECK(totals.momentum_x == Approx(5).epsilon(1e-14));
     }
@@ -180,15 +180,15 @@ TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energ
     TestScene scene = mixture({{100, 1.5, 8}, {200, 1, 2}, {300, 0.5, 0.5}}, 80, 0.2, 704);
     scene.setting.micro_steps = 1;
     scene.setting.sync_every = 64;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const Totals start = simulation.totals();
-    advance_to(simulation, 1000);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const Totals start = system.totals();
+    advance_to(system, 1000);
     std::vector<double> sums(3, 0);
     constexpr int n_samples = 40;
     for (int sample = 0; sample < n_samples; ++sample) {
-        advance_to(simulation, simulation.step() + 50);
+        advance_to(system, system.step() + 50);
         std::vector<double> energies(3, 0);
-        for (const Disc& disc : simulation.discs())
+        for (const DiscState& disc : system.discs())
             energies[disc.id < 100   ? 0
                      : disc.id < 300 ? 1
                                      : 2] += 0.5 * mass_of(scene, disc.id) *
@@ -196,7 +196,7 @@ TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energ
         for (const auto& part : world.all_gather(std::array{energies[0], energies[1], energies[2]}))
             for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k] / n_samples;
     }
-    const Totals end = simulation.totals();
+    const Totals end = system.totals();
     const double mean = end.kinetic_energy / 600;
     CHECK(sums[0] / 100 == Approx(mean).epsilon(4 / std::sqrt(100.0 * n_samples)));
     CHECK(sums[1] / 200 == Approx(mean).epsilon(4 / std::sqrt(200.0 * n_samples)));

@@ -60,18 +60,20 @@ TestScene sinai_billiard(bool is_periodic, double moved) {
     return scene;
 }
 
-std::vector<Disc> all_discs(const Simulation& simulation, const Communicator& world) {
-    std::vector<Disc> mine, all;
-    for (const Disc& disc : simulation.shown()) {
+std::vector<DiscState> all_discs(const DiscSystem& system, const Communicator& world) {
+    std::vector<DiscState> mine, all;
+    for (const DiscState& disc : system.shown()) {
         mine.push_back(disc);
-        mine.back().x = disc.x_at(simulation.clock());
-        mine.back().y = disc.y_at(simulation.clock());
+        mine.back().x = disc.x_at(system.clock());
+        mine.back().y = disc.y_at(system.clock());
     }
     stream_to_root(
-        world, std::span<const Disc>(mine),
-        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+        world, std::span<const DiscState>(mine),
+        [&](std::span<const DiscState> some) { all.insert(all.end(), some.begin(), some.end()); },
+        1000);
     world.broadcast(all);
-    std::sort(all.begin(), all.end(), [](const Disc& a, const Disc& b) { return a.id < b.id; });
+    std::sort(all.begin(), all.end(),
+              [](const DiscState& a, const DiscState& b) { return a.id < b.id; });
     return all;
 }
 
@@ -108,15 +110,15 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
         const TestScene scene = sinai_billiard(is_periodic, 0);
-        Simulation there = simulation_of(scene, Method::event_driven, world);
+        DiscSystem there = system_of(scene, Method::event_driven, world);
         advance_to(there, scene.steps);
         CHECK(there.totals().wall_collisions >= 6);
         TestScene backwards = scene;
-        for (const Disc& disc : all_discs(there, world))
+        for (const DiscState& disc : all_discs(there, world))
             backwards.discs[disc.id] = {disc.id, disc.x, disc.y, -disc.vx, -disc.vy};
-        Simulation back = simulation_of(backwards, Method::event_driven, world);
+        DiscSystem back = system_of(backwards, Method::event_driven, world);
         advance_to(back, scene.steps);
-        for (const Disc& disc : all_discs(back, world)) {
+        for (const DiscState& disc : all_discs(back, world)) {
             CHECK(disc.x == Approx(scene.discs[disc.id].x).epsilon(1e-9));
             CHECK(disc.y == Approx(scene.discs[disc.id].y).epsilon(1e-9));
             CHECK(disc.vx == Approx(-scene.discs[disc.id].vx).epsilon(1e-9));
@@ -128,14 +130,15 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
 TEST_CASE("effects: where the seams are in a periodic box is of no account, under both methods") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
-        Simulation first = simulation_of(sinai_billiard(true, 0), method, world),
-                   second = simulation_of(sinai_billiard(true, 10), method, world);
+        DiscSystem first = system_of(sinai_billiard(true, 0), method, world),
+                   second = system_of(sinai_billiard(true, 10), method, world);
         advance_to(first, 96);
         advance_to(second, 96);
         CHECK(first.totals().wall_collisions >= 6);
         CHECK(first.totals().wall_collisions == second.totals().wall_collisions);
-        const std::vector<Disc> here = all_discs(first, world), there = all_discs(second, world);
-        for (const Disc& disc : here) {
+        const std::vector<DiscState> here = all_discs(first, world),
+                                     there = all_discs(second, world);
+        for (const DiscState& disc : here) {
             const auto apart = [](double a, double b) {
                 return std::fabs(std::remainder(b - a - 10, 20));
             };
@@ -172,13 +175,13 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
         }
         make_room_for_obstacles(scene);
     }
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    std::vector<Disc> before = all_discs(simulation, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    std::vector<DiscState> before = all_discs(system, world);
     std::vector<double> x(before.size(), 0), y(before.size(), 0); // since the lag began
     double squares_at_first_lag = 0, squares_at_lag = 0;
     for (std::int64_t step = first_lag; step <= scene.steps; step += first_lag) {
-        advance_to(simulation, step);
-        const std::vector<Disc> now = all_discs(simulation, world);
+        advance_to(system, step);
+        const std::vector<DiscState> now = all_discs(system, world);
         double squares = 0;
         for (std::size_t i = 0; i < now.size(); ++i) { // none flies half the box in so many steps
             x[i] += std::remainder(now[i].x - before[i].x, size);
@@ -213,10 +216,10 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     list.segments = {{0, 8, 30, 3}, {60, 8, 30, 3}};
     for (int k = 0; k < 40; ++k) add_disc(scene, 2 + 1.4 * k, 52 + k % 3 * 2, 0.001 * k, 0);
     scene.setting.effects.gravity = {0, -0.01};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const Totals start = simulation.totals();
-    advance_to(simulation, 203); // between two syncs
-    const Totals end = simulation.totals();
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const Totals start = system.totals();
+    advance_to(system, 203); // between two syncs
+    const Totals end = system.totals();
     CHECK(end.wall_collisions > 200);
     CHECK(end.kinetic_energy + end.potential_energy ==
           Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
@@ -242,9 +245,9 @@ TEST_CASE("effects: discs of several species meet obstacles where their own radi
     add_disc(scene, 90, 50, -2, 0);
     add_disc(scene, 40, 20.1, 2, 0);
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
-        Simulation simulation = simulation_of(scene, method, world);
-        advance_to(simulation, 20);
-        const std::vector<Disc> end = all_discs(simulation, world);
+        DiscSystem system = system_of(scene, method, world);
+        advance_to(system, 20);
+        const std::vector<DiscState> end = all_discs(system, world);
         CHECK(end[0].x == Approx(45 - 2 * (20 - 17.5)).epsilon(1e-14));
         CHECK(end[1].x < 49);
         CHECK(end[2].x == Approx(54.3 + 2 * (20 - 17.85)).epsilon(1e-14));

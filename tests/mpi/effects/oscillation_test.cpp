@@ -95,16 +95,15 @@ TEST_CASE("oscillation: a ball on a plate is where a plain search says, before a
             INFO("side " << side << ", period " << static_cast<double>(ball.period));
             const TestScene scene = ball_before(side, ball);
             const double sign = side % 2 == 0 ? 1 : -1, line = side % 2 == 0 ? 1 : 39;
-            Simulation simulation = simulation_of(scene, Method::event_driven, world);
+            DiscSystem system = system_of(scene, Method::event_driven, world);
             double error = 1e-13;
             for (std::int64_t step = 4; step <= 160 && error < 1e-6; step += 4) {
-                advance_to(simulation, step);
+                advance_to(system, step);
                 const int n_before = ball.n_hits;
                 ball.run_to(static_cast<Long>(step));
-                CHECK(simulation.totals().wall_collisions ==
-                      static_cast<std::uint64_t>(ball.n_hits));
+                CHECK(system.totals().wall_collisions == static_cast<std::uint64_t>(ball.n_hits));
                 error *= std::pow(static_cast<double>(ball.growth()), ball.n_hits - n_before);
-                for (const Disc& disc : simulation.shown()) {
+                for (const DiscState& disc : system.shown()) {
                     const double height = sign * ((side < 2 ? disc.x : disc.y) - line),
                                  speed = sign * (side < 2 ? disc.vx : disc.vy);
                     CHECK(std::fabs(height - static_cast<double>(ball.height)) < error);
@@ -126,22 +125,22 @@ TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
         effects.boundaries[2] = shaken(0.5, 40, 0, restitution); // 0.0123 of acceleration
         effects.gravity.y = -0.02;
         effects.contact.contact_time = 0.25;
-        Scene checked = scene_of(scene);
+        SceneParameters checked = scene_of(scene);
         checked.method = Method::event_driven;
-        Simulation simulation = simulation_of(scene, Method::event_driven, world);
-        simulation.check_every_step(checked);
-        advance_to(simulation, 80);
+        DiscSystem system = system_of(scene, Method::event_driven, world);
+        system.check_every_step(checked);
+        advance_to(system, 80);
         for (std::int64_t step = 80; step <= 160; step += 7) {
-            advance_to(simulation, step);
+            advance_to(system, step);
             const double angle = 2 * std::numbers::pi * static_cast<double>(step) / 40,
                          speed = 0.5 * 2 * std::numbers::pi / 40 * std::cos(angle);
-            for (const Disc& disc : simulation.shown()) {
+            for (const DiscState& disc : system.shown()) {
                 CHECK(disc.y - 1 == Approx(0.5 * std::sin(angle)).margin(1e-3));
                 CHECK(disc.vy == Approx(speed).margin(0.0325 * 0.25));
             }
         }
         // Not much more often than once per contact time.
-        CHECK(simulation.totals().wall_collisions < 960); // 1.5 times 160 / 0.25
+        CHECK(system.totals().wall_collisions < 960); // 1.5 times 160 / 0.25
     }
 }
 

@@ -48,7 +48,7 @@ Meeting meet(const ContactEffect& contact, Method method, const Communicator& wo
     scene.setting.sync_every = 64;
     add_disc(scene, 20, 30, 0.5, 0.05);
     add_disc(scene, 34, 31.5, -0.25, -0.01);
-    Scene all = scene_of(scene);
+    SceneParameters all = scene_of(scene);
     all.method = method;
     StoredState state;
     const std::vector<double> spins{0.07, -0.3};
@@ -57,7 +57,7 @@ Meeting meet(const ContactEffect& contact, Method method, const Communicator& wo
             state.discs.push_back({disc.x, disc.y, disc.vx, disc.vy, 0, disc.id, 0, 0});
         state.columns.add(SideColumn::spin, spins);
     }
-    Simulation simulation(all, state, world, {});
+    DiscSystem system(all, state, world, {});
     Meeting meeting;
     for (std::size_t k = 0; k < 2; ++k) {
         const InputDisc& disc = scene.discs[k];
@@ -65,14 +65,14 @@ Meeting meet(const ContactEffect& contact, Method method, const Communicator& wo
         meeting.before[k] = {disc.x,   disc.y,      disc.vx,   disc.vy,
                              spins[k], body.radius, body.mass, contact.inertia};
     }
-    advance_to(simulation, 20);
-    CHECK(simulation.totals().pair_collisions == 1);
-    CHECK(simulation.totals().wall_collisions == 0);
+    advance_to(system, 20);
+    CHECK(system.totals().pair_collisions == 1);
+    CHECK(system.totals().wall_collisions == 0);
     std::vector<std::array<double, 7>> mine;
-    for (std::size_t i = 0; i < simulation.discs().size(); ++i) {
-        const Disc& disc = simulation.discs()[i];
+    for (std::size_t i = 0; i < system.discs().size(); ++i) {
+        const DiscState& disc = system.discs()[i];
         mine.push_back({static_cast<double>(disc.id), disc.x, disc.y, disc.vx, disc.vy,
-                        simulation.spins()[i], disc.tau});
+                        system.spins()[i], disc.tau});
     }
     mine.resize(2, {-1, 0, 0, 0, 0, 0, 0});
     for (const auto& both : world.all_gather(std::array{mine[0], mine[1]})) {
@@ -140,13 +140,13 @@ TEST_CASE("effects: smooth discs are the plain dynamics to the bit, whatever the
             const StateHash plain = run(scene, method, world).hash;
             for (const ContactEffect& contact : {rough(1, -1, no_limit), rough(1, 0.5, 0)}) {
                 scene.setting.effects.contact = contact;
-                Simulation simulation = simulation_of(scene, method, world);
-                advance_to(simulation, scene.steps);
-                StateHash hash = hash_of(simulation.discs());
+                DiscSystem system = system_of(scene, method, world);
+                advance_to(system, scene.steps);
+                StateHash hash = hash_of(system.discs());
                 std::array<std::uint64_t, 2> sums{hash.low, hash.high};
                 world.sum(sums);
                 CHECK(StateHash{sums[0], sums[1]} == plain);
-                for (const double spin : simulation.spins()) CHECK(spin == 0);
+                for (const double spin : system.spins()) CHECK(spin == 0);
             }
         }
     }
@@ -213,19 +213,19 @@ TEST_CASE(
     const Communicator world = Communicator::world();
     TestScene scene = gas(400, 0.3, 0.3, 606);
     scene.setting.effects.contact = rough(1, 1, no_limit);
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const double start = simulation.totals().kinetic_energy;
-    advance_to(simulation, 600);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const double start = system.totals().kinetic_energy;
+    advance_to(system, 600);
     constexpr int n_samples = 30;
     double share = 0;
     for (int sample = 0; sample < n_samples; ++sample) {
-        advance_to(simulation, simulation.step() + 30);
-        const Totals now = simulation.totals();
+        advance_to(system, system.step() + 30);
+        const Totals now = system.totals();
         CHECK(now.kinetic_energy + now.rotational_energy == Approx(start).epsilon(1e-12));
         share += now.rotational_energy / start / n_samples;
     }
     // Of 3 N halves of kT, N are spins': the share scatters by 2/3 sqrt(1 / (3 N)) or so in a
     // sample; samples are some ten collisions apart.
     CHECK(share == Approx(1.0 / 3).margin(4 * 2.0 / 3 / std::sqrt(3 * 400.0 * n_samples)));
-    CHECK(simulation.totals().overlapping_pairs == 0);
+    CHECK(system.totals().overlapping_pairs == 0);
 }

@@ -30,7 +30,7 @@ struct Motion {
 /// Of the scene's only disc, which begins with that spin. **Collective.**
 Motion motion_after(const TestScene& scene, double spin, Method method, const Communicator& world,
                     std::uint64_t n_bounces) {
-    Scene all = scene_of(scene);
+    SceneParameters all = scene_of(scene);
     all.method = method;
     StoredState state;
     const bool turns = scene.setting.effects.contact.kind == ContactKind::rough;
@@ -39,14 +39,14 @@ Motion motion_after(const TestScene& scene, double spin, Method method, const Co
         state.discs.push_back({disc.x, disc.y, disc.vx, disc.vy, 0, 0, 0, 0});
         if (turns) state.columns.add(SideColumn::spin, {spin});
     }
-    Simulation simulation(all, state, world, {});
-    advance_to(simulation, scene.steps);
-    if (n_bounces > 0) CHECK(simulation.totals().wall_collisions == n_bounces);
+    DiscSystem system(all, state, world, {});
+    advance_to(system, scene.steps);
+    if (n_bounces > 0) CHECK(system.totals().wall_collisions == n_bounces);
     Motion mine;
-    for (const Disc& disc : simulation.shown()) {
+    for (const DiscState& disc : system.shown()) {
         mine.vx = disc.vx;
         mine.vy = disc.vy;
-        if (turns) mine.spin = simulation.spins()[0];
+        if (turns) mine.spin = system.spins()[0];
     }
     Motion sum;
     for (const Motion& part : world.all_gather(mine)) {

@@ -15,11 +15,11 @@ using namespace carrom::test;
 namespace {
 
 /// Kinetic energy per disc, averaged over `n_samples` states, `apart` steps from each other.
-double mean_energy(Simulation& simulation, int n_samples, std::int64_t apart) {
+double mean_energy(DiscSystem& system, int n_samples, std::int64_t apart) {
     double sum = 0;
     for (int k = 0; k < n_samples; ++k) {
-        advance_to(simulation, simulation.step() + apart);
-        const Totals totals = simulation.totals();
+        advance_to(system, system.step() + apart);
+        const Totals totals = system.totals();
         sum += totals.kinetic_energy / static_cast<double>(totals.n_discs);
     }
     return sum / n_samples;
@@ -34,11 +34,11 @@ TEST_CASE("effects: walls of one temperature give it to a gas, under both method
         scene.steps = 1000000;
         for (Boundary& side : scene.setting.effects.boundaries)
             side = {BoundaryKind::thermal, 1, 0.5, 0};
-        Simulation simulation = simulation_of(scene, method, world);
-        advance_to(simulation, 1500);
+        DiscSystem system = system_of(scene, method, world);
+        advance_to(system, 1500);
         // E / N is T with the variance T^2 / N: 30 samples that are hardly correlated leave 1 % or
         // so.
-        CHECK(mean_energy(simulation, 30, 150) == Approx(0.5).epsilon(0.04));
+        CHECK(mean_energy(system, 30, 150) == Approx(0.5).epsilon(0.04));
     }
 }
 
@@ -51,10 +51,10 @@ TEST_CASE("effects: an ideal gas between walls of two temperatures has their geo
     effects.contact.kind = ContactKind::none;
     effects.boundaries[0] = {BoundaryKind::thermal, 1, 1, 0};
     effects.boundaries[1] = {BoundaryKind::thermal, 1, 9, 0};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, 4000);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, 4000);
     // Slow discs stay long, so samples are correlated; single energies scatter by a few times 3.
-    CHECK(mean_energy(simulation, 20, 400) == Approx(3).epsilon(0.06));
+    CHECK(mean_energy(system, 20, 400) == Approx(3).epsilon(0.06));
 }
 
 TEST_CASE("effects: walls take what their restitution says") {
@@ -77,8 +77,8 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     add_disc(scene, 40, 50, 0.7, 0);
     const double u = 0.2;
     scene.setting.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -u};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    advance_to(simulation, scene.steps);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    advance_to(system, scene.steps);
     long double x = 40, v = 0.7, t = 0;
     int n = 0;
     for (;; ++n) { // between the wall at 1 and the piston at 101 - u t
@@ -93,8 +93,8 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     }
     x += v * (300 - t);
     CHECK(n >= 4);
-    for (const Disc& disc : simulation.discs()) {
-        CHECK(disc.x_at(simulation.clock()) == Approx(static_cast<double>(x)).epsilon(1e-13));
+    for (const DiscState& disc : system.discs()) {
+        CHECK(disc.x_at(system.clock()) == Approx(static_cast<double>(x)).epsilon(1e-13));
         CHECK(disc.vx == Approx(static_cast<double>(v)).epsilon(1e-13));
     }
 }
@@ -114,8 +114,8 @@ TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
             add_disc(scene, 50, place, 0, sign * v);
         scene.setting.effects.boundaries[side] = {BoundaryKind::moving, 1, 0, sign * u};
         (side < 2 ? scene.setting.effects.gravity.x : scene.setting.effects.gravity.y) = sign * g;
-        Simulation simulation = simulation_of(scene, Method::event_driven, world);
-        advance_to(simulation, scene.steps);
+        DiscSystem system = system_of(scene, Method::event_driven, world);
+        advance_to(system, scene.steps);
         const long double hit = ((static_cast<long double>(u) - v) -
                                  std::sqrt((u - static_cast<long double>(v)) *
                                                (u - static_cast<long double>(v)) -
@@ -125,8 +125,8 @@ TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
         const long double x = u * hit + after * rest +
                               0.5L * g * rest *
                                   rest; // of the disc's edge, from where the wall began
-        CHECK(simulation.totals().wall_collisions == 1);
-        for (const Disc& disc : simulation.shown()) {
+        CHECK(system.totals().wall_collisions == 1);
+        for (const DiscState& disc : system.shown()) {
             const double at = side < 2 ? disc.x : disc.y,
                          from_wall = side % 2 == 0 ? at - 1 : 101 - at;
             CHECK(from_wall == Approx(static_cast<double>(x)).epsilon(1e-12));
@@ -145,14 +145,14 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     effects.contact.kind = ContactKind::none;
     for (std::size_t k = 0; k < 4; ++k)
         effects.boundaries[k] = {BoundaryKind::moving, 1, 0, k % 2 == 0 ? u : -u};
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
     std::vector<Collision> log;
-    simulation.log_to(&log);
+    system.log_to(&log);
     const double length = scene.setting.box_size - 2 * scene.setting.radius;
-    const double start = simulation.totals().kinetic_energy;
+    const double start = system.totals().kinetic_energy;
     const auto steps = static_cast<std::int64_t>(length / (8 * u)); // L falls by a quarter
-    advance_to(simulation, steps);
-    const double end = simulation.totals().kinetic_energy,
+    advance_to(system, steps);
+    const double end = system.totals().kinetic_energy,
                  now = length - 2 * u * static_cast<double>(steps);
     double impulse = 0;
     for (const Collision& collision : log) impulse += collision.impulse;
@@ -189,15 +189,15 @@ TEST_CASE("effects: discs leave through open sides when their flights say, and a
                                        : way_y / std::fabs(static_cast<long double>(disc.vy));
             if (std::min(tx, ty) <= 60) known[tx < ty ? 1 : 2] += 1;
         }
-        Simulation simulation = simulation_of(scene, method, world);
-        advance_to(simulation, 60);
-        const Totals totals = simulation.totals();
+        DiscSystem system = system_of(scene, method, world);
+        advance_to(system, 60);
+        const Totals totals = system.totals();
         INFO((method == Method::time_stepped ? "time-stepped" : "event-driven"));
         CHECK(totals.departed == known);
         CHECK(known[1] > 20);
         CHECK(known[2] > 20);
         CHECK(totals.n_discs == 300);
-        for (const Disc& disc : simulation.shown()) {
+        for (const DiscState& disc : system.shown()) {
             if (!disc.has_departed()) continue;
             CHECK((disc.x == scene.setting.box_size + scene.setting.radius ||
                    disc.y == -scene.setting.radius));

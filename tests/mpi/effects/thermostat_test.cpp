@@ -84,13 +84,13 @@ TEST_CASE("effects: a check finds out what a thermostat has not given") {
     TestScene scene = gas(100, 0.2, 0.1, 645);
     scene.setting.sync_every = 6;
     scene.setting.effects.thermostat = thermostats()[1];
-    Scene other = scene_of(scene);
+    SceneParameters other = scene_of(scene);
     other.method = Method::event_driven;
     other.effects.thermostat = {};
     other.effects.contact.kind = ContactKind::restitution; // as there are effects at all
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    simulation.check_every_step(other);
-    CHECK_THROWS_AS(advance_to(simulation, 30), CheckFailure);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    system.check_every_step(other);
+    CHECK_THROWS_AS(advance_to(system, 30), CheckFailure);
 }
 
 TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
@@ -102,7 +102,7 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
         const bool is_rough = scene.setting.effects.contact.kind == ContactKind::rough;
         const double n = 200;
         scene.setting.effects.thermostat = thermostats()[3];
-        Simulation rescaled = simulation_of(scene, Method::event_driven, world);
+        DiscSystem rescaled = system_of(scene, Method::event_driven, world);
         advance_to(rescaled, 20); // a multiple of 5
         Totals totals = rescaled.totals();
         double mass = 0, momentum_x = 0, momentum_y = 0;
@@ -116,7 +116,7 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
         CHECK(totals.kinetic_energy + totals.rotational_energy - of_centre ==
               Approx(n * 0.02 * (is_rough ? 1.5 : 1)).epsilon(1e-12));
         scene.setting.effects.thermostat = thermostats()[0];
-        Simulation kicked = simulation_of(scene, Method::event_driven, world);
+        DiscSystem kicked = system_of(scene, Method::event_driven, world);
         advance_to(kicked, 20);
         totals = kicked.totals();
         CHECK(totals.momentum_x == Approx(momentum_x).margin(1e-12));
@@ -136,10 +136,10 @@ TEST_CASE("effects: discs that all fly alike stay so when velocities are rescale
             scene.setting.effects.boundaries.fill(periodic);
             scene.setting.effects.species = {{n, 1, mass}};
             scene.setting.effects.thermostat = thermostats()[3];
-            Simulation simulation = simulation_of(scene, Method::event_driven, world);
-            advance_to(simulation, 20);
+            DiscSystem system = system_of(scene, Method::event_driven, world);
+            advance_to(system, 20);
             INFO("mass " << mass << ", discs " << n);
-            CHECK(simulation.totals().kinetic_energy ==
+            CHECK(system.totals().kinetic_energy ==
                   Approx(static_cast<double>(n) * mass * 0.05).epsilon(1e-12));
         }
     }
@@ -181,9 +181,9 @@ TEST_CASE(
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const auto mean_square = [&](const Thermostat& thermostat) {
             scene.setting.effects.thermostat = thermostat;
-            Simulation simulation = simulation_of(scene, method, world);
-            advance_to(simulation, static_cast<std::int64_t>(time));
-            return simulation.totals().kinetic_energy / n;
+            DiscSystem system = system_of(scene, method, world);
+            advance_to(system, static_cast<std::int64_t>(time));
+            return system.totals().kinetic_energy / n;
         };
         const double strength = 1e-4, rate = 0.05, kt = 0.02;
         CHECK(mean_square({ThermostatKind::kicks, strength, 0, 0, 9}) ==

@@ -22,8 +22,8 @@ using namespace carrom::test;
 
 namespace {
 
-Simulation start(const TestScene& scene, const Communicator& world, Tuning tuning = {}) {
-    Scene all = scene_of(scene);
+DiscSystem start(const TestScene& scene, const Communicator& world, Tuning tuning = {}) {
+    SceneParameters all = scene_of(scene);
     all.method = Method::event_driven;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
@@ -41,7 +41,7 @@ std::vector<Item> gathered(std::span<const Item> own, const Communicator& world)
     return all;
 }
 
-double deepest_overlap(const std::vector<Disc>& discs, double time, double sigma) {
+double deepest_overlap(const std::vector<DiscState>& discs, double time, double sigma) {
     double deepest = -sigma;
     for (std::size_t i = 0; i < discs.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
@@ -76,8 +76,8 @@ std::size_t n_repeated(std::vector<Collision> log, std::size_t n_discs) {
 /// What ends a run of the scene; empty if nothing does.
 std::string failure_of(const TestScene& scene, const Communicator& world, int& code) {
     try {
-        Simulation simulation = start(scene, world);
-        while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+        DiscSystem system = start(scene, world);
+        while (system.step() < scene.steps) system.advance_towards(scene.steps);
     } catch (const InputError& error) {
         code = static_cast<int>(ExitCode::bad_input);
         return error.what();
@@ -97,18 +97,18 @@ TEST_CASE("exact: energy is kept to 1e-12, no discs overlap by more than 64 ulp 
     for (const double packing : {0.2, 0.7}) {
         TestScene scene = gas(1600, packing, 0.4, 91);
         scene.steps = 30;
-        Simulation simulation = start(scene, world);
-        const Totals before = simulation.totals();
+        DiscSystem system = start(scene, world);
+        const Totals before = system.totals();
         std::vector<Collision> log;
-        simulation.log_to(&log);
-        while (simulation.step() < scene.steps) {
-            simulation.advance_towards(std::min(simulation.step() + 5, scene.steps));
-            const std::vector<Disc> all = gathered(simulation.discs(), world);
+        system.log_to(&log);
+        while (system.step() < scene.steps) {
+            system.advance_towards(std::min(system.step() + 5, scene.steps));
+            const std::vector<DiscState> all = gathered(system.discs(), world);
             const double ulp = std::nextafter(scene.setting.box_size, 1e300) -
                                scene.setting.box_size;
-            CHECK(deepest_overlap(all, simulation.clock(), 2 * scene.setting.radius) <= 64 * ulp);
+            CHECK(deepest_overlap(all, system.clock(), 2 * scene.setting.radius) <= 64 * ulp);
         }
-        const Totals after = simulation.totals();
+        const Totals after = system.totals();
         const std::vector<Collision> all_log = gathered(std::span<const Collision>(log), world);
         CHECK(all_log.size() == after.pair_collisions + after.wall_collisions);
         CHECK(n_repeated(all_log, scene.discs.size()) == 0);
@@ -127,7 +127,7 @@ TEST_CASE("exact: every stop has the reference's state, and a run may start agai
         }
         scene.setting.sync_every = 3;
         scene.setting.micro_steps = 2;
-        Scene all = scene_of(scene);
+        SceneParameters all = scene_of(scene);
         all.method = Method::event_driven;
         reference::EventDrivenReference reference(scene.setting, scene.discs);
         StoredState state{dealt_discs(scene, world, 4), 0};
@@ -135,13 +135,12 @@ TEST_CASE("exact: every stop has the reference's state, and a run may start agai
             reference.run_steps(1);
             Tuning tuning;
             tuning.threads = omp_get_max_threads();
-            Simulation simulation(all, state, world, tuning);
-            while (simulation.step() < step) simulation.advance_towards(step);
-            state = {{simulation.discs().begin(), simulation.discs().end()},
-                     simulation.micro_steps_done()};
+            DiscSystem system(all, state, world, tuning);
+            while (system.step() < step) system.advance_towards(step);
+            state = {{system.discs().begin(), system.discs().end()}, system.micro_steps_done()};
             INFO(scene.name << ", step " << step);
-            CHECK(simulation.clock() == reference.clock());
-            CHECK(to_string(simulation.totals().hash) == to_string(hash_of(reference.discs())));
+            CHECK(system.clock() == reference.clock());
+            CHECK(to_string(system.totals().hash) == to_string(hash_of(reference.discs())));
         }
     }
 }

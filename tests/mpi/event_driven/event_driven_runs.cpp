@@ -62,10 +62,11 @@ EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
     return expected;
 }
 
-std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed) {
+std::vector<DiscState> dealt_discs(const TestScene& scene, const Communicator& world,
+                                   unsigned seed) {
     std::mt19937 random(seed);
-    std::vector<Disc> mine;
-    for (const Disc& disc : reference::stored_states(scene.setting, scene.discs)) {
+    std::vector<DiscState> mine;
+    for (const DiscState& disc : reference::stored_states(scene.setting, scene.discs)) {
         if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
             mine.push_back(disc);
     }
@@ -108,7 +109,7 @@ EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape,
     while (engine.micro_steps_done() < last) engine.advance_towards(scene.steps);
     StateHash hash = hash_of(engine.own());
     std::uint64_t sums[] = {hash.low, hash.high, 0, 0};
-    for (const Disc& disc : engine.own()) {
+    for (const DiscState& disc : engine.own()) {
         sums[2] += disc.wall_collisions;
         sums[3] += disc.pair_collisions;
     }

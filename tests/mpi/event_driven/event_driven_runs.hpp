@@ -5,7 +5,7 @@
 #include "event_driven/event_driven_engine.hpp"
 #include "parallel/communicator.hpp"
 #include "scenes.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 namespace carrom::test {
 
@@ -40,7 +40,8 @@ EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape,
                                    const Communicator& world, unsigned seed);
 
 /// The share of rank `world.rank()` when discs are dealt at random.
-std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed);
+std::vector<DiscState> dealt_discs(const TestScene& scene, const Communicator& world,
+                                   unsigned seed);
 
 /// The time in which the fastest disc goes one diameter, in micro-steps; a 60th of the run if that
 /// is longer.

@@ -57,7 +57,7 @@ bool run_alone(const reference::Setting& setting, const Column& column,
         is_own_marked = true;
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
-        const Disc& disc = run.discs()[i];
+        const DiscState& disc = run.discs()[i];
         seen[i] = {seen[i].id, disc.x, disc.y, disc.vx, disc.vy};
     }
     return is_own_marked;
@@ -107,7 +107,8 @@ std::vector<InputDisc> by_reference(const TestScene& scene) {
     reference::EventDrivenReference run(scene.setting, scene.discs);
     run.run_steps(scene.steps);
     std::vector<InputDisc> all;
-    for (const Disc& disc : run.discs()) all.push_back({disc.id, disc.x, disc.y, disc.vx, disc.vy});
+    for (const DiscState& disc : run.discs())
+        all.push_back({disc.id, disc.x, disc.y, disc.vx, disc.vy});
     return all;
 }
 

@@ -14,13 +14,13 @@
 #include "parallel/exchange.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 using namespace carrom;
 
 namespace {
 
-Scene compressed_scene(const std::vector<std::string>& overrides) {
+SceneParameters compressed_scene(const std::vector<std::string>& overrides) {
     return read_scene(
         "[box]\nsize = 50\n[discs]\ngenerator = 'compressed'\nspeed = 0.25\nseed = 5\n"
         "[time]\nsteps = 20\n",
@@ -30,7 +30,7 @@ Scene compressed_scene(const std::vector<std::string>& overrides) {
 const std::string all_round = "box.left.kind=periodic box.right.kind=periodic "
                               "box.bottom.kind=periodic box.top.kind=periodic";
 
-Scene compressed_scene(const std::string& overrides) {
+SceneParameters compressed_scene(const std::string& overrides) {
     std::vector<std::string> words;
     for (std::size_t begin = 0; begin < overrides.size();) {
         const std::size_t end = std::min(overrides.find(' ', begin), overrides.size());
@@ -57,7 +57,7 @@ std::vector<InputDisc> on_root(const std::vector<InputDisc>& mine, const Communi
 }
 
 /// The least gap of any two discs, and of any disc and a wall.
-double least_gap(const std::vector<InputDisc>& discs, const Scene& scene) {
+double least_gap(const std::vector<InputDisc>& discs, const SceneParameters& scene) {
     const double length = scene.box.x;
     const bool goes_round_x = scene.effects.is_periodic_x(),
                goes_round_y = scene.effects.is_periodic_y();
@@ -98,7 +98,7 @@ TEST_CASE("Compressed discs do not overlap, and are the same on any ranks and th
           mixture + all_round, mixture + "box.left.kind=periodic box.right.kind=periodic",
           std::string("discs.count=200 discs.packing=0.2")}) {
         INFO(overrides);
-        const Scene scene = compressed_scene(overrides);
+        const SceneParameters scene = compressed_scene(overrides);
         // Threads of more ranks would wait for each other.
         const int n_threads = world.size() == 1 && scene.n_discs == 150 ? 2 : 1;
         const std::vector<InputDisc> all = on_root(
@@ -130,19 +130,21 @@ TEST_CASE("Compressed discs do not overlap, and are the same on any ranks and th
 
 TEST_CASE("Compression goes on to more than eight tenths, and a run begins there") {
     const Communicator world = Communicator::world();
-    const Scene scene = compressed_scene("discs.count=100 discs.packing=0.82 " + all_round);
+    const SceneParameters scene = compressed_scene("discs.count=100 discs.packing=0.82 " +
+                                                   all_round);
     std::vector<InputDisc> discs = first_discs(scene, nullptr, world, with_threads(1));
     CHECK(least_gap(on_root(discs, world), scene) > 0);
-    Simulation simulation(scene, std::move(discs), world, with_threads(1));
-    CHECK(simulation.totals().overlapping_pairs == 0);
-    while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
-    CHECK(simulation.totals().overlapping_pairs == 0);
-    CHECK(simulation.totals().pair_collisions > 500);
+    DiscSystem system(scene, std::move(discs), world, with_threads(1));
+    CHECK(system.totals().overlapping_pairs == 0);
+    while (system.step() < scene.steps) system.advance_towards(scene.steps);
+    CHECK(system.totals().overlapping_pairs == 0);
+    CHECK(system.totals().pair_collisions > 500);
 }
 
 TEST_CASE("Compression that jams ends with the packing fraction that it has reached") {
     const Communicator world = Communicator::world();
-    const Scene scene = compressed_scene("discs.count=100 discs.packing=0.9 discs.growth_rate=0.1");
+    const SceneParameters scene = compressed_scene(
+        "discs.count=100 discs.packing=0.9 discs.growth_rate=0.1");
     std::string text;
     try {
         first_discs(scene, nullptr, world, with_threads(1));

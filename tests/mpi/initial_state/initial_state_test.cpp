@@ -37,7 +37,7 @@ const Communicator& ranks() {
     return world;
 }
 
-Scene scene_of(const Texts& overrides) {
+SceneParameters scene_of(const Texts& overrides) {
     return read_scene(
         "[box]\nsize = 10\n[discs]\ncount = 100\nradius = 0.1\nspeed = 0.25\n[time]\nsteps = 1\n",
         "s.toml", overrides);
@@ -45,7 +45,7 @@ Scene scene_of(const Texts& overrides) {
 
 StateHash hash_of_discs(const Discs& discs) {
     StateHash hash;
-    for (const InputDisc& d : discs) hash += hash_of(Disc{d.x, d.y, d.vx, d.vy, 0, d.id});
+    for (const InputDisc& d : discs) hash += hash_of(DiscState{d.x, d.y, d.vx, d.vy, 0, d.id});
     return hash;
 }
 
@@ -72,7 +72,7 @@ Discs gathered(const Discs& mine) {
 
 /// What velocities become, with long sums in the order of ids: those that are drawn, without drift
 /// along periodic axes, scaled to the energy of the scene.
-void give_velocities_by_hand(const Scene& scene, Discs& discs) {
+void give_velocities_by_hand(const SceneParameters& scene, Discs& discs) {
     const auto mass_of = [&](DiscId id) -> long double {
         for (const Species& one : scene.effects.species) {
             if (id < one.count) return one.mass;
@@ -121,7 +121,7 @@ void check_generated(const Discs& mine, const Discs& reference) {
 }
 
 /// Rank 0 checks that all discs are there, lie in the box and do not overlap.
-void check_arrangement(const Discs& mine, const Scene& scene) {
+void check_arrangement(const Discs& mine, const SceneParameters& scene) {
     Discs all = gathered(mine);
     if (!ranks().is_root()) return;
     CHECK(all.size() == scene.n_discs);
@@ -144,7 +144,7 @@ void check_arrangement(const Discs& mine, const Scene& scene) {
 
 /// The rule of random insertion, word for word: all pairs, round after round. Where sides are
 /// periodic, with all images.
-Discs inserted_by_the_rule(const Scene& scene) {
+Discs inserted_by_the_rule(const SceneParameters& scene) {
     const double r = scene.radius, l = scene.box.x;
     const double lx = scene.effects.is_periodic_x() ? l : 0,
                  ly = scene.effects.is_periodic_y() ? l : 0;
@@ -222,7 +222,7 @@ Discs legacy_by_hand(std::uint64_t n, double box, double r) {
 }
 
 struct Listing {
-    Scene scene;
+    SceneParameters scene;
     std::unique_ptr<std::istringstream> stream;
 };
 
@@ -230,7 +230,7 @@ struct Listing {
 Listing listing_of(const std::string& text) {
     auto stream = std::make_unique<std::istringstream>(text);
     const SceneText input = read_scene_text(*stream, "t.in");
-    Scene scene = read_scene(input);
+    SceneParameters scene = read_scene(input);
     if (!ranks().is_root()) stream.reset();
     return {std::move(scene), std::move(stream)};
 }
@@ -249,13 +249,13 @@ TEST_CASE("Random insertion follows its rule on any number of ranks") {
           Texts{"discs.packing=0.4", "discs.count=600", "box.left.kind=periodic",
                 "box.right.kind=periodic", "box.bottom.kind=periodic", "box.top.kind=periodic"}}) {
         CAPTURE(overrides);
-        const Scene scene = scene_of(overrides);
+        const SceneParameters scene = scene_of(overrides);
         check_generated(initial_state(scene, nullptr, ranks()), inserted_by_the_rule(scene));
     }
 }
 
 TEST_CASE("Many random discs: all there, inside, apart, and always the same") {
-    const Scene scene = scene_of({"discs.packing=0.3", "discs.count=20000"});
+    const SceneParameters scene = scene_of({"discs.packing=0.3", "discs.count=20000"});
     const Discs discs = initial_state(scene, nullptr, ranks());
     check_arrangement(discs, scene);
     CHECK(to_string(hash_of_all(discs)) == "ea31e7e50301b163d8a497ecbb08f66d");
@@ -269,7 +269,7 @@ TEST_CASE("Random discs are shared out evenly") {
 }
 
 TEST_CASE("A lattice is its sites, shaken") {
-    const Scene scene = scene_of(
+    const SceneParameters scene = scene_of(
         {"discs.packing=0.8", "discs.count=3000", "discs.generator=lattice"});
     const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
     REQUIRE(lattice.has_value());
@@ -292,7 +292,7 @@ TEST_CASE("A triangular lattice is its sites, row after row, along either edge")
                                    : fmt::format("box.size=[30, {}]", 16 * height));
         for (const char* side : {"left", "right", "bottom", "top"})
             overrides.push_back(fmt::format("box.{}.kind=periodic", side));
-        const Scene scene = scene_of(overrides);
+        const SceneParameters scene = scene_of(overrides);
         Discs reference;
         for (DiscId id = 0; id < 480; ++id) {
             const double row = std::floor(static_cast<double>(id) / 30);
@@ -324,13 +324,14 @@ TEST_CASE("The legacy generator gives the course program's discs") {
     };
     for (const auto& [n, box] : {Case{1000, 20000}, Case{300, 48.5}, Case{1, 2}, Case{1500, 100}}) {
         CAPTURE(n, box);
-        const Scene scene = read_scene(fmt::format("{}\n{}\n1\n10\nperf\n", n, box), "t.in");
+        const SceneParameters scene = read_scene(fmt::format("{}\n{}\n1\n10\nperf\n", n, box),
+                                                 "t.in");
         check_same(initial_state(scene, nullptr, ranks()), legacy_by_hand(n, box, 1));
     }
 }
 
 TEST_CASE("A box too full for the legacy generator is refused on every rank") {
-    const Scene scene = read_scene("100\n20\n1\n10\nperf\n", "t.in");
+    const SceneParameters scene = read_scene("100\n20\n1\n10\nperf\n", "t.in");
     CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
 }
 
@@ -369,7 +370,8 @@ TEST_CASE("Listed discs arrive, whatever their order, in shares") {
 }
 
 TEST_CASE("Discs listed in the scene are spread once") {
-    const Scene scene = scene_of({"discs.list=[[1,1,0,0],[2,2,1,0],[3,3,0,1]]", "discs.count=3"});
+    const SceneParameters scene = scene_of(
+        {"discs.list=[[1,1,0,0],[2,2,1,0],[3,3,0,1]]", "discs.count=3"});
     check_same(initial_state(scene, nullptr, ranks()), scene.listed_discs);
 }
 
@@ -388,7 +390,8 @@ TEST_CASE("Wrong lines are the same problems on every rank") {
 
 TEST_CASE("Discs that jam in every try are refused") {
     if (ranks().size() > 1) return; // the same on every rank, but a hundred thousand rounds of talk
-    Scene scene = scene_of({"discs.radius=2.49", "discs.count=4", "discs.generator=lattice"});
+    SceneParameters scene = scene_of(
+        {"discs.radius=2.49", "discs.count=4", "discs.generator=lattice"});
     scene.generator = Generator::random; // the reader never asks for that at such a packing
     CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
 }

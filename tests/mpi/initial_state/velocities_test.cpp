@@ -24,7 +24,7 @@ const std::string species = "discs.species=[{count=300, radius=0.1, mass=4}, "
 const std::string round_x = "box.left.kind=periodic", round_x2 = "box.right.kind=periodic",
                   round_y = "box.bottom.kind=periodic", round_y2 = "box.top.kind=periodic";
 
-Scene scene_of(const Texts& overrides) {
+SceneParameters scene_of(const Texts& overrides) {
     return read_scene("[box]\nsize = 20\n[discs]\nseed = 8\n[time]\nsteps = 1\n", "s.toml",
                       overrides);
 }
@@ -36,7 +36,7 @@ struct Sums {
 };
 
 /// Plain sums over the discs of one rank alone.
-Sums sums_of(const Scene& scene, const std::vector<InputDisc>& discs) {
+Sums sums_of(const SceneParameters& scene, const std::vector<InputDisc>& discs) {
     Sums sums;
     sums.energies.resize(std::max<std::size_t>(1, scene.effects.species.size()));
     for (const InputDisc& disc : discs) {
@@ -54,12 +54,12 @@ Sums sums_of(const Scene& scene, const std::vector<InputDisc>& discs) {
         sums.energy += energy;
         sums.energies[k] += energy;
         sums.mass += mass;
-        sums.hash += hash_of(Disc{disc.x, disc.y, disc.vx, disc.vy, 0, disc.id});
+        sums.hash += hash_of(DiscState{disc.x, disc.y, disc.vx, disc.vy, 0, disc.id});
     }
     return sums;
 }
 
-Sums sums_of(const Scene& scene) {
+Sums sums_of(const SceneParameters& scene) {
     return sums_of(scene, initial_state(scene, nullptr, Communicator::of_this_rank()));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("Generated discs have the energy that is asked for, and no drift along
                 CAPTURE(walls);
                 const double n = discs == plain ? 500 : 801;
                 for (const Texts& all : {walls, channel, round}) {
-                    const Scene scene = scene_of(all);
+                    const SceneParameters scene = scene_of(all);
                     const Sums sums = sums_of(scene);
                     const double wanted = scene.temperature ? n * 0.045 : sums.mass * 0.045;
                     CHECK(sums.energy == Approx(wanted).epsilon(1e-13));
@@ -106,7 +106,8 @@ TEST_CASE("A temperature is that of every species, but for chance") {
 TEST_CASE("Velocities have the same bits on any number of ranks") {
     const Communicator world = Communicator::world();
     for (const char* motion : {"discs.speed=0.3", "discs.temperature=7e-5"}) {
-        const Scene scene = scene_of({species, motion, round_x, round_x2, round_y, round_y2});
+        const SceneParameters scene = scene_of(
+            {species, motion, round_x, round_x2, round_y, round_y2});
         const StateHash mine = sums_of(scene, initial_state(scene, nullptr, world)).hash;
         const StateHash all{world.sum(mine.low), world.sum(mine.high)};
         CHECK(all == sums_of(scene).hash);

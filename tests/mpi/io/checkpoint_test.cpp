@@ -12,7 +12,7 @@ TEST_CASE("a checkpoint is read as it was written") {
     for (const std::uint64_t n : {1u, 2u, 5u, 1000u, 20011u}) {
         for (unsigned method = 0; method < 3; ++method) {
             const std::string path = folder.file("checkpoint.h5");
-            const std::vector<Disc> mine = share(n, world, method);
+            const std::vector<DiscState> mine = share(n, world, method);
             write_checkpoint(path, some_header(), mine, world);
             const Checkpoint read = read_checkpoint(path, world);
             const DiscId first = slab_begin(world.rank(), n, world.size());
@@ -23,7 +23,7 @@ TEST_CASE("a checkpoint is read as it was written") {
             for (std::size_t i = 0; i < read.discs.size(); ++i)
                 all_same = all_same && same_bits(read.discs[i], odd_disc(first + i));
             for (DiscId id = 0; id < n; ++id) {
-                const Disc disc = odd_disc(id);
+                const DiscState disc = odd_disc(id);
                 walls += disc.wall_collisions;
                 pairs += disc.pair_collisions;
                 hash += hash_of(disc);
@@ -50,7 +50,7 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
         const std::string still = to_string(hash);
         for (DiscId id = 0; id < n; ++id) hash += hash_of(SideColumn::spin, id, odd_spin(id));
         for (unsigned method = 0; method < 3; ++method) {
-            const std::vector<Disc> mine = share(n, world, method);
+            const std::vector<DiscState> mine = share(n, world, method);
             const SideColumns columns = spins_of(mine);
             write_checkpoint(path, turning, mine, world, {2}, {}, columns.spans());
             const Checkpoint read = read_checkpoint(path, world);
@@ -130,7 +130,7 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
         CheckpointHeader header = some_header();
         if (n == 9000) header.columns.add(SideColumn::spin);
         const auto write = [&](const char* name, unsigned method, const WriteSettings& settings) {
-            const std::vector<Disc> mine = share(n, world, method);
+            const std::vector<DiscState> mine = share(n, world, method);
             const SideColumns columns = spins_of(mine);
             write_checkpoint(folder.file(name), header, mine, world, settings, {}, columns.spans());
         };

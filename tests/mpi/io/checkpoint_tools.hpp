@@ -52,9 +52,9 @@ private:
 };
 
 /// A disc whose numbers nobody would make up: every value that doubles have is fine in a state.
-inline Disc odd_disc(DiscId id) {
+inline DiscState odd_disc(DiscId id) {
     std::mt19937_64 random(id + 1);
-    Disc disc;
+    DiscState disc;
     disc.id = id;
     disc.x = std::ldexp(static_cast<double>(random() >> 11), -50);
     disc.y = std::ldexp(static_cast<double>(random() >> 11), -50);
@@ -72,17 +72,17 @@ inline double odd_spin(DiscId id) {
                : std::ldexp(static_cast<double>(std::mt19937_64(id + 77)() >> 11), -55) - 0.1;
 }
 
-inline SideColumns spins_of(const std::vector<Disc>& discs) {
+inline SideColumns spins_of(const std::vector<DiscState>& discs) {
     std::vector<double> spins;
-    for (const Disc& disc : discs) spins.push_back(odd_spin(disc.id));
+    for (const DiscState& disc : discs) spins.push_back(odd_spin(disc.id));
     SideColumns columns;
     columns.add(SideColumn::spin, spins);
     return columns;
 }
 
 /// The discs 0 .. n-1 on ranks by a rule that leaves some with none, in no order.
-inline std::vector<Disc> share(std::uint64_t n, const Communicator& world, unsigned method) {
-    std::vector<Disc> mine;
+inline std::vector<DiscState> share(std::uint64_t n, const Communicator& world, unsigned method) {
+    std::vector<DiscState> mine;
     const auto size = static_cast<std::uint64_t>(world.size());
     for (DiscId id = 0; id < n; ++id) {
         const std::uint64_t owner = method == 0   ? (id * 7919) % size
@@ -113,7 +113,7 @@ inline CheckpointHeader some_header() {
     return header;
 }
 
-inline bool same_bits(const Disc& a, const Disc& b) {
+inline bool same_bits(const DiscState& a, const DiscState& b) {
     const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
     return a.id == b.id && bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) &&
            bits(a.vx) == bits(b.vx) && bits(a.vy) == bits(b.vy) && bits(a.tau) == bits(b.tau) &&

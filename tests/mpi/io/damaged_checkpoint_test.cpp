@@ -43,7 +43,7 @@ TEST_CASE("damage is told by the data set that it is in") {
     const std::string path = folder.file("a.h5");
     CheckpointHeader header = some_header();
     header.columns.add(SideColumn::spin);
-    const std::vector<Disc> mine = share(5000, world, 0);
+    const std::vector<DiscState> mine = share(5000, world, 0);
     const SideColumns columns = spins_of(mine);
     write_checkpoint(path, header, mine, world, {}, {}, columns.spans());
     const std::string good = bytes_of(path);

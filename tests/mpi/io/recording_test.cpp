@@ -18,8 +18,8 @@ using test::TestFolder;
 namespace {
 
 /// Numbers that are exact in single precision, different for every disc and step.
-Disc disc_at(DiscId id, std::int64_t step) {
-    Disc disc;
+DiscState disc_at(DiscId id, std::int64_t step) {
+    DiscState disc;
     disc.id = id;
     disc.tau = 0.5;
     disc.vx = 0.25 * static_cast<double>(id % 64);
@@ -31,18 +31,18 @@ Disc disc_at(DiscId id, std::int64_t step) {
     return disc;
 }
 
-double spin_of(const Disc& disc) { return disc.vx - 0.5; }
+double spin_of(const DiscState& disc) { return disc.vx - 0.5; }
 
-SideColumns spins_of(const std::vector<Disc>& discs) {
+SideColumns spins_of(const std::vector<DiscState>& discs) {
     std::vector<double> spins;
-    for (const Disc& disc : discs) spins.push_back(spin_of(disc));
+    for (const DiscState& disc : discs) spins.push_back(spin_of(disc));
     SideColumns columns;
     columns.add(SideColumn::spin, spins);
     return columns;
 }
 
-std::vector<Disc> share(std::uint64_t n, std::int64_t step, const Communicator& world) {
-    std::vector<Disc> mine;
+std::vector<DiscState> share(std::uint64_t n, std::int64_t step, const Communicator& world) {
+    std::vector<DiscState> mine;
     for (DiscId id = n; id-- > 0;)
         if ((id * 31 + static_cast<std::uint64_t>(step)) %
                 static_cast<std::uint64_t>(world.size()) ==
@@ -79,7 +79,7 @@ bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int6
         for (std::size_t frame = 0; is_right && frame < steps.size(); ++frame) {
             file.read(frame, 0, n, rows);
             for (DiscId id = 0; id < n; ++id) {
-                const Disc disc = disc_at(id, steps[frame]);
+                const DiscState disc = disc_at(id, steps[frame]);
                 const std::vector<double> wanted = {disc.x + disc.vx,
                                                     disc.y + disc.vy,
                                                     4 * disc.vx,
@@ -109,7 +109,7 @@ TEST_CASE("frames are read as they were given, in the order of ids") {
             if (!is_single) layout.columns.add(SideColumn::spin);
             Trajectory trajectory(path, layout, world);
             const auto append = [&](std::int64_t step) {
-                const std::vector<Disc> mine = share(n, step, world);
+                const std::vector<DiscState> mine = share(n, step, world);
                 const SideColumns columns = spins_of(mine);
                 trajectory.append(step, mine, 1.5, columns.spans());
             };

@@ -80,8 +80,8 @@ TestScene correlated_mixture(bool is_periodic) {
     return test;
 }
 
-Scene with_correlations(const TestScene& test, Method method) {
-    Scene scene = measured(test, method, sample_steps);
+SceneParameters with_correlations(const TestScene& test, Method method) {
+    SceneParameters scene = measured(test, method, sample_steps);
     scene.measurements->quantities = {"correlations"};
     scene.measurements->give("correlation_points", 4);
     scene.measurements->give("correlation_wavenumber", 0.7 / scene.radius);
@@ -95,13 +95,13 @@ TEST_CASE("measurements: correlations are those of frames, pair by pair") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const TestScene test = correlated_mixture(true);
-        const Scene scene = with_correlations(test, method);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = with_correlations(test, method);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         std::vector<SeenFrame> frames;
         for (int sample = 0; sample <= last_sample; ++sample) {
-            advance_to(simulation, sampler, sample_steps * sample);
-            frames.push_back(seen_discs(simulation, world));
+            advance_to(system, sampler, sample_steps * sample);
+            frames.push_back(seen_discs(system, world));
         }
         unwrap(frames, scene.box.x);
         const std::vector<MeasuredTable> tables = sampler.tables();
@@ -133,7 +133,7 @@ TEST_CASE("measurements: correlations go on between samples") {
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {true, false}) {
         const TestScene test = correlated_mixture(is_periodic);
-        const Scene scene = with_correlations(test, Method::event_driven);
+        const SceneParameters scene = with_correlations(test, Method::event_driven);
         check_going_on(scene, test, 75, test.steps, world);
     }
 }

@@ -39,8 +39,8 @@ std::vector<Case> cases() {
 }
 
 /// Samples at 5, 9, 13 ... Windows of three times four steps.
-Scene with_diffusion(const TestScene& test, Method method) {
-    Scene scene = measured(test, method, 4, 5);
+SceneParameters with_diffusion(const TestScene& test, Method method) {
+    SceneParameters scene = measured(test, method, 4, 5);
     MeasurementOutput& output = *scene.measurements;
     output.quantities = {"diffusion"};
     output.give("correlation_steps", 12);
@@ -62,10 +62,10 @@ struct Flying {
     double x = 0, y = 0, vx = 0, vy = 0;
 };
 
-std::vector<Flying> all_flying(const Simulation& simulation, const Communicator& world) {
+std::vector<Flying> all_flying(const DiscSystem& system, const Communicator& world) {
     std::vector<Flying> mine;
-    const double unit = simulation.velocity_unit(), time = simulation.clock();
-    for (const Disc& disc : simulation.shown())
+    const double unit = system.velocity_unit(), time = system.clock();
+    for (const DiscState& disc : system.shown())
         mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
     std::vector<std::vector<Flying>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<Flying> all = send_to_owners(world, out).items;
@@ -139,17 +139,17 @@ TEST_CASE("measurements: diffusion has the flights of all discs in windows") {
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = test_of(each);
-        const Scene scene = with_diffusion(test, each.method);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = with_diffusion(test, each.method);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         ByHand expected{scene.effects.is_periodic_x() ? scene.box.x : 0,
                         scene.effects.is_periodic_y() ? scene.box.y : 0,
                         std::vector<double>(150, 1)};
         if (!each.effects.species.empty())
             std::fill(expected.masses.begin() + 100, expected.masses.end(), 7.0);
         for (std::int64_t step = 5; step <= 60; ++step) {
-            advance_to(simulation, sampler, step);
-            expected.inspect(all_flying(simulation, world), static_cast<std::size_t>(step - 5));
+            advance_to(system, sampler, step);
+            expected.inspect(all_flying(system, world), static_cast<std::size_t>(step - 5));
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         const std::vector<double> squares = column_of(tables, "velocity_autocorrelation",
@@ -177,7 +177,7 @@ TEST_CASE("measurements: diffusion goes on from what was stored, within a window
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = test_of(each);
-        const Scene scene = with_diffusion(test, each.method);
+        const SceneParameters scene = with_diffusion(test, each.method);
         check_going_on(scene, test, 24, 60, world);
     }
 }
@@ -192,10 +192,10 @@ TEST_CASE("measurements: diffusion is the same for who sees all discs drift") {
             disc.vy -= drift / 2;
         }
         test.steps = 65;
-        const Scene scene = with_diffusion(test, Method::event_driven);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
-        advance_to(simulation, sampler, 65);
+        const SceneParameters scene = with_diffusion(test, Method::event_driven);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
+        advance_to(system, sampler, 65);
         return sampler.tables();
     };
     // So few steps that rounding, which grows with each collision, stays far below the bound.
@@ -219,13 +219,13 @@ TEST_CASE("measurements: a gas diffuses as Enskog's theory says") {
     TestScene test = gas(800, eta, 0.1, 80);
     test.setting.effects.boundaries.fill(seam);
     test.steps = 6100;
-    Scene scene = with_diffusion(test, Method::event_driven);
+    SceneParameters scene = with_diffusion(test, Method::event_driven);
     scene.measurements->every_steps = 2;
     scene.measurements->from_step = 100;
     scene.measurements->give("correlation_steps", 400);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 6100);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 6100);
     const std::vector<MeasuredTable> tables = sampler.tables();
     const std::vector<double> products = column_of(tables, "velocity_autocorrelation",
                                                    "velocities");

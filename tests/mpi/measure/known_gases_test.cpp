@@ -52,10 +52,10 @@ TEST_CASE("measurements: discs that do not meet are anywhere: g is 1") {
     TestScene test = gas(1500, 0.05, 1, 81);
     test.setting.effects.contact.kind = ContactKind::none;
     test.steps = 4000;
-    const Scene scene = measured(test, Method::event_driven, 400, 800);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 4000);
+    const SceneParameters scene = measured(test, Method::event_driven, 400, 800);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 4000);
     const std::vector<double> pairs = column_of(sampler.tables(), "radial_distribution", "pairs"),
                               g = column_of(sampler.tables(), "radial_distribution", "g");
     for (std::size_t k = 0; k < g.size(); ++k) {
@@ -72,13 +72,13 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
     const double eta = 0.2;
     TestScene test = gas(1000, eta, 0.2, 82);
     test.steps = 3000;
-    Scene scene = measured(test, Method::event_driven, 250, 500);
+    SceneParameters scene = measured(test, Method::event_driven, 250, 500);
     scene.measurements->give("bins", 120);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 3000);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 3000);
     const std::vector<MeasuredTable> tables = sampler.tables();
-    const Totals totals = simulation.totals();
+    const Totals totals = system.totals();
     const double n_samples = 11, n = 1000, kT = totals.kinetic_energy / n;
     const auto normal = [&](double v) { return 0.5 * std::erfc(-v / std::sqrt(2 * kT)); };
     const auto maxwell = [&](double v) { return 1 - std::exp(-v * v / (2 * kT)); };
@@ -119,11 +119,11 @@ TEST_CASE("measurements: the density over a thermal floor falls as the barometri
     test.setting.effects.gravity.y = -height;
     test.setting.sync_every = 16;
     test.steps = 100000;
-    Scene scene = measured(test, Method::event_driven, 100000, 6000);
+    SceneParameters scene = measured(test, Method::event_driven, 100000, 6000);
     scene.measurements->give("bins", 200);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 6000);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 6000);
     const double low = scene.radius, span = scene.box.x - 2 * scene.radius;
     const auto barometric = [&](double y) {
         const double h = std::clamp(y - low, 0.0, span) * height;
@@ -145,10 +145,10 @@ TEST_CASE("measurements: discs that meet nothing are displaced by their velociti
         squares += vx * vx + vy * vy;
     }
     test.setting.effects.contact.kind = ContactKind::none;
-    const Scene scene = measured(test, Method::time_stepped, 8);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 64);
+    const SceneParameters scene = measured(test, Method::time_stepped, 8);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 64);
     const std::vector<double> steps = column_of(sampler.tables(), "displacement", "steps"),
                               sums = column_of(sampler.tables(), "displacement", "sum");
     REQUIRE(steps.size() == 9);

@@ -18,9 +18,9 @@
 namespace carrom::test {
 
 /// Asks for the quantities that every box between walls has.
-inline Scene measured(const TestScene& test, Method method, std::int64_t every_steps,
-                      std::int64_t from_step = 0) {
-    Scene scene = scene_of(test);
+inline SceneParameters measured(const TestScene& test, Method method, std::int64_t every_steps,
+                                std::int64_t from_step = 0) {
+    SceneParameters scene = scene_of(test);
     scene.method = method;
     MeasurementOutput& output = scene.measurements.emplace();
     output.every_steps = every_steps;
@@ -33,8 +33,8 @@ inline Scene measured(const TestScene& test, Method method, std::int64_t every_s
 }
 
 /// The discs are dealt to the ranks by their ids, and run with all threads.
-inline Simulation simulation_of(const Scene& scene, const TestScene& test,
-                                const Communicator& world) {
+inline DiscSystem system_of(const SceneParameters& scene, const TestScene& test,
+                            const Communicator& world) {
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : test.discs)
         if (disc.id % static_cast<std::uint64_t>(world.size()) ==
@@ -47,10 +47,10 @@ inline Simulation simulation_of(const Scene& scene, const TestScene& test,
 }
 
 /// To that step, sampling on the way.
-inline void advance_to(Simulation& simulation, Sampler& sampler, std::int64_t step) {
+inline void advance_to(DiscSystem& system, Sampler& sampler, std::int64_t step) {
     sampler.sample_if_due();
-    while (simulation.step() < step) {
-        simulation.advance_towards(std::min(step, sampler.next_due(simulation.step())));
+    while (system.step() < step) {
+        system.advance_towards(std::min(step, sampler.next_due(system.step())));
         sampler.sample_if_due();
     }
 }
@@ -60,19 +60,19 @@ inline bool are_same(double a, double b) { return a == b || (std::isnan(a) && st
 
 /// Checks that a run that is stored at `stop` and goes on has the tables and averages at the end
 /// that it has without a stop.
-inline void check_going_on(const Scene& scene, const TestScene& test, std::int64_t stop,
+inline void check_going_on(const SceneParameters& scene, const TestScene& test, std::int64_t stop,
                            std::int64_t last, const Communicator& world) {
-    Simulation whole = simulation_of(scene, test, world);
+    DiscSystem whole = system_of(scene, test, world);
     Sampler whole_sampler(scene, whole, world);
     advance_to(whole, whole_sampler, last);
 
-    Simulation first = simulation_of(scene, test, world);
+    DiscSystem first = system_of(scene, test, world);
     Sampler first_sampler(scene, first, world);
     advance_to(first, first_sampler, stop);
     StoredState state = {{first.discs().begin(), first.discs().end()},
                          first.micro_steps_done(),
                          SideColumns(first.side_columns())};
-    Simulation second(scene, std::move(state), world, {});
+    DiscSystem second(scene, std::move(state), world, {});
     Sampler sampler(scene, second, world);
     sampler.go_on(first_sampler.stored());
     advance_to(second, sampler, last);
@@ -102,10 +102,10 @@ struct SeenDisc {
 };
 
 /// All discs, in the order of ids, on every rank.
-inline std::vector<SeenDisc> seen_discs(const Simulation& simulation, const Communicator& world) {
+inline std::vector<SeenDisc> seen_discs(const DiscSystem& system, const Communicator& world) {
     std::vector<SeenDisc> mine;
-    const double unit = simulation.velocity_unit(), time = simulation.clock();
-    for (const Disc& disc : simulation.shown())
+    const double unit = system.velocity_unit(), time = system.clock();
+    for (const DiscState& disc : system.shown())
         mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
     const std::vector<std::vector<SeenDisc>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<SeenDisc> all = send_to_owners(world, out).items;
@@ -114,7 +114,7 @@ inline std::vector<SeenDisc> seen_discs(const Simulation& simulation, const Comm
     return all;
 }
 
-inline void leave_out(Scene& scene, const std::string& quantity) {
+inline void leave_out(SceneParameters& scene, const std::string& quantity) {
     std::erase(scene.measurements->quantities, quantity);
 }
 

@@ -22,10 +22,10 @@ struct Seen {
 };
 
 /// All discs on every rank, ids ascending.
-std::vector<Seen> all_of(const Simulation& simulation, const Communicator& world) {
+std::vector<Seen> all_of(const DiscSystem& system, const Communicator& world) {
     std::vector<Seen> mine;
-    const double unit = simulation.velocity_unit(), time = simulation.clock();
-    for (const Disc& disc : simulation.shown())
+    const double unit = system.velocity_unit(), time = system.clock();
+    for (const DiscState& disc : system.shown())
         mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
     std::vector<std::vector<Seen>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<Seen> all = send_to_owners(world, out).items;
@@ -103,14 +103,14 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
         test.setting.micro_steps = 2;
         test.setting.sync_every = 24;
         test.steps = 60;
-        Scene scene = measured(test, each.method, 9, 5);
+        SceneParameters scene = measured(test, each.method, 9, 5);
         scene.measurements->give("largest_velocity", 1);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         ByHand expected;
         for (std::int64_t step = 5; step <= 60; step += 9) {
-            advance_to(simulation, sampler, step);
-            expected.add(all_of(simulation, world),
+            advance_to(system, sampler, step);
+            expected.add(all_of(system, world),
                          extent_at(scene.effects, scene.box, static_cast<double>(step)),
                          scene.measurements->settings.at("largest_distance").value, 1);
         }
@@ -135,23 +135,23 @@ TEST_CASE("measurements: with open sides, velocities and places of discs that ar
         test.setting.effects.boundaries[0] = test.setting.effects.boundaries[3] = {
             BoundaryKind::open, 1, 0, 0};
         test.steps = 60;
-        Scene scene = measured(test, method, 9, 5);
+        SceneParameters scene = measured(test, method, 9, 5);
         scene.measurements->give("largest_velocity", 1);
         scene.measurements->quantities = {"velocities", "density"};
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         ByHand expected;
         const double size = scene.box.x;
         std::size_t n_seen = 0;
         for (std::int64_t step = 5; step <= 60; step += 9) {
-            advance_to(simulation, sampler, step);
-            std::vector<Seen> discs = all_of(simulation, world);
+            advance_to(system, sampler, step);
+            std::vector<Seen> discs = all_of(system, world);
             std::erase_if(discs, [size](const Seen& disc) { return disc.x < 0 || disc.y > size; });
             expected.first.clear();
             expected.add(discs, {0, size, 0, size}, 1, 1);
             n_seen += discs.size();
         }
-        CHECK((simulation.totals().departed[0] > 10 && simulation.totals().departed[3] > 10));
+        CHECK((system.totals().departed[0] > 10 && system.totals().departed[3] > 10));
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "velocities", "vx_count") == expected.vx);
         CHECK(column_of(tables, "speeds", "count") == expected.speeds);
@@ -171,12 +171,12 @@ TEST_CASE("measurements: what walls have got is what discs have lost") {
         test.setting.sync_every = 16;
         test.steps = 80;
         if (each.effects.drag != 0) continue; // it takes momentum too
-        const Scene scene = measured(test, each.method, 8);
-        Simulation simulation = simulation_of(scene, test, world);
-        const Totals before = simulation.totals();
-        Sampler sampler(scene, simulation, world);
-        advance_to(simulation, sampler, 80);
-        const Totals after = simulation.totals();
+        const SceneParameters scene = measured(test, each.method, 8);
+        DiscSystem system = system_of(scene, test, world);
+        const Totals before = system.totals();
+        Sampler sampler(scene, system, world);
+        advance_to(system, sampler, 80);
+        const Totals after = system.totals();
         const auto n = static_cast<double>(after.n_discs);
         const auto impulse = [&, tables = sampler.tables()](const char* side) {
             const bool is_upright = side[0] == 'l' ||
@@ -215,7 +215,7 @@ TEST_CASE("measurements: a run that stores them and goes on has the same tables"
         test.setting.effects = each.effects;
         test.setting.sync_every = 16;
         test.steps = 50;
-        const Scene scene = measured(test, each.method, 7);
+        const SceneParameters scene = measured(test, each.method, 7);
         check_going_on(scene, test, 31, 50, world); // between samples, and between syncs
     }
 }
@@ -224,13 +224,13 @@ TEST_CASE(
     "measurements: sums of other keys are refused, and left aside where measuring begins later") {
     const Communicator world = Communicator::world();
     const TestScene test = gas(50, 0.1, 0.5, 74);
-    const Scene scene = measured(test, Method::event_driven, 2);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 6);
-    Scene other = scene;
+    const SceneParameters scene = measured(test, Method::event_driven, 2);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 6);
+    SceneParameters other = scene;
     other.measurements->every_steps = 3;
-    Simulation same = simulation_of(other, test, world);
+    DiscSystem same = system_of(other, test, world);
     while (same.step() < 6) same.advance_towards(6);
     Sampler finer(other, same, world);
     CHECK_THROWS_AS(finer.go_on(sampler.stored()), InputError);

@@ -63,8 +63,8 @@ TestScene test_of(const Case& each) {
     return test;
 }
 
-Scene with_psi6(const TestScene& test, Method method) {
-    Scene scene = measured(test, method, 9, 5);
+SceneParameters with_psi6(const TestScene& test, Method method) {
+    SceneParameters scene = measured(test, method, 9, 5);
     MeasurementOutput& output = *scene.measurements;
     output.quantities = {"radial_distribution", "psi6", "thermo"};
     output.give("largest_distance", std::min({output.settings["largest_distance"].value,
@@ -78,10 +78,10 @@ struct Point {
     double squared_radius = 0; ///< 0 if all are equal
 };
 
-std::vector<Point> all_points(const Simulation& simulation, const Communicator& world) {
+std::vector<Point> all_points(const DiscSystem& system, const Communicator& world) {
     std::vector<Point> mine;
-    for (const Disc& disc : simulation.shown())
-        mine.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock())});
+    for (const DiscState& disc : system.shown())
+        mine.push_back({disc.id, disc.x_at(system.clock()), disc.y_at(system.clock())});
     std::vector<std::vector<Point>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<Point> all = send_to_owners(world, out).items;
     std::sort(all.begin(), all.end(), [](const Point& a, const Point& b) { return a.id < b.id; });
@@ -166,7 +166,7 @@ struct ByHand {
     std::vector<double> psi6, neighbours = std::vector<double>(13, 0),
                               moduli = std::vector<double>(20, 0), pairs = moduli, g6 = moduli;
 
-    void add(const std::vector<Point>& points, const Extent& box, const Scene& scene) {
+    void add(const std::vector<Point>& points, const Extent& box, const SceneParameters& scene) {
         const bool x = scene.effects.is_periodic_x(), y = scene.effects.is_periodic_y();
         const auto orders = Bisectors(points, box, x, y).psi6(neighbours);
         std::complex<double> all = 0;
@@ -197,13 +197,13 @@ TEST_CASE("measurements: psi6 and neighbours are those of bisectors of all pairs
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = test_of(each);
-        const Scene scene = with_psi6(test, each.method);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = with_psi6(test, each.method);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         ByHand expected;
         for (std::int64_t step = 5; step <= 60; step += 9) {
-            advance_to(simulation, sampler, step);
-            std::vector<Point> points = all_points(simulation, world);
+            advance_to(system, sampler, step);
+            std::vector<Point> points = all_points(system, world);
             set_radii(points, scene.effects, static_cast<double>(step));
             expected.add(points, extent_at(scene.effects, scene.box, static_cast<double>(step)),
                          scene);
@@ -234,18 +234,18 @@ TEST_CASE("measurements: the structure factor is that of sums over all discs") {
     const Communicator world = Communicator::world();
     const Case each = cases().back();
     const TestScene test = test_of(each);
-    Scene scene = with_psi6(test, each.method);
+    SceneParameters scene = with_psi6(test, each.method);
     leave_out(scene, "psi6");
     scene.measurements->quantities.push_back("structure_factor");
     const double kx = 2 * std::numbers::pi / scene.box.x, ky = 2 * std::numbers::pi / scene.box.y,
                  largest = 8.7 * kx, n_discs = static_cast<double>(each.n_discs);
     scene.measurements->give("largest_wavenumber", largest);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
     std::vector<double> sums(20, 0), counts(20, 0);
     double highest = 0;
-    advance_to(simulation, sampler, 5);
-    const std::vector<Point> points = all_points(simulation, world);
+    advance_to(system, sampler, 5);
+    const std::vector<Point> points = all_points(system, world);
     for (int n = -9; n <= 9; ++n) {
         for (int m = -14; m <= 14; ++m) {
             const double k = std::hypot(kx * n, ky * m);
@@ -270,7 +270,7 @@ TEST_CASE("measurements: psi6 goes on from what was stored, to the same tables")
     const Communicator world = Communicator::world();
     const Case each = cases()[1];
     const TestScene test = test_of(each);
-    const Scene scene = with_psi6(test, each.method);
+    const SceneParameters scene = with_psi6(test, each.method);
     check_going_on(scene, test, 33, 60, world);
 }
 
@@ -279,9 +279,9 @@ TEST_CASE("measurements: in a square lattice psi6 is 0, each disc with four neig
     TestScene test = lattice(12, 1.5);
     test.setting.effects.boundaries.fill(repeated);
     test.setting.box_size = 12 * 1.5;
-    const Scene scene = scene_of(test);
-    const Simulation simulation = simulation_of(scene, test, world);
-    const HexaticSums sums = simulation.hexatic_order(5, 10);
+    const SceneParameters scene = scene_of(test);
+    const DiscSystem system = system_of(scene, test, world);
+    const HexaticSums sums = system.hexatic_order(5, 10);
     CHECK(sums.neighbours[4] == 144);
     CHECK(sums.modulus.value() == Approx(0).margin(1e-12));
 }
@@ -294,9 +294,9 @@ TEST_CASE("measurements: in a triangular lattice without end psi6 is 1") {
     for (int row = 0; row < 14; ++row)
         for (int k = 0; k < 12; ++k)
             add_disc(test, 0.1 + k + 0.5 * (row % 2), 0.1 + row * std::sqrt(0.75));
-    const Scene scene = scene_of(test);
-    const Simulation simulation = simulation_of(scene, test, world);
-    const HexaticSums sums = simulation.hexatic_order(5, 10);
+    const SceneParameters scene = scene_of(test);
+    const DiscSystem system = system_of(scene, test, world);
+    const HexaticSums sums = system.hexatic_order(5, 10);
     CHECK(sums.neighbours[6] == 12 * 14);
     CHECK(sums.real.value() == Approx(12 * 14).epsilon(1e-13));
     CHECK(sums.imaginary.value() == Approx(0).margin(1e-10));
@@ -312,9 +312,9 @@ TEST_CASE("measurements: in a piece of a triangular lattice psi6 is 1 inside") {
     for (int row = 0; row < 11; ++row)
         for (int k = 0; k < 11; ++k)
             add_disc(test, 20 + k + 0.5 * (row % 2), 20 + row * std::sqrt(0.75));
-    const Scene scene = scene_of(test);
-    const Simulation simulation = simulation_of(scene, test, world);
-    const HexaticSums sums = simulation.hexatic_order(1.5, 1000);
+    const SceneParameters scene = scene_of(test);
+    const DiscSystem system = system_of(scene, test, world);
+    const HexaticSums sums = system.hexatic_order(1.5, 1000);
     CHECK(sums.neighbours[6] >= 81); // those inside
     CHECK(sums.moduli.back() >= 81); // from 0.999 on
     std::vector<Point> points;

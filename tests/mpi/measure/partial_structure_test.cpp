@@ -27,8 +27,8 @@ TestScene mixed_gas() {
     return test;
 }
 
-Scene with_waves(const TestScene& test, double largest) {
-    Scene scene = measured(test, Method::event_driven, 5, 5);
+SceneParameters with_waves(const TestScene& test, double largest) {
+    SceneParameters scene = measured(test, Method::event_driven, 5, 5);
     scene.measurements->quantities = {"partial_structure_factor", "structure_factor"};
     scene.measurements->give("largest_wavenumber", largest);
     return scene;
@@ -69,13 +69,13 @@ TEST_CASE("measurements: partial structure factors are those of sums over all di
     const Communicator world = Communicator::world();
     const TestScene test = mixed_gas();
     const double largest = 8.7 * 2 * std::numbers::pi / test.setting.box_size;
-    const Scene scene = with_waves(test, largest);
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
+    const SceneParameters scene = with_waves(test, largest);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
     ByHand expected;
     for (std::int64_t step = 5; step <= 20; step += 5) {
-        advance_to(simulation, sampler, step);
-        expected.add(seen_discs(simulation, world), scene.box, largest);
+        advance_to(system, sampler, step);
+        expected.add(seen_discs(system, world), scene.box, largest);
     }
     const std::vector<MeasuredTable> tables = sampler.tables();
     const std::vector<double> all = column_of(tables, "structure_factor", "S");

@@ -59,9 +59,9 @@ TestScene fast_gas(const Effects& effects) {
     return test;
 }
 
-Scene measured_around(const TestScene& test, Method method, std::int64_t every_steps,
-                      std::int64_t from_step) {
-    Scene scene = measured(test, method, every_steps, from_step);
+SceneParameters measured_around(const TestScene& test, Method method, std::int64_t every_steps,
+                                std::int64_t from_step) {
+    SceneParameters scene = measured(test, method, every_steps, from_step);
     if (scene.effects.is_periodic_y()) leave_out(scene, "wall_pressure");
     return scene;
 }
@@ -71,10 +71,10 @@ struct Seen {
     double x = 0, y = 0;
 };
 
-std::vector<Seen> all_of(const Simulation& simulation, const Communicator& world) {
+std::vector<Seen> all_of(const DiscSystem& system, const Communicator& world) {
     std::vector<Seen> mine;
-    for (const Disc& disc : simulation.shown())
-        mine.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock())});
+    for (const DiscState& disc : system.shown())
+        mine.push_back({disc.id, disc.x_at(system.clock()), disc.y_at(system.clock())});
     std::vector<std::vector<Seen>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<Seen> all = send_to_owners(world, out).items;
     std::sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.id < b.id; });
@@ -143,7 +143,7 @@ struct ByHand {
 
 /// g of two species, as in "1_2": pairs over those of points, a ring's area over the box's, for
 /// each sample.
-void check_g(const Scene& scene, const std::vector<MeasuredTable>& tables,
+void check_g(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
              const std::string& species, const std::vector<double>& counted,
              std::size_t n_samples) {
     const auto count_of = [](char name) { return name == '1' ? 40.0 : name == '2' ? 60.0 : 50.0; };
@@ -169,16 +169,16 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = fast_gas(each.effects);
-        const Scene scene = measured_around(test, each.method, 9, 5);
+        const SceneParameters scene = measured_around(test, each.method, 9, 5);
         const double period_y = scene.effects.is_periodic_y() ? scene.box.x : 0;
         ByHand by_hand{scene.box.x, period_y,
                        scene.measurements->settings.at("largest_distance").value};
         by_hand.is_mixed = scene.effects.species.size() == 3;
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         for (std::int64_t step = 5; step <= 64; ++step) {
-            advance_to(simulation, sampler, step);
-            by_hand.add(all_of(simulation, world), (step - 5) % 9 == 0);
+            advance_to(system, sampler, step);
+            by_hand.add(all_of(system, world), (step - 5) % 9 == 0);
         }
         const std::vector<double>& squares = by_hand.squares;
         CHECK(by_hand.farthest > scene.box.x);
@@ -211,7 +211,7 @@ TEST_CASE("measurements: discs that do not meet have the displacement v t from t
     effects.contact.kind = ContactKind::none;
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const TestScene test = fast_gas(effects);
-        const Scene scene = measured_around(test, method, 16, 0);
+        const SceneParameters scene = measured_around(test, method, 16, 0);
         long double mean_square = 0, x = 0, y = 0;
         for (const InputDisc& disc : test.discs) {
             x += disc.vx / static_cast<long double>(test.discs.size());
@@ -220,9 +220,9 @@ TEST_CASE("measurements: discs that do not meet have the displacement v t from t
         for (const InputDisc& disc : test.discs)
             mean_square += (disc.vx - x) * (disc.vx - x) + (disc.vy - y) * (disc.vy - y);
         mean_square /= static_cast<long double>(test.discs.size());
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
-        advance_to(simulation, sampler, 64);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
+        advance_to(system, sampler, 64);
         const std::vector<double> steps = column_of(sampler.tables(), "displacement", "steps"),
                                   sum = column_of(sampler.tables(), "displacement", "sum");
         REQUIRE(sum.size() == 5);
@@ -238,7 +238,7 @@ TEST_CASE(
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = fast_gas(each.effects);
-        const Scene scene = measured_around(test, each.method, 7, 3);
+        const SceneParameters scene = measured_around(test, each.method, 7, 3);
         check_going_on(scene, test, 33, 64, world); // between samples, and between syncs
     }
 }
@@ -253,13 +253,13 @@ TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's p
         test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
         if (!has_contacts) test.setting.effects.contact.kind = ContactKind::none;
         test.steps = 1600;
-        Scene scene = measured_around(test, Method::event_driven, 4, 100);
+        SceneParameters scene = measured_around(test, Method::event_driven, 4, 100);
         scene.measurements->give("bins", 60);
         scene.measurements->give("largest_distance",
                                  2.4); // diameters of 2: bins 50 to 54 are 2 to 2.2
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
-        advance_to(simulation, sampler, 1600);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
+        advance_to(system, sampler, 1600);
         const std::vector<double> g = column_of(sampler.tables(), "radial_distribution", "g");
         double mean = 0, slope = 0;
         for (std::size_t k = 0; k < 5; ++k) {

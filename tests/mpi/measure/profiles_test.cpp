@@ -52,8 +52,8 @@ std::vector<double> row_of_cell(const ProfileCell& cell, double area, double n_s
             heat_y * per_area};
 }
 
-Scene with_profiles(const TestScene& test, Method method) {
-    Scene scene = measured(test, method, 5, 3);
+SceneParameters with_profiles(const TestScene& test, Method method) {
+    SceneParameters scene = measured(test, method, 5, 3);
     scene.measurements->quantities = {"profiles"};
     scene.measurements->give("profile_columns", n_x);
     scene.measurements->give("profile_rows", n_y);
@@ -75,16 +75,16 @@ TEST_CASE("measurements: profiles are what the discs of each cell give") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const TestScene test = profiled_mixture();
-        const Scene scene = with_profiles(test, method);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = with_profiles(test, method);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         std::vector<std::vector<double>> expected;
         std::vector<ProfileCell> cells(n_x * n_y);
         std::size_t n_samples = 0;
         for (std::int64_t step = 0; step <= 40; ++step) {
-            advance_to(simulation, sampler, step);
+            advance_to(system, sampler, step);
             if (step < 3 || (step - 3) % 5 != 0) continue;
-            for (const SeenDisc& disc : seen_discs(simulation, world)) {
+            for (const SeenDisc& disc : seen_discs(system, world)) {
                 const auto column = static_cast<std::size_t>(disc.x / scene.box.x * n_x),
                            row = static_cast<std::size_t>(disc.y / scene.box.y * n_y);
                 cells[row * n_x + column].discs.push_back(disc);
@@ -167,19 +167,19 @@ TEST_CASE("measurements: collisions' stress is shared along the line between cen
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene test = profiled_mixture();
         for (Boundary& side : test.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
-        Scene scene = with_profiles(test, method);
+        SceneParameters scene = with_profiles(test, method);
         scene.measurements->give("profile_columns", 13);
         scene.measurements->give("profile_rows", 22); // some are lower than a radius
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
-        advance_to(simulation, sampler, 13);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
+        advance_to(system, sampler, 13);
         Recorded recorded;
-        simulation.follow_pairs(recorded);
+        system.follow_pairs(recorded);
         std::vector<Collision> log;
-        simulation.log_to(&log);
-        advance_to(simulation, sampler, 28);
-        simulation.log_to(nullptr);
-        simulation.forget(recorded);
+        system.log_to(&log);
+        advance_to(system, sampler, 28);
+        system.log_to(nullptr);
+        system.forget(recorded);
         std::vector<double> impulses, logged_impulses;
         for (const PairEvent& event : recorded.events)
             impulses.push_back(std::hypot(event.ix, event.iy));
@@ -221,14 +221,14 @@ TEST_CASE("measurements: collisions' stress is shared along the line between cen
 /// The same run on another grid.
 std::vector<MeasuredTable> profiles_on(const TestScene& test, Method method, double columns,
                                        double rows, const Communicator& world) {
-    Scene scene = with_profiles(test, method);
+    SceneParameters scene = with_profiles(test, method);
     scene.measurements->give("profile_columns", columns);
     scene.measurements->give("profile_rows", rows);
     scene.measurements->give("profile_species", 1);
     scene.measurements->quantities = {"profiles", "pressure"};
-    Simulation simulation = simulation_of(scene, test, world);
-    Sampler sampler(scene, simulation, world);
-    advance_to(simulation, sampler, 33);
+    DiscSystem system = system_of(scene, test, world);
+    Sampler sampler(scene, system, world);
+    advance_to(system, sampler, 33);
     return sampler.tables();
 }
 
@@ -270,7 +270,7 @@ TEST_CASE("measurements: any grid of profiles adds up to the same totals") {
 TEST_CASE("measurements: profiles go on inside a block") {
     const Communicator world = Communicator::world();
     const TestScene test = profiled_mixture();
-    const Scene scene = with_profiles(test, Method::event_driven);
+    const SceneParameters scene = with_profiles(test, Method::event_driven);
     // One sample of the second block has been taken at the stop.
     check_going_on(scene, test, 21, 40, world);
 }

@@ -40,8 +40,8 @@ TestScene test_of(const Case& each) {
     return test;
 }
 
-Scene with_thermo(const TestScene& test, const Case& each) {
-    Scene scene = measured(test, each.method, 9, 5);
+SceneParameters with_thermo(const TestScene& test, const Case& each) {
+    SceneParameters scene = measured(test, each.method, 9, 5);
     MeasurementOutput& output = *scene.measurements;
     output.quantities = {"pressure", "thermo"};
     return scene;
@@ -54,13 +54,13 @@ TEST_CASE("measurements: thermo has the run's energy, collisions and pressure at
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = test_of(each);
-        const Scene scene = with_thermo(test, each);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = with_thermo(test, each);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         std::vector<double> energies, pairs;
         for (std::int64_t step = 5; step <= 60; step += 9) {
-            advance_to(simulation, sampler, step);
-            const Totals totals = simulation.totals();
+            advance_to(system, sampler, step);
+            const Totals totals = system.totals();
             energies.push_back(totals.kinetic_energy + totals.rotational_energy +
                                totals.potential_energy);
             pairs.push_back(static_cast<double>(totals.pair_collisions));
@@ -101,7 +101,7 @@ TEST_CASE("measurements: thermo goes on from what was stored, to the same rows")
         if (each.effects.contact.kind == ContactKind::rough) continue; // spins take more to store
         INFO(each.name);
         const TestScene test = test_of(each);
-        Scene scene = with_thermo(test, each);
+        SceneParameters scene = with_thermo(test, each);
         leave_out(scene, "pressure");
         check_going_on(scene, test, 33, 60, world);
     }

@@ -28,8 +28,8 @@ TestScene cluster() {
     return test;
 }
 
-Scene with_transport(const TestScene& test, Method method) {
-    Scene scene = measured(test, method, 5);
+SceneParameters with_transport(const TestScene& test, Method method) {
+    SceneParameters scene = measured(test, method, 5);
     scene.measurements->quantities = {"transport"};
     scene.measurements->give("correlation_points", 4);
     return scene;
@@ -59,17 +59,17 @@ TEST_CASE("measurements: transport is the spread of Helfand's moments") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const TestScene test = cluster();
-        const Scene scene = with_transport(test, method);
-        Simulation simulation = simulation_of(scene, test, world);
-        Sampler sampler(scene, simulation, world);
+        const SceneParameters scene = with_transport(test, method);
+        DiscSystem system = system_of(scene, test, world);
+        Sampler sampler(scene, system, world);
         std::vector<Moments> moments;
         double ux = 0, uy = 0, kinetic = 0;
         for (int sample = 0; sample <= 20; ++sample) {
-            advance_to(simulation, sampler, 5 * sample);
-            moments.push_back(moments_of(seen_discs(simulation, world)));
+            advance_to(system, sampler, 5 * sample);
+            moments.push_back(moments_of(seen_discs(system, world)));
         }
-        REQUIRE(simulation.totals().pair_collisions > 200);
-        const std::vector<SeenDisc> last = seen_discs(simulation, world);
+        REQUIRE(system.totals().pair_collisions > 200);
+        const std::vector<SeenDisc> last = seen_discs(system, world);
         const double n = static_cast<double>(last.size()), area = scene.box.area();
         for (const SeenDisc& disc : last) {
             ux += disc.vx / n, uy += disc.vy / n;
@@ -107,6 +107,6 @@ TEST_CASE("measurements: transport is the spread of Helfand's moments") {
 TEST_CASE("measurements: transport goes on between samples") {
     const Communicator world = Communicator::world();
     const TestScene test = cluster();
-    const Scene scene = with_transport(test, Method::event_driven);
+    const SceneParameters scene = with_transport(test, Method::event_driven);
     check_going_on(scene, test, 53, 100, world);
 }

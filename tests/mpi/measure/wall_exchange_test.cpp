@@ -47,8 +47,8 @@ TestScene between_walls(double gravity) {
     return test;
 }
 
-Scene with_exchange(const TestScene& test, Method method) {
-    Scene scene = measured(test, method, 5);
+SceneParameters with_exchange(const TestScene& test, Method method) {
+    SceneParameters scene = measured(test, method, 5);
     scene.measurements->quantities = {"wall_exchange", "wall_pressure"};
     return scene;
 }
@@ -60,14 +60,14 @@ TEST_CASE("measurements: walls give what the discs gain") {
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         for (const double gravity : {0.0, pull}) {
             const TestScene test = between_walls(gravity);
-            const Scene scene = with_exchange(test, method);
-            Simulation simulation = simulation_of(scene, test, world);
-            Sampler sampler(scene, simulation, world);
-            advance_to(simulation, sampler, 0);
-            std::vector<Balance> seen = {balance_of(seen_discs(simulation, world), gravity)};
+            const SceneParameters scene = with_exchange(test, method);
+            DiscSystem system = system_of(scene, test, world);
+            Sampler sampler(scene, system, world);
+            advance_to(system, sampler, 0);
+            std::vector<Balance> seen = {balance_of(seen_discs(system, world), gravity)};
             for (int sample = 1; sample <= 12; ++sample) {
-                advance_to(simulation, sampler, 5 * sample);
-                seen.push_back(balance_of(seen_discs(simulation, world), gravity));
+                advance_to(system, sampler, 5 * sample);
+                seen.push_back(balance_of(seen_discs(system, world), gravity));
             }
             const std::vector<MeasuredTable> tables = sampler.tables();
             const std::vector<std::vector<double>>
@@ -106,15 +106,15 @@ TEST_CASE("measurements: walls give what the discs gain") {
 TEST_CASE("measurements: the exchange with walls goes on between samples") {
     const Communicator world = Communicator::world();
     const TestScene test = between_walls(pull);
-    const Scene scene = with_exchange(test, Method::event_driven);
-    Simulation whole = simulation_of(scene, test, world);
+    const SceneParameters scene = with_exchange(test, Method::event_driven);
+    DiscSystem whole = system_of(scene, test, world);
     Sampler whole_sampler(scene, whole, world);
     advance_to(whole, whole_sampler, 60);
-    Simulation first = simulation_of(scene, test, world);
+    DiscSystem first = system_of(scene, test, world);
     Sampler first_sampler(scene, first, world);
     advance_to(first, first_sampler, 33);
     StoredState state{{first.discs().begin(), first.discs().end()}, first.micro_steps_done()};
-    Simulation second(scene, std::move(state), world, {});
+    DiscSystem second(scene, std::move(state), world, {});
     Sampler sampler(scene, second, world);
     sampler.go_on(first_sampler.stored());
     advance_to(second, sampler, 60);

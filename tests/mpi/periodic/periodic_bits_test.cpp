@@ -170,7 +170,7 @@ TEST_CASE("periodic: discs of equal species, and smooth ones, are equal discs to
             CHECK(mixed.rejected_candidates == equal.rejected_candidates);
             CHECK(mixed.kinetic_energy == Approx(0.3 * equal.kinetic_energy).epsilon(1e-14));
             scene.setting.effects.contact = rough(1, -1, 0.5);
-            Simulation smooth = simulation_of(scene, method, world);
+            DiscSystem smooth = system_of(scene, method, world);
             advance_to(smooth, scene.steps);
             StateHash hash = hash_of(smooth.discs());
             std::array<std::uint64_t, 2> sums{hash.low, hash.high};

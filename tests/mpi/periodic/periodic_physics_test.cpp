@@ -28,24 +28,22 @@ TestScene periodic_gas(std::size_t n, double packing, double speed, std::uint64_
 /// **Collective.**
 double compressibility(std::size_t n, double packing, double n_collisions,
                        const Communicator& world) {
-    Simulation simulation = simulation_of(periodic_gas(n, packing, 0.5, 911), Method::event_driven,
-                                          world);
+    DiscSystem system = system_of(periodic_gas(n, packing, 0.5, 911), Method::event_driven, world);
     const auto run_until = [&](double wanted) {
-        while (static_cast<double>(simulation.totals().pair_collisions) < wanted)
-            advance_to(simulation, simulation.step() + 16);
+        while (static_cast<double>(system.totals().pair_collisions) < wanted)
+            advance_to(system, system.step() + 16);
     };
     run_until(n_collisions);
     std::vector<Collision> log;
-    const std::int64_t begin = simulation.step();
-    simulation.log_to(&log);
+    const std::int64_t begin = system.step();
+    system.log_to(&log);
     run_until(5 * n_collisions);
     double impulse = 0;
     for (const Collision& collision : log) impulse += collision.impulse;
     double sum = 0;
     for (const double part : world.all_gather(impulse)) sum += part;
-    const Totals totals = simulation.totals();
-    const auto count = static_cast<double>(n),
-               time = static_cast<double>(simulation.step() - begin);
+    const Totals totals = system.totals();
+    const auto count = static_cast<double>(n), time = static_cast<double>(system.step() - begin);
     const double together = (totals.momentum_x * totals.momentum_x +
                              totals.momentum_y * totals.momentum_y) /
                             (2 * count);
@@ -61,10 +59,10 @@ TEST_CASE("periodic: momentum and energy are conserved to rounding under both me
         TestScene scene = periodic_gas(200, 0.4, 0.5, 901);
         for (InputDisc& disc : scene.discs) disc.vx += 0.25;
         scene.steps = 200;
-        Simulation simulation = simulation_of(scene, method, world);
-        const Totals start = simulation.totals();
-        advance_to(simulation, scene.steps);
-        const Totals end = simulation.totals();
+        DiscSystem system = system_of(scene, method, world);
+        const Totals start = system.totals();
+        advance_to(system, scene.steps);
+        const Totals end = system.totals();
         const auto n = static_cast<double>(end.pair_collisions);
         CHECK(n > 5000);
         CHECK(end.wall_collisions == 0);
@@ -93,22 +91,22 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
         x += scene.setting.mass_of(disc.id) * disc.vx,
             y += scene.setting.mass_of(disc.id) * disc.vy;
     for (InputDisc& disc : scene.discs) disc.vx -= x / mass, disc.vy -= y / mass;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
-    const Totals start = simulation.totals();
-    advance_to(simulation, 120);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
+    const Totals start = system.totals();
+    advance_to(system, 120);
     constexpr int n_samples = 20;
     std::array<double, 3> energies{}; // of the species' flight, of spins
     for (int sample = 0; sample < n_samples; ++sample) {
-        advance_to(simulation, simulation.step() + 20);
-        for (const Disc& disc : simulation.discs())
+        advance_to(system, system.step() + 20);
+        for (const DiscState& disc : system.discs())
             energies[disc.id < 60 ? 0 : 1] += 0.5 * scene.setting.mass_of(disc.id) *
                                               (disc.vx * disc.vx + disc.vy * disc.vy) / n_samples;
-        energies[2] += simulation.totals().rotational_energy / world.size() / n_samples;
+        energies[2] += system.totals().rotational_energy / world.size() / n_samples;
     }
     std::array<double, 3> sums{};
     for (const auto& part : world.all_gather(energies))
         for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k];
-    const Totals end = simulation.totals();
+    const Totals end = system.totals();
     CHECK(end.pair_collisions > 4000);
     CHECK(end.kinetic_energy + end.rotational_energy ==
           Approx(start.kinetic_energy).epsilon(1e-12));
@@ -131,20 +129,20 @@ TEST_CASE("periodic: a disc alone flies on, and comes in where it has left") {
         TestScene scene = empty_scene("one disc", 10, 1, 400);
         add_disc(scene, 9.5, 0.5, 1.75, -0.3);
         for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
-        Simulation simulation = simulation_of(scene, method, world);
+        DiscSystem system = system_of(scene, method, world);
         for (const std::int64_t step : {3, 64, 200, 400}) {
-            advance_to(simulation, step);
+            advance_to(system, step);
             const auto inside = [](long double place) {
                 return static_cast<double>(place - 10 * std::floor(place / 10));
             };
-            for (const Disc& disc : simulation.shown()) {
+            for (const DiscState& disc : system.shown()) {
                 const auto t = static_cast<long double>(step);
                 CHECK(disc.x == Approx(inside(9.5L + 1.75L * t)).margin(1e-12));
                 CHECK(disc.y ==
                       Approx(inside(0.5L - static_cast<long double>(0.3) * t)).margin(1e-12));
             }
         }
-        CHECK(simulation.totals().pair_collisions == 0);
+        CHECK(system.totals().pair_collisions == 0);
     }
 }
 

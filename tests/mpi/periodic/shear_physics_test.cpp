@@ -42,8 +42,8 @@ TestScene flowing_gas(std::size_t n, double packing, double rate, double restitu
 }
 
 Averages averages_of(const TestScene& scene, Method method, const Communicator& world) {
-    Simulation simulation = simulation_of(scene, method, world);
-    Averaging averaging(scene, simulation, world);
+    DiscSystem system = system_of(scene, method, world);
+    Averaging averaging(scene, system, world);
     averaging.advance_to(scene.steps);
     return averaging.averages();
 }
@@ -103,12 +103,12 @@ TEST_CASE("shear: the profile of velocities is a line") {
     if (is_left_to_small_shapes(world)) return;
     TestScene scene = flowing_gas(1000, 0.3, 0.5, 0.9);
     scene.steps = 2000;
-    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    DiscSystem system = system_of(scene, Method::event_driven, world);
     const double height = scene.setting.box().y, rate = scene.setting.effects.shear;
     std::array<double, 10> sums{}, squares{}, counts{};
     for (std::int64_t step = 500; step <= scene.steps; step += 50) {
-        advance_to(simulation, step);
-        for (const Disc& disc : simulation.shown()) {
+        advance_to(system, step);
+        for (const DiscState& disc : system.shown()) {
             const auto layer = std::min<std::size_t>(
                 9, static_cast<std::size_t>(10 * disc.y / height));
             const double over = disc.vx - rate * (disc.y - height / 2);

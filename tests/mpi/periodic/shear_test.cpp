@@ -94,10 +94,10 @@ TEST_CASE("shear: a disc at rest is struck by an image that its row carries alon
         const double half = std::sqrt(2.0); // of the separation when they touch, after 2 steps
         add_disc(scene, 10, 19, 0, 0);
         add_disc(scene, 10 - half - 2, 19 + half - 20, 0, 0);
-        Simulation simulation = simulation_of(scene, method, world);
-        advance_to(simulation, 3);
-        CHECK(simulation.totals().pair_collisions == 1);
-        for (const Disc& disc : simulation.discs()) {
+        DiscSystem system = system_of(scene, method, world);
+        advance_to(system, 3);
+        CHECK(system.totals().pair_collisions == 1);
+        for (const DiscState& disc : system.discs()) {
             CHECK(disc.vx == Approx(disc.id == 0 ? 0.5 : -0.5).epsilon(1e-12));
             CHECK(disc.vy == Approx(disc.id == 0 ? -0.5 : 0.5).epsilon(1e-12));
         }

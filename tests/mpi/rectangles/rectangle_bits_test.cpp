@@ -16,17 +16,17 @@ using namespace carrom::test;
 namespace {
 
 struct State {
-    Disc disc;
+    DiscState disc;
     double spin = 0;
 };
 
 /// By id, on every rank. **Collective.**
 std::vector<State> states_of(const TestScene& scene, Method method, const Communicator& world) {
-    Simulation simulation = simulation_of(scene, method, world);
-    advance_to(simulation, scene.steps);
+    DiscSystem system = system_of(scene, method, world);
+    advance_to(system, scene.steps);
     std::vector<State> mine, all;
-    for (const Disc& disc : simulation.discs()) mine.push_back({disc, 0});
-    const std::span<const double> spins = simulation.spins();
+    for (const DiscState& disc : system.discs()) mine.push_back({disc, 0});
+    const std::span<const double> spins = system.spins();
     for (std::size_t i = 0; i < spins.size(); ++i) mine[i].spin = spins[i];
     stream_to_root(
         world, std::span<const State>(mine),
@@ -40,7 +40,7 @@ std::vector<State> states_of(const TestScene& scene, Method method, const Commun
 
 /// A mirror at the diagonal turns spins round.
 bool are_turned(const State& a, const State& b) {
-    const Disc &p = a.disc, &q = b.disc;
+    const DiscState &p = a.disc, &q = b.disc;
     return p.x == q.y && p.y == q.x && p.vx == q.vy && p.vy == q.vx && p.tau == q.tau &&
            p.pair_collisions == q.pair_collisions && p.wall_collisions == q.wall_collisions &&
            p.is_departed == q.is_departed && a.spin == -b.spin;

@@ -19,8 +19,8 @@ constexpr double packing = 0.3;
 /// Z at that packing fraction: the virial series to B10, whose last terms are below 1e-4.
 constexpr double known_z = 2.06316;
 
-Scene periodic_gas(const Box& shape, std::uint64_t n) {
-    Scene scene;
+SceneParameters periodic_gas(const Box& shape, std::uint64_t n) {
+    SceneParameters scene;
     scene.name = "gas";
     const double scale = std::sqrt(static_cast<double>(n) * std::numbers::pi / packing);
     scene.box = {scale * shape.x, scale * shape.y};
@@ -32,19 +32,19 @@ Scene periodic_gas(const Box& shape, std::uint64_t n) {
     return scene;
 }
 
-Averages averages_of(const Scene& scene, const Communicator& world) {
-    Simulation simulation(scene, initial_state(scene, nullptr, world), world, {});
-    advance_to(simulation, 200);
-    Averaging averaging(scene, simulation, world);
+Averages averages_of(const SceneParameters& scene, const Communicator& world) {
+    DiscSystem system(scene, initial_state(scene, nullptr, world), world, {});
+    advance_to(system, 200);
+    Averaging averaging(scene, system, world);
     averaging.advance_to(scene.steps);
     return averaging.averages();
 }
 
 /// The own discs' extent, of all of them where a rank is alone.
-Box room_of(const Simulation& simulation, const Communicator& world) {
+Box room_of(const DiscSystem& system, const Communicator& world) {
     double high[] = {-1e300, -1e300}, low[] = {-1e300, -1e300};
-    for (const Disc& disc : simulation.discs()) {
-        const double place[] = {disc.x_at(simulation.clock()), disc.y_at(simulation.clock())};
+    for (const DiscState& disc : system.discs()) {
+        const double place[] = {disc.x_at(system.clock()), disc.y_at(system.clock())};
         for (int k = 0; k < 2; ++k) {
             high[k] = std::max(high[k], place[k]);
             low[k] = std::max(low[k], -place[k]);
@@ -77,10 +77,10 @@ TEST_CASE("rectangles: a periodic box of 10 to 1 has the square's pressure") {
 TEST_CASE("rectangles: strips cut the longer side") {
     const Communicator world = Communicator::world();
     for (const bool stands : {false, true}) {
-        Scene scene = periodic_gas({std::sqrt(10.0), 1 / std::sqrt(10.0)}, 600);
+        SceneParameters scene = periodic_gas({std::sqrt(10.0), 1 / std::sqrt(10.0)}, 600);
         if (stands) std::swap(scene.box.x, scene.box.y);
-        Simulation simulation(scene, initial_state(scene, nullptr, world), world, {});
-        const Box room = room_of(simulation, world);
+        DiscSystem system(scene, initial_state(scene, nullptr, world), world, {});
+        const Box room = room_of(system, world);
         const double longer = std::max(room.x, room.y), shorter = std::min(room.x, room.y);
         CHECK((room.x < room.y) == (stands && world.size() < 10));
         CHECK(longer < 1.05 * scene.box.longest() / world.size());
@@ -91,7 +91,7 @@ TEST_CASE("rectangles: strips cut the longer side") {
 TEST_CASE("rectangles: generated gases in a box that stands are those in one that lies") {
     const Communicator world = Communicator::world();
     for (const Generator generator : {Generator::random, Generator::lattice}) {
-        Scene lying = periodic_gas({1.5, 0.5}, 300), standing = lying;
+        SceneParameters lying = periodic_gas({1.5, 0.5}, 300), standing = lying;
         lying.generator = standing.generator = generator;
         std::swap(standing.box.x, standing.box.y);
         std::vector<InputDisc> a = initial_state(lying, nullptr, world),

@@ -9,17 +9,18 @@
 #include "averaging.hpp"
 #include "parallel/exchange.hpp"
 #include "scene_tools.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 using namespace carrom;
 
 namespace {
 
-std::vector<Disc> gathered(const Simulation& simulation, const Communicator& world) {
-    std::vector<Disc> all;
+std::vector<DiscState> gathered(const DiscSystem& system, const Communicator& world) {
+    std::vector<DiscState> all;
     stream_to_root(
-        world, simulation.discs(),
-        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+        world, system.discs(),
+        [&](std::span<const DiscState> some) { all.insert(all.end(), some.begin(), some.end()); },
+        1000);
     world.broadcast(all);
     return all;
 }
@@ -30,9 +31,9 @@ struct PlainSums {
     double kurtosis() const { return 100 * fourth / (square * square); }
 };
 
-PlainSums sums_of(const std::vector<Disc>& discs, double velocity_unit) {
+PlainSums sums_of(const std::vector<DiscState>& discs, double velocity_unit) {
     PlainSums sums;
-    for (const Disc& disc : discs) {
+    for (const DiscState& disc : discs) {
         const double speed = velocity_unit * std::hypot(disc.vx, disc.vy);
         sums.walls += static_cast<double>(disc.wall_collisions);
         sums.pairs += static_cast<double>(disc.pair_collisions) / 2;
@@ -85,9 +86,9 @@ void check_pressures(const Averages& averages, const test::TestScene& test, cons
 }
 
 /// The integral of stress so far; tests/physics/virial_test.cpp has it from logged collisions.
-Tensor stress_of(const Simulation& simulation) {
-    MotionSample sample = simulation.motion_sample();
-    simulation.integrate(simulation.stress_sums(), sample);
+Tensor stress_of(const DiscSystem& system) {
+    MotionSample sample = system.motion_sample();
+    system.integrate(system.stress_sums(), sample);
     return sample.stress;
 }
 
@@ -128,16 +129,16 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         test.steps = 48;
         test.setting.micro_steps = 4;
         test.setting.sync_every = 10; // a sync in every second or third step
-        Scene scene = test::scene_of(test);
+        SceneParameters scene = test::scene_of(test);
         scene.method = method;
         Tuning tuning;
         tuning.threads = omp_get_max_threads();
-        Simulation simulation(scene, own_of(test.discs, world), world, tuning);
-        test::Averaging averaging(scene, simulation, world);
+        DiscSystem system(scene, own_of(test.discs, world), world, tuning);
+        test::Averaging averaging(scene, system, world);
         averaging.advance_to(7);
         averaging.begin_anew();
-        const PlainSums first = sums_of(gathered(simulation, world), 4);
-        const Tensor first_stress = stress_of(simulation);
+        const PlainSums first = sums_of(gathered(system, world), 4);
+        const Tensor first_stress = stress_of(system);
         // Samples are 10 steps apart, a quarter of the run: it is short, and keeps its energy.
         PlainSums at_block = first, at_sample = first, now;
         std::int64_t block_begin = 7, sample_step = 7;
@@ -147,7 +148,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
             averaging.advance_to(step);
             const bool is_end = step % 10 == 7;
             if (!is_end && step < 48) continue;
-            now = sums_of(gathered(simulation, world), 4);
+            now = sums_of(gathered(system, world), 4);
             const double half = static_cast<double>(step - sample_step) / 2;
             const double speed = half * (at_sample.speed + now.speed) / 100;
             all_speeds += speed;
@@ -169,7 +170,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         CHECK(averages.mean_speed.error >= over_blocks(speeds).error * (1 - 1e-6));
         CHECK(averages.speed_kurtosis.value == Approx(all_kurtoses / 41).epsilon(1e-11));
 
-        check_tensor(averages, first_stress, stress_of(simulation),
+        check_tensor(averages, first_stress, stress_of(system),
                      test.setting.box_size * test.setting.box_size, now.square);
         check_pressures(averages, test, first, now);
     }
@@ -181,9 +182,9 @@ TEST_CASE("averages: any number of blocks ends as 64 to 127, and stops on the wa
     test.setting.sync_every = 2;
     test.steps = 10000;
     const auto averages_of = [&](std::int64_t stride) {
-        Simulation simulation(test::scene_of(test),
-                              world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
-        test::Averaging averaging(test, simulation, world);
+        DiscSystem system(test::scene_of(test),
+                          world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+        test::Averaging averaging(test, system, world);
         for (std::int64_t step = 0; step < 10000;) {
             step = std::min<std::int64_t>(step + stride, 10000);
             averaging.advance_to(step);
@@ -206,9 +207,9 @@ TEST_CASE("averages: discs at rest, or none that collide, give numbers and no er
     const Communicator world = Communicator::world();
     test::TestScene test = test::empty_scene("one disc at rest", 10, 1, 1);
     test::add_disc(test, 5, 5);
-    Simulation simulation(test::scene_of(test),
-                          world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
-    test::Averaging averaging(test, simulation, world);
+    DiscSystem system(test::scene_of(test), world.is_root() ? test.discs : std::vector<InputDisc>{},
+                      world, {});
+    test::Averaging averaging(test, system, world);
     CHECK(averaging.averages().steps == 0);
     CHECK(std::isnan(averaging.averages().pressure.value));
     averaging.advance_to(1);
@@ -227,12 +228,12 @@ TEST_CASE("averages: they begin where the scene says, and a short run has errors
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         test::TestScene test = test::gas(50, 0.3, 0.5, 74);
         test.steps = 40;
-        Scene scene = test::scene_of(test);
+        SceneParameters scene = test::scene_of(test);
         scene.method = method;
         scene.averages_from = 15;
-        Simulation simulation(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world,
-                              {});
-        test::Averaging averaging(scene, simulation, world);
+        DiscSystem system(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world,
+                          {});
+        test::Averaging averaging(scene, system, world);
         averaging.advance_to(9);
         CHECK(averaging.averages().steps == 0);
         averaging.advance_to(40);

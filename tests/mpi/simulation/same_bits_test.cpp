@@ -3,7 +3,7 @@
 // windows, cells, strips and storage orders of all kinds. ctest runs this for many numbers of ranks
 // and threads.
 #include "core/state_hash.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 #include <cstdlib>
 
@@ -44,9 +44,9 @@ std::vector<InputDisc> share_of(const test::TestScene& scene, const Communicator
 
 Totals run(const test::TestScene& scene, const Tuning& tuning, const Communicator& world,
            unsigned seed) {
-    Simulation simulation(test::scene_of(scene), share_of(scene, world, seed), world, tuning);
-    while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
-    return simulation.totals();
+    DiscSystem system(test::scene_of(scene), share_of(scene, world, seed), world, tuning);
+    while (system.step() < scene.steps) system.advance_towards(scene.steps);
+    return system.totals();
 }
 
 /// Ways to run a scene. They meet in all combinations over the scenes, and each scene meets others

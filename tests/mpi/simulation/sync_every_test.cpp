@@ -13,7 +13,7 @@
 
 #include "averaging.hpp"
 #include "scene_tools.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 using namespace carrom;
 
@@ -84,18 +84,18 @@ Result run(const GasKind& kind, Method method, std::int64_t sync_every) {
     test.steps = n_steps;
     test.setting.sync_every = sync_every;
     kind.change(test.setting.effects);
-    Scene scene = test::scene_of(test);
+    SceneParameters scene = test::scene_of(test);
     scene.method = method;
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
-    Simulation simulation(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world,
-                          tuning);
-    test::Averaging averaging(scene, simulation, world);
+    DiscSystem system(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world,
+                      tuning);
+    test::Averaging averaging(scene, system, world);
     Result result;
     for (std::int64_t step = 0; step <= n_steps; ++step) {
         averaging.advance_to(step);
         const double weight = step == 0 || step == n_steps ? 0.5 : 1;
-        result.sampled_temperature += weight * simulation.energies().kinetic_energy /
+        result.sampled_temperature += weight * system.energies().kinetic_energy /
                                       static_cast<double>(n_discs * n_steps);
     }
     result.averages = averaging.averages();

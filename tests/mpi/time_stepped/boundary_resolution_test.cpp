@@ -96,7 +96,7 @@ Meetings decided(const Communicator& world, const Meetings& all, const Setting& 
         for (const DiscId id : {m.p, m.q})
             if (id != no_disc) (owner(id) == world.rank() ? own : halo).insert(id);
     }
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     std::map<DiscId, LocalIndex> place;
     for (const std::set<DiscId>* ids : {&own, &halo}) {
         for (const DiscId id : *ids) {
@@ -166,7 +166,7 @@ TEST_CASE("Where discs of two ranks meet at all, one round of talk decides what 
     // Ranks 0 and 1 own discs 0, 1 and 2, 3: the pair of 1 and 2 comes first, so 0 with 1 and 2
     // with 3 do not happen.
     const std::vector<std::vector<DiscId>> ids = {{0, 1, 2}, {2, 3, 1}};
-    std::vector<Disc> discs(3);
+    std::vector<DiscState> discs(3);
     std::vector<Candidate> undecided, kept;
     std::vector<int> other;
     if (world.rank() < 2) {

@@ -9,8 +9,8 @@ namespace carrom {
 
 namespace {
 
-Scene small_scene() {
-    Scene scene;
+SceneParameters small_scene() {
+    SceneParameters scene;
     scene.name = "small \xff.toml"; // a file's name need not be UTF-8
     scene.box = 10;
     scene.radius = 1;
@@ -63,7 +63,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The summary names precision and arithmetic where they leave the default") {
-    Scene scene = small_scene();
+    SceneParameters scene = small_scene();
     CHECK(summary_text(scene, small_result()).find("precision") == std::string::npos);
     scene.precision = Precision::single;
     scene.arithmetic = Arithmetic::naive;

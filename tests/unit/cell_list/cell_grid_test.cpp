@@ -13,7 +13,7 @@
 
 using carrom::Axis;
 using carrom::CellGrid;
-using carrom::Disc;
+using carrom::DiscState;
 using carrom::GridGeometry;
 using carrom::LocalIndex;
 
@@ -21,10 +21,10 @@ namespace {
 
 constexpr double box = 200;
 
-std::vector<Disc> gas(std::mt19937& random, std::size_t n) {
+std::vector<DiscState> gas(std::mt19937& random, std::size_t n) {
     std::uniform_real_distribution<double> place(-1, box + 1),
         velocity(-1, 1); // some outside: they belong to border cells
-    std::vector<Disc> discs(n);
+    std::vector<DiscState> discs(n);
     for (std::size_t i = 0; i < n; ++i) {
         discs[i].x = place(random);
         discs[i].y = place(random);
@@ -37,8 +37,8 @@ std::vector<Disc> gas(std::mt19937& random, std::size_t n) {
 
 /// Each disc is in the run of the cell in which it is, once; `before` as they came, for none may be
 /// lost or changed.
-void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double time,
-                 const std::vector<Disc>& before) {
+void check_cells(const CellGrid& grid, const std::vector<DiscState>& discs, double time,
+                 const std::vector<DiscState>& before) {
     const GridGeometry& geometry = grid.geometry();
     REQUIRE(grid.is_valid(discs.size()));
     std::vector<bool> is_placed(discs.size(), false), is_there(discs.size(), false);
@@ -66,7 +66,7 @@ void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double ti
     }
     REQUIRE(std::count(is_placed.begin(), is_placed.end(), true) ==
             static_cast<std::ptrdiff_t>(discs.size()));
-    for (const Disc& disc : discs) {
+    for (const DiscState& disc : discs) {
         REQUIRE_FALSE(is_there[disc.id]);
         is_there[disc.id] = true;
         REQUIRE((disc.x == before[disc.id].x && disc.y == before[disc.id].y &&
@@ -75,7 +75,7 @@ void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double ti
 }
 
 void check_flight(const GridGeometry& geometry, const carrom::FlightLanes& lanes,
-                  std::uint32_t slot, const Disc& disc, double time, double duration) {
+                  std::uint32_t slot, const DiscState& disc, double time, double duration) {
     CHECK(
         lanes.x[slot] ==
         Approx((disc.x_at(time) - geometry.low) / geometry.cell_width).epsilon(1e-5).margin(1e-5));
@@ -88,7 +88,7 @@ void check_flight(const GridGeometry& geometry, const carrom::FlightLanes& lanes
           Approx(disc.vy * duration / geometry.cell_width).epsilon(1e-5).margin(1e-5));
 }
 
-void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double time,
+void check_flights(const CellGrid& grid, const std::vector<DiscState>& discs, double time,
                    double duration) {
     for (LocalIndex index = 0; index < discs.size(); ++index) {
         if (index < grid.n_own())
@@ -103,12 +103,14 @@ void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double 
 
 TEST_CASE("side columns and companions go where discs go") {
     std::mt19937 random(5);
-    std::vector<Disc> discs = gas(random, 3000);
-    std::vector<Disc> companions = discs;
+    std::vector<DiscState> discs = gas(random, 3000);
+    std::vector<DiscState> companions = discs;
     carrom::SideColumns columns;
     columns.add(carrom::SideColumn::spin);
     columns.resize(discs.size());
-    const auto number_of = [](const Disc& disc) { return 0.5 * static_cast<double>(disc.id) - 7; };
+    const auto number_of = [](const DiscState& disc) {
+        return 0.5 * static_cast<double>(disc.id) - 7;
+    };
     for (const int n_threads : {1, 3}) {
         for (const double time : {0.0, 4.0}) { // once in no order, then nearly in order
             for (std::size_t i = 0; i < discs.size(); ++i)
@@ -133,23 +135,23 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
     for (const std::size_t n : {0u, 1u, 3u, 500u, 4000u, 20000u}) {
         for (const double reach : {2.0, 9.0, 150.0, 400.0}) {
             for (const int n_threads : {1, 2, 3, 5, 16}) {
-                std::vector<Disc> discs = gas(random, n);
-                std::vector<Disc> before = discs;
+                std::vector<DiscState> discs = gas(random, n);
+                std::vector<DiscState> before = discs;
                 const GridGeometry geometry = carrom::make_geometry({0, box, 0, box}, Axis::x,
                                                                     reach, n, 0);
                 CellGrid grid;
                 grid.sort(discs, geometry, time, time, duration, n_threads); // in no order
                 check_cells(grid, discs, time, before);
                 check_flights(grid, discs, time, duration);
-                for (Disc& disc : discs) disc.x += 5 * disc.vx;
-                const std::vector<Disc> arrived = gas(random, n / 10);
-                for (const Disc& disc : arrived) {
+                for (DiscState& disc : discs) disc.x += 5 * disc.vx;
+                const std::vector<DiscState> arrived = gas(random, n / 10);
+                for (const DiscState& disc : arrived) {
                     discs.push_back(disc);
                     discs.back().id = discs.size() - 1;
                 }
                 before.resize(discs.size());
-                for (const Disc& disc : discs) before[disc.id] = disc;
-                std::vector<Disc> twins = discs; // what runs along goes where the discs go
+                for (const DiscState& disc : discs) before[disc.id] = disc;
+                std::vector<DiscState> twins = discs; // what runs along goes where the discs go
                 // Nearly in order, and some of anywhere behind.
                 grid.sort(discs, geometry, time, time, duration, n_threads, {}, {twins, nullptr});
                 check_cells(grid, discs, time, before);
@@ -168,20 +170,20 @@ TEST_CASE(
     const double time = 2, duration = 4;
     for (const std::size_t n : {0u, 1u, 40u, 2000u}) {
         for (const double reach : {2.0, 30.0}) {
-            std::vector<Disc> discs = gas(random, 1000);
-            const std::vector<Disc> halo = gas(random, n);
+            std::vector<DiscState> discs = gas(random, 1000);
+            const std::vector<DiscState> halo = gas(random, n);
             const GridGeometry geometry = carrom::make_geometry({0, box, 0, box}, Axis::x, reach,
                                                                 discs.size(), 0);
             CellGrid grid;
             grid.sort(discs, geometry, time, time, duration, 1);
-            for (const Disc& disc : halo) {
+            for (const DiscState& disc : halo) {
                 discs.push_back(disc);
                 discs.back().x *= 0.3; // most columns have none
                 discs.back().id = discs.size() - 1;
             }
-            grid.add_halo(std::span<const Disc>(discs).subspan(1000));
-            std::vector<Disc> before(discs.size());
-            for (const Disc& disc : discs) before[disc.id] = disc;
+            grid.add_halo(std::span<const DiscState>(discs).subspan(1000));
+            std::vector<DiscState> before(discs.size());
+            for (const DiscState& disc : discs) before[disc.id] = disc;
             check_cells(grid, discs, time, before);
             for (LocalIndex index = 0; index < discs.size(); index += 7) {
                 discs[index].vx = -discs[index].vy;
@@ -197,7 +199,7 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     std::uniform_real_distribution<double> edge(-20, box + 20);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const double reach : {1.0, 7.0, 90.0, 500.0}) {
-        std::vector<Disc> discs = gas(random, 3000);
+        std::vector<DiscState> discs = gas(random, 3000);
         CellGrid grid;
         grid.sort(discs, carrom::make_geometry({0, box, 0, box}, Axis::x, reach, discs.size(), 0),
                   1, 1, 1, 1);
@@ -218,7 +220,7 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
                 if (!inner.holds(discs[i].x_at(1), discs[i].y_at(1))) REQUIRE(is_listed[i]);
         }
     }
-    std::vector<Disc> discs = gas(random, 100'000);
+    std::vector<DiscState> discs = gas(random, 100'000);
     CellGrid grid;
     grid.sort(discs, carrom::make_geometry({0, box, 0, box}, Axis::x, 2, discs.size(), 0), 0, 0, 1,
               1);

@@ -14,9 +14,9 @@ using namespace carrom;
 
 namespace {
 
-Disc some_disc(DiscId id, std::mt19937_64& engine) {
+DiscState some_disc(DiscId id, std::mt19937_64& engine) {
     const auto number = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-50 - 4; };
-    Disc disc;
+    DiscState disc;
     disc.x = number();
     disc.y = number();
     disc.vx = number();
@@ -28,9 +28,9 @@ Disc some_disc(DiscId id, std::mt19937_64& engine) {
     return disc;
 }
 
-std::vector<Disc> some_discs(std::size_t count) {
+std::vector<DiscState> some_discs(std::size_t count) {
     std::mt19937_64 engine(1);
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     for (std::size_t i = 0; i < count; ++i) discs.push_back(some_disc(i, engine));
     return discs;
 }
@@ -38,7 +38,7 @@ std::vector<Disc> some_discs(std::size_t count) {
 } // namespace
 
 TEST_CASE("the state hash is blind to order and to who holds which disc") {
-    std::vector<Disc> discs = some_discs(1000);
+    std::vector<DiscState> discs = some_discs(1000);
     const StateHash whole = hash_of(discs);
     std::mt19937_64 engine(2);
     std::shuffle(discs.begin(), discs.end(), engine);
@@ -49,62 +49,64 @@ TEST_CASE("the state hash is blind to order and to who holds which disc") {
         parts += hash_of(std::span(discs).first(cut));
         CHECK(parts == whole);
     }
-    CHECK(hash_of(std::span<const Disc>()) == StateHash{});
+    CHECK(hash_of(std::span<const DiscState>()) == StateHash{});
 }
 
 TEST_CASE("the state hash sees every field's last bit") {
-    const Disc disc = some_discs(1)[0];
+    const DiscState disc = some_discs(1)[0];
     std::set<std::string> hashes = {to_string(hash_of(disc))};
-    for (double Disc::* field : {&Disc::x, &Disc::y, &Disc::vx, &Disc::vy, &Disc::tau}) {
+    for (double DiscState::* field :
+         {&DiscState::x, &DiscState::y, &DiscState::vx, &DiscState::vy, &DiscState::tau}) {
         for (int bit = 0; bit < 64; ++bit) {
-            Disc other = disc;
+            DiscState other = disc;
             other.*field = std::bit_cast<double>(std::bit_cast<std::uint64_t>(disc.*field) ^
                                                  (std::uint64_t{1} << bit));
             hashes.insert(to_string(hash_of(other)));
         }
     }
     for (int bit = 0; bit < 64; ++bit) {
-        Disc other = disc;
+        DiscState other = disc;
         other.id ^= std::uint64_t{1} << bit;
         hashes.insert(to_string(hash_of(other)));
     }
     for (int bit = 0; bit < 47; ++bit) {
-        Disc more_walls = disc, more_pairs = disc;
+        DiscState more_walls = disc, more_pairs = disc;
         more_walls.wall_collisions ^= std::uint64_t{1} << bit;
         more_pairs.pair_collisions ^= std::uint64_t{1} << bit;
         hashes.insert(to_string(hash_of(more_walls)));
         hashes.insert(to_string(hash_of(more_pairs)));
     }
-    Disc departed = disc;
+    DiscState departed = disc;
     departed.is_departed = 1;
     hashes.insert(to_string(hash_of(departed)));
     CHECK(hashes.size() == 1 + 6 * 64 + 2 * 47 + 1);
 }
 
 TEST_CASE("the state hash tells exchanged values and exchanged states apart") {
-    Disc disc = some_discs(1)[0];
+    DiscState disc = some_discs(1)[0];
     const StateHash before = hash_of(disc);
     std::swap(disc.x, disc.y);
     CHECK(!(hash_of(disc) == before));
 
-    std::vector<Disc> discs = some_discs(2);
+    std::vector<DiscState> discs = some_discs(2);
     const StateHash both = hash_of(discs);
     std::swap(discs[0].id, discs[1].id);
     CHECK(!(hash_of(discs) == both));
     // A sum of hashes that cancelled in pairs, as an exclusive or does, would miss a disc held
     // twice.
-    const std::vector<Disc> twice = {discs[0], discs[0]};
+    const std::vector<DiscState> twice = {discs[0], discs[0]};
     CHECK(!(hash_of(twice) == StateHash{}));
 }
 
 TEST_CASE("minus zero counts as plus zero, denormals count") {
-    for (double Disc::* field : {&Disc::x, &Disc::y, &Disc::vx, &Disc::vy, &Disc::tau}) {
-        Disc zero = some_discs(1)[0];
+    for (double DiscState::* field :
+         {&DiscState::x, &DiscState::y, &DiscState::vx, &DiscState::vy, &DiscState::tau}) {
+        DiscState zero = some_discs(1)[0];
         zero.*field = 0.0;
-        Disc minus_zero = zero;
+        DiscState minus_zero = zero;
         minus_zero.*field = -0.0;
         CHECK(hash_of(minus_zero) == hash_of(zero));
-        Disc denormal = zero;
+        DiscState denormal = zero;
         denormal.*field = 5e-324;
         CHECK(!(hash_of(denormal) == hash_of(zero)));
     }

@@ -25,7 +25,7 @@ struct Bouncer {
     Effects effects;
     std::size_t side = 0;
     double sync = 64;
-    Disc disc;
+    DiscState disc;
 
     bool is_x() const { return side < 2; }
     double sign() const { return side % 2 == 0 ? 1 : -1; }
@@ -82,7 +82,7 @@ TEST_CASE("oscillation: a disc that bounces is never beyond the wall") {
     std::uint64_t n_all = 0;
     for (int k = 0; k < 150; ++k) {
         Bouncer bouncer = random_bouncer(random);
-        Disc& disc = bouncer.disc;
+        DiscState& disc = bouncer.disc;
         InelasticDynamics dynamics(40, 1, bouncer.effects);
         Long deepest = 0;
         double begin = 0, fastest = 0;

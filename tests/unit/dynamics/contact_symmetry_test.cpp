@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "approach.hpp"
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/pair_contact.hpp"
 #include "time_stepped.hpp"
 
@@ -32,7 +32,7 @@ Approach scaled(const Approach& c, int exponent) {
 
 /// Two discs in a box of 1000, on the way to each other or not, each with a local time of its own.
 struct Pair {
-    Disc p, q;
+    DiscState p, q;
 };
 
 Pair some_pair(Approaches& approaches) {
@@ -128,8 +128,8 @@ TEST_CASE("the predicate and its second wording have the same bits") {
 TEST_CASE("a local time later than the contact's base moves nothing") {
     // The same two lines of flight, stored at exact places along them: the same contact, at base +
     // delay.
-    const Disc p{4, 4, 0.5, 0.25, 0, 0}, q{10, 7, -0.25, 0, 0, 1};
-    const Disc p_later{5, 4.5, 0.5, 0.25, 2, 0};
+    const DiscState p{4, 4, 0.5, 0.25, 0, 0}, q{10, 7, -0.25, 0, 0, 1};
+    const DiscState p_later{5, 4.5, 0.5, 0.25, 2, 0};
     const PairContact<double> early = pair_contact(p, q, 2.0, 0.0),
                               late = pair_contact(p_later, q, 2.0, 0.0);
     REQUIRE(early.exists());

@@ -27,8 +27,8 @@ static_assert(!Dynamics<Silent> && !Dynamics<double>);
 class Discs {
 public:
     /// A disc anywhere in the box, one of four at a wall.
-    Disc anywhere() {
-        Disc disc;
+    DiscState anywhere() {
+        DiscState disc;
         disc.x = place();
         disc.y = place();
         disc.vx = velocity();
@@ -38,8 +38,8 @@ public:
         return disc;
     }
     /// Some diameters from `p`.
-    Disc near(const Disc& p) {
-        Disc disc = anywhere();
+    DiscState near(const DiscState& p) {
+        DiscState disc = anywhere();
         const double angle = uniform(0, 6.28), distance = uniform(0.9, 3) * 2 * radius;
         disc.x = p.x + distance * std::cos(angle);
         disc.y = p.y + distance * std::sin(angle);
@@ -61,7 +61,7 @@ private:
 };
 
 bool are_same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool are_same(const Disc& a, const Disc& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool are_same(const DiscState& a, const DiscState& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool are_same(const auto& a, const auto& b)
     requires requires { a.delay; }
 {
@@ -78,13 +78,13 @@ template <class A, class B> Counts compare(const A& a, const B& b, bool with_con
     Discs discs;
     Counts counts;
     for (int k = 0; k < 20000; ++k) {
-        const Disc p = discs.anywhere(), q = discs.near(p);
+        const DiscState p = discs.anywhere(), q = discs.near(p);
         const auto found = a.contact(p, q), event = a.event_contact(p, q);
         bool same = true;
         if (with_contact_times)
             same = are_same(found, b.contact(p, q)) && are_same(event, b.event_contact(p, q));
         if (event.exists()) {
-            Disc p1 = p, q1 = q, p2 = p, q2 = q;
+            DiscState p1 = p, q1 = q, p2 = p, q2 = q;
             a.collide_at(p1, q1, event.base + event.delay);
             b.collide_at(p2, q2, event.base + event.delay);
             same = same && are_same(p1, p2) && are_same(q1, q2);
@@ -95,7 +95,7 @@ template <class A, class B> Counts compare(const A& a, const B& b, bool with_con
                are_same(a.x_wall_time(p), b.x_wall_time(p)) &&
                are_same(a.y_wall_time(p), b.y_wall_time(p));
         if (t <= 1) {
-            Disc p1 = p, p2 = p;
+            DiscState p1 = p, p2 = p;
             a.bounce(p1, 0, t);
             b.bounce(p2, 0, t);
             same = same && are_same(p1, p2);
@@ -147,13 +147,13 @@ TEST_CASE("The study's states in single precision are floats near the plain ones
     Discs discs;
     int n_contacts = 0;
     for (int k = 0; k < 20000; ++k) {
-        Disc p = discs.anywhere(), q = discs.near(p);
+        DiscState p = discs.anywhere(), q = discs.near(p);
         StudyDynamics<float>::round(p);
         StudyDynamics<float>::round(q);
         const auto found = single.event_contact(p, q);
         const auto expected = plain.event_contact(p, q);
         if (!found.exists() || !expected.exists() || expected.delay > 1) continue;
-        Disc p1 = p, q1 = q;
+        DiscState p1 = p, q1 = q;
         single.collide_at(p1, q1, static_cast<double>(found.base + found.delay));
         PlainDynamics::collide_at(p, q, expected.base + expected.delay);
         for (const double number : {p1.x, p1.y, p1.vx, p1.vy, p1.tau, q1.x, q1.vx})

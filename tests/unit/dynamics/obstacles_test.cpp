@@ -17,8 +17,8 @@ Effects one_disc(double x, double y, double radius) {
     return effects;
 }
 
-Disc flying(double x, double y, double vx, double vy, double tau = 0) {
-    Disc disc;
+DiscState flying(double x, double y, double vx, double vy, double tau = 0) {
+    DiscState disc;
     disc.x = x;
     disc.y = y;
     disc.vx = vx;
@@ -32,7 +32,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
 }
 
 /// Reflects `disc` at the first obstacle it comes to.
-ObstacleContact reflect(const Obstacles& obstacles, Disc& disc, double radius = 1) {
+ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radius = 1) {
     const ObstacleContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e6});
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
     obstacles.rebound(disc, contact.body, contact.time, false);
@@ -43,13 +43,14 @@ ObstacleContact reflect(const Obstacles& obstacles, Disc& disc, double radius = 
 
 TEST_CASE("obstacles: a disc is reflected as from a mirror") {
     SECTION("head on from a fixed disc") {
-        Disc disc = flying(10, 50, 2, 0);
+        DiscState disc = flying(10, 50, 2, 0);
         CHECK(reflect(Obstacles(100, 1, one_disc(50, 50, 4)), disc).time == 17.5);
         CHECK(disc.vx == -2);
         CHECK(disc.vy == 0);
     }
     SECTION("off centre, by the angle that the impact parameter says") {
-        Disc disc = flying(10, 53, 2, 0); // 3 off, at a distance of 5: the normal is (-4, 3) / 5
+        DiscState disc = flying(10, 53, 2,
+                                0); // 3 off, at a distance of 5: the normal is (-4, 3) / 5
         reflect(Obstacles(100, 1, one_disc(50, 50, 4)), disc);
         CHECK(disc.x == Approx(46));
         CHECK(disc.vx == Approx(2 - 2 * 2 * 16.0 / 25));
@@ -59,7 +60,7 @@ TEST_CASE("obstacles: a disc is reflected as from a mirror") {
         Effects effects;
         effects.obstacles.segments = {{40, 40, 60, 60}};
         const Obstacles obstacles(100, 1, effects);
-        Disc left = flying(20, 50, 1, 0), right = flying(80, 50, -1, 0);
+        DiscState left = flying(20, 50, 1, 0), right = flying(80, 50, -1, 0);
         CHECK(reflect(obstacles, left).time == Approx(30 - std::sqrt(2)));
         CHECK(reflect(obstacles, right).time == Approx(30 - std::sqrt(2)));
         CHECK(left.vx == Approx(0).margin(1e-15));
@@ -71,7 +72,7 @@ TEST_CASE("obstacles: a disc is reflected as from a mirror") {
         Effects effects;
         effects.obstacles.segments = {{40, 50, 60, 50}};
         const Obstacles obstacles(100, 1, effects);
-        Disc disc = flying(20, 50, 1, 0);
+        DiscState disc = flying(20, 50, 1, 0);
         CHECK(reflect(obstacles, disc).time == 19);
         CHECK(disc.vx == -1);
         CHECK(!obstacles.first_contact(flying(20, 51.5, 1, 0), 1, {0, 1e6}).exists());
@@ -84,12 +85,12 @@ TEST_CASE("obstacles: a ball bounces from a slope under gravity where Galileo sa
     effects.obstacles.segments = {{10, 10, 90, 10}, {60, 60, 90, 90}};
     const Obstacles obstacles(100, 1, effects);
     // States are stored in a frame that falls from time 0 on.
-    Disc level = flying(20, 36, 0.5, 0);
+    DiscState level = flying(20, 36, 0.5, 0);
     CHECK(reflect(obstacles, level).time == Approx(10));
     CHECK(level.vy + effects.gravity.y * 10 == Approx(5)); // in the box
     CHECK(level.vx == 0.5);
     // sqrt(2) above a point of the slope, 16 lower than it starts
-    Disc slope = flying(75, 75 + std::sqrt(2.0) + 16, 0, 0);
+    DiscState slope = flying(75, 75 + std::sqrt(2.0) + 16, 0, 0);
     CHECK(reflect(obstacles, slope).time == Approx(8));
     CHECK(slope.vx == Approx(-4));
     CHECK(slope.vy - 4 == Approx(0).margin(1e-12));
@@ -120,8 +121,8 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
         int n_found = 0;
         for (int k = 0; k < 300; ++k) {
             const double tau = k % 3;
-            const Disc disc = flying(uniform(random, 1, 99), uniform(random, 1, 99),
-                                     uniform(random, -2, 2), uniform(random, -2, 2), tau);
+            const DiscState disc = flying(uniform(random, 1, 99), uniform(random, 1, 99),
+                                          uniform(random, -2, 2), uniform(random, -2, 2), tau);
             const double to = k % 2 == 0 ? tau + 3 : tau + 30;
             ObstacleContact first;
             for (const Effects& single : singles) {

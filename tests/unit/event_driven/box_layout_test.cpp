@@ -24,15 +24,15 @@ Periods periods_of(const Case& of) { return {of.round_x ? of.x : 0, of.round_y ?
 
 /// Own discs, some of which have flown out of the box since they were stored, with the images that
 /// are in the box. Then each other disc twice, as other ranks show them.
-std::vector<Disc> discs_of(const Case& of, double time) {
+std::vector<DiscState> discs_of(const Case& of, double time) {
     std::mt19937 random(7);
     const auto below = [&](double limit) {
         return limit * static_cast<double>(random()) / 4294967296.0;
     };
     const Periods periods = periods_of(of);
-    std::vector<Disc> discs;
+    std::vector<DiscState> discs;
     for (std::size_t id = 0; id < of.n_discs; ++id) {
-        Disc disc;
+        DiscState disc;
         disc.id = id;
         disc.vx = of.round_x ? below(of.x) : 0;
         disc.vy = of.round_y ? -below(of.y) : 0;
@@ -60,7 +60,7 @@ struct Seen {
     int column, row;
 };
 
-std::vector<Seen> all_seen(const BoxLayout& layout, std::span<const Disc> discs,
+std::vector<Seen> all_seen(const BoxLayout& layout, std::span<const DiscState> discs,
                            const BoxCells& cells) {
     std::vector<Seen> seen;
     const int n_rows = cells.n_rows + 2 * cells.n_above,
@@ -89,7 +89,7 @@ TEST_CASE("whole box: each disc is there once, and all that are within reach of 
           Case{3, 40, true, true, 2.9, 40, 11}}) {
         CAPTURE(of.x, of.y, of.reach);
         const Periods periods = periods_of(of);
-        const std::vector<Disc> discs = discs_of(of, time);
+        const std::vector<DiscState> discs = discs_of(of, time);
         const BoxCells cells = cells_of_box({0, of.x, 0, of.y}, periods, of.reach, 0.7);
         BoxLayout layout;
         layout.lay(discs, of.n_own, cells, periods, time);
@@ -101,7 +101,7 @@ TEST_CASE("whole box: each disc is there once, and all that are within reach of 
         for (DiscId id = 0; id < of.n_discs; ++id) CHECK(real.count(id) == 1);
 
         std::vector<double> x(of.n_discs), y(of.n_discs);
-        for (const Disc& disc : discs) {
+        for (const DiscState& disc : discs) {
             x[disc.id] = at_home(disc.x_at(time), periods.x);
             y[disc.id] = at_home(disc.y_at(time), periods.y);
         }
@@ -138,7 +138,7 @@ TEST_CASE("whole box: each disc is there once, and all that are within reach of 
 TEST_CASE("whole box: levels with cells of other widths have ghosts one period away in one unit") {
     const Case of{12, 9, true, true, 1, 40, 40};
     const Periods periods = periods_of(of);
-    const std::vector<Disc> discs = discs_of(of, 0.5);
+    const std::vector<DiscState> discs = discs_of(of, 0.5);
     BoxLayout layout;
     layout.clear();
     std::vector<LocalIndex> small, large;

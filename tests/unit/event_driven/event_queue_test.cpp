@@ -51,7 +51,7 @@ private:
         return versions_[event.p] + (is_wall(event.q) ? 0 : versions_[event.q]);
     }
 
-    std::vector<Disc> discs_;
+    std::vector<DiscState> discs_;
     std::vector<std::uint32_t> versions_;
     std::mt19937 random_;
 };

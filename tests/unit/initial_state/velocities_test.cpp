@@ -22,7 +22,7 @@ struct Sample {
 };
 
 Sample sample_of(VelocityKind kind) {
-    Scene scene;
+    SceneParameters scene;
     scene.velocities = kind;
     Sample sample;
     for (DiscId id = 0; id < n_discs; ++id) {
@@ -71,19 +71,19 @@ TEST_CASE("The default seed's velocities stay what they are") {
     for (const auto& [kind, bits] :
          {std::pair{VelocityKind::maxwell, "c74526b503958107f3be3495a260f322"},
           std::pair{VelocityKind::uniform, "8688534e85de909de50fcf9ee869d5f5"}}) {
-        Scene scene;
+        SceneParameters scene;
         scene.velocities = kind;
         StateHash hash;
         for (DiscId id = 0; id < 1000; ++id) {
             const Velocity v = drawn_velocity(scene, id);
-            hash += hash_of(Disc{0, 0, v.x, v.y, 0, id});
+            hash += hash_of(DiscState{0, 0, v.x, v.y, 0, id});
         }
         CHECK(to_string(hash) == bits);
     }
 }
 
 TEST_CASE("Streams add up where they overlap") {
-    Scene scene;
+    SceneParameters scene;
     scene.streams = {{0, 0, 2, 2, 1, 0}, {1, 1, 3, 3, 0.5, -1}};
     CHECK(stream_velocity(scene, {0.5, 0.5}) == Velocity{1, 0});
     CHECK(stream_velocity(scene, {1.5, 1.5}) == Velocity{1.5, -1});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/state_hash.hpp"
 #include "lattices/lattice.hpp"
 
@@ -112,7 +112,7 @@ TEST_CASE("The default seed's lattice stays what it is") {
     StateHash hash;
     for (DiscId id = 0; id < 1000; ++id) {
         const Point place = shaken_site(*lattice, id, 3210);
-        hash += hash_of(Disc{place.x, place.y, 0, 0, 0, id});
+        hash += hash_of(DiscState{place.x, place.y, 0, 0, 0, id});
     }
     CHECK(to_string(hash) == "dca302a17e96e762b7ab98322419da8d");
 }

@@ -17,9 +17,9 @@ using reference::EventDrivenReference;
 
 namespace {
 
-double energy(std::span<const Disc> discs) {
+double energy(std::span<const DiscState> discs) {
     double sum = 0;
-    for (const Disc& disc : discs) sum += 0.5 * (disc.vx * disc.vx + disc.vy * disc.vy);
+    for (const DiscState& disc : discs) sum += 0.5 * (disc.vx * disc.vx + disc.vy * disc.vy);
     return sum;
 }
 
@@ -123,8 +123,8 @@ TEST_CASE("all: energy stays, the log is in order, no pair is left overlapping")
                     return std::make_tuple(a.sync, a.time) < std::make_tuple(b.sync, b.time);
                 }));
             double deepest = 0;
-            for (const Disc& p : run.discs()) {
-                for (const Disc& q : run.discs()) {
+            for (const DiscState& p : run.discs()) {
+                for (const DiscState& q : run.discs()) {
                     if (q.id <= p.id) continue;
                     const double dx = (q.x + q.vx * (run.clock() - q.tau)) -
                                       (p.x + p.vx * (run.clock() - p.tau));

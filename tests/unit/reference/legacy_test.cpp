@@ -17,20 +17,20 @@ using reference::TimeSteppedReference;
 
 namespace {
 
-double x_now(const Disc& disc, double clock) { return disc.x + disc.vx * (clock - disc.tau); }
-double y_now(const Disc& disc, double clock) { return disc.y + disc.vy * (clock - disc.tau); }
+double x_now(const DiscState& disc, double clock) { return disc.x + disc.vx * (clock - disc.tau); }
+double y_now(const DiscState& disc, double clock) { return disc.y + disc.vy * (clock - disc.tau); }
 
 /// The largest distance in x or y between the same discs of two runs.
-double largest_gap(const std::vector<Disc>& a, const std::vector<Disc>& b) {
+double largest_gap(const std::vector<DiscState>& a, const std::vector<DiscState>& b) {
     double gap = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         gap = std::max({gap, std::fabs(a[i].x - b[i].x), std::fabs(a[i].y - b[i].y)});
     return gap;
 }
 
-template <class Run> std::vector<Disc> where_now(const Run& run, double clock) {
-    std::vector<Disc> discs(run.discs().begin(), run.discs().end());
-    for (Disc& disc : discs) {
+template <class Run> std::vector<DiscState> where_now(const Run& run, double clock) {
+    std::vector<DiscState> discs(run.discs().begin(), run.discs().end());
+    for (DiscState& disc : discs) {
         const double x = x_now(disc, clock), y = y_now(disc, clock);
         disc.x = x;
         disc.y = y;
@@ -61,7 +61,7 @@ Agreement compare_until_horizon(const TestScene& scene) {
         run.run_micro_steps(1);
         other.run_micro_steps(1);
         legacy.run_micro_steps(1);
-        const std::vector<Disc> now = where_now(run, run.clock());
+        const std::vector<DiscState> now = where_now(run, run.clock());
         if (largest_gap(now, where_now(other, other.clock())) > 1e-8 * size) break;
         result.gap = std::max(result.gap, largest_gap(now, where_now(legacy, 0)) / size);
         result.collisions = run.log().size();
@@ -87,7 +87,7 @@ TEST_CASE("the course program's formulas agree exactly where numbers are exact")
         CHECK(largest_gap(where_now(run, run.clock()), where_now(legacy, 0)) == 0);
         bool same_velocities = true;
         for (std::size_t i = 0; i < run.discs().size(); ++i) {
-            const Disc &a = run.discs()[i], &b = legacy.discs()[i];
+            const DiscState &a = run.discs()[i], &b = legacy.discs()[i];
             same_velocities = same_velocities && a.vx == b.vx && a.vy == b.vy;
         }
         CHECK(same_velocities);

@@ -52,16 +52,16 @@ TEST_CASE("the small scenes meet all that the rule has to decide") {
         INFO(scene.name);
         reference::TimeSteppedReference run(scene.setting, scene.discs);
         for (std::int64_t n = 0; n < scene.steps * scene.setting.micro_steps; ++n) {
-            const std::vector<Disc> before(run.discs().begin(), run.discs().end());
+            const std::vector<DiscState> before(run.discs().begin(), run.discs().end());
             run.run_micro_steps(1);
-            for (const Disc& disc : run.discs()) {
-                const Disc& old = before[disc.id];
+            for (const DiscState& disc : run.discs()) {
+                const DiscState& old = before[disc.id];
                 stops += run.clock() > 0 && disc.tau == run.clock();
                 corners += disc.wall_collisions > old.wall_collisions && disc.vx * old.vx < 0 &&
                            disc.vy * old.vy < 0;
             }
         }
-        for (const Disc& disc : run.discs()) {
+        for (const DiscState& disc : run.discs()) {
             CHECK(std::isfinite(disc.x + disc.y + disc.vx + disc.vy));
         }
         const reference::Counters& counters = run.counters();
@@ -110,8 +110,8 @@ TEST_CASE("a transposed scene gives transposed bits, a scaled one scaled bits") 
         CHECK(shrunk.log() == plain.log());
         std::size_t differences = 0;
         for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-            const Disc &a = plain.discs()[i], &b = turned.discs()[i], &c = grown.discs()[i],
-                       &d = shrunk.discs()[i];
+            const DiscState &a = plain.discs()[i], &b = turned.discs()[i], &c = grown.discs()[i],
+                            &d = shrunk.discs()[i];
             differences += !(a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx &&
                              a.tau == b.tau);
             differences += !(std::ldexp(a.x, 180) == c.x && std::ldexp(a.vy, 180) == c.vy &&

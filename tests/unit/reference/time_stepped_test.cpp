@@ -17,7 +17,7 @@ TimeSteppedReference after(std::int64_t micro_steps, const Setting& setting,
     return run;
 }
 
-void check_state(const Disc& disc, double x, double y, double vx, double vy, double tau) {
+void check_state(const DiscState& disc, double x, double y, double vx, double vy, double tau) {
     CAPTURE(disc.id);
     CHECK(disc.x == x);
     CHECK(disc.y == y);

@@ -31,7 +31,7 @@ TEST_CASE("Oscillating walls are read, and refused where they leave no room") {
         return more;
     };
     const auto problems = [&](const Texts& more) { return problems_with(with(more)); };
-    const Scene scene = read_scene(good, "s.toml", with({"box.bottom.phase=3.5"}));
+    const SceneParameters scene = read_scene(good, "s.toml", with({"box.bottom.phase=3.5"}));
     CHECK(scene.effects.boundaries[2] == Boundary{BoundaryKind::oscillating, 1, 0, 0, 2, 10, 3.5});
     CHECK(scene.effects.contact.contact_time == 0.001);
     CHECK(read_scene(good, "s.toml", with({"box.bottom.period=0.004"}))
@@ -115,8 +115,8 @@ TEST_CASE("Discs that grow need room until the last step") {
 }
 
 TEST_CASE("A compressed start has a rate of growth, and knows no obstacles") {
-    const Scene scene = read_scene(good, "s.toml",
-                                   {"discs.generator=compressed", "discs.growth_rate=0.1"});
+    const SceneParameters scene = read_scene(
+        good, "s.toml", {"discs.generator=compressed", "discs.growth_rate=0.1"});
     CHECK(scene.generator == Generator::compressed);
     CHECK(scene.growth_rate == 0.1);
     CHECK(has(problems_with({"discs.growth_rate=0.1"}),

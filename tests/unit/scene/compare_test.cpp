@@ -45,8 +45,8 @@ TEST_CASE("Everything else is, and is named") {
     }
     const std::string listed =
         "[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1]]\n[time]\nsteps = 5\n";
-    const Scene there = read_scene(listed, "s.toml"),
-                here = read_scene(listed, "s.toml", {"discs.list=[[2, 2, 0, 2]]"});
+    const SceneParameters there = read_scene(listed, "s.toml"),
+                          here = read_scene(listed, "s.toml", {"discs.list=[[2, 2, 0, 2]]"});
     CHECK(physical_differences(there, there).empty());
     CHECK(physical_differences(there, here) ==
           std::vector<std::string>{"'discs.list' is another list there"});

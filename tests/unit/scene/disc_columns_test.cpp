@@ -32,14 +32,14 @@ std::string from_file(const std::string& columns, int n = 4) {
            "\nfile = \"d.txt\"\ncolumns = " + columns + '\n';
 }
 
-DiscColumns columns_of(const std::string& lines, const Scene& scene) {
+DiscColumns columns_of(const std::string& lines, const SceneParameters& scene) {
     std::istringstream stream(lines);
     return read_disc_columns(stream, scene);
 }
 
 /// As the program does it: the scene, the columns it asks for, and the scene again.
-Scene scene_with(const std::string& text, const std::string& lines) {
-    const Scene first = read_scene(SceneText{"s.toml", text, 0, false, {}});
+SceneParameters scene_with(const std::string& text, const std::string& lines) {
+    const SceneParameters first = read_scene(SceneText{"s.toml", text, 0, false, {}});
     return read_scene(SceneText{"s.toml", text, 0, false, columns_of(lines, first)});
 }
 
@@ -55,7 +55,7 @@ const std::string four_lines =
 
 TEST_CASE(
     "Columns of a file of discs are species in the order of ids, whatever the order of lines") {
-    const Scene scene = scene_with(from_file("[\"radius\", \"mass\"]"), four_lines);
+    const SceneParameters scene = scene_with(from_file("[\"radius\", \"mass\"]"), four_lines);
     CHECK(scene.effects.species == std::vector<Species>{{2, 2, 5}, {1, 3, 7}, {1, 1, 1}});
     CHECK(scene.radius == 3);
     CHECK(scene.packing() == Approx(3.14159265358979 * (2 * 4 + 9 + 1) / 1e4));
@@ -67,35 +67,36 @@ TEST_CASE(
     CHECK(discs == std::vector<InputDisc>{
                        {2, 50, 50, 0, 1}, {0, 10, 10, 1, 0}, {3, 80, 80, 0, 0}, {1, 20, 20, 0, 0}});
 
-    const Scene other = scene_with(from_file("[\"mass\", \"radius\"]"),
-                                   four_lines); // in the order that is named
+    const SceneParameters other = scene_with(from_file("[\"mass\", \"radius\"]"),
+                                             four_lines); // in the order that is named
     CHECK(other.effects.species == std::vector<Species>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
-    const Scene light = scene_with(from_file("[\"radius\"]", 2), "1 20 20 0 0 2\n0 10 10 1 0 4\n");
+    const SceneParameters light = scene_with(from_file("[\"radius\"]", 2),
+                                             "1 20 20 0 0 2\n0 10 10 1 0 4\n");
     CHECK(light.effects.species == std::vector<Species>{{1, 4, 1}, {1, 2, 1}});
     CHECK(physical_differences(scene, other).size() == 2); // species, columns
 }
 
 TEST_CASE("Spins at the start come from a file, a list or species") {
-    const Scene file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough,
-                                  "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
+    const SceneParameters file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough,
+                                            "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
     CHECK(file.effects.species.empty());
     CHECK(file.radius == 1);
     CHECK(file.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{2, 0.5}, {3, -2}});
     CHECK(first_number(file, SideColumn::spin, 0) == 0.5);
     CHECK(first_number(file, SideColumn::spin, 1) == 0.5);
     CHECK(first_number(file, SideColumn::spin, 2) == -2);
-    const Scene list = read_scene(
+    const SceneParameters list = read_scene(
         box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0], [20, 20, 0, 0, 0.25]]\n" + rough,
         "s.toml");
     CHECK(list.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{1, 0}, {2, 0.25}});
-    const Scene all = read_scene(
+    const SceneParameters all = read_scene(
         box + "[discs]\nlist = [[10, 10, 1, 0, 2, 3, 1.5], [20, 20, 0, 0, 1, 1]]\n" + rough,
         "s.toml");
     CHECK(all.effects.species == std::vector<Species>{{1, 2, 3}, {1, 1, 1}});
     CHECK(all.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{1, 1.5}, {2, 0}});
     const std::string species = "[[discs.species]]\ncount = 3\nradius = 2\nspin = "
                                 "-1\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
-    const Scene kinds = read_scene(box + species + rough, "s.toml");
+    const SceneParameters kinds = read_scene(box + species + rough, "s.toml");
     CHECK(kinds.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{3, -1}, {43, 0}});
     CHECK(first_number(kinds, SideColumn::spin, 2) == -1);
     CHECK(first_number(kinds, SideColumn::spin, 3) == 0);
@@ -148,11 +149,12 @@ TEST_CASE("Lines with wrong columns are told by their number, with all else that
     const std::string lines =
         "0 10 10 1 0 2 5\n1 20 20 0 0 -1 5\n2 30 30 0 0 2 0\n3 40 40 0 0 nan 1\n4 50 50 0 0 2\n5 "
         "60 60 0 0 2 1 9\n6 1 70 0 0 2 1\n7 80 80 0 0 two 1\n";
-    const Scene scene = read_scene(SceneText{"s.toml", text, 0, false, {}});
+    const SceneParameters scene = read_scene(SceneText{"s.toml", text, 0, false, {}});
     const DiscColumns columns = columns_of(lines, scene);
     CHECK(!columns.is_whole);
     std::vector<Problem> none;
-    const Scene checked = read_scene(SceneText{"s.toml", text, 0, false, columns}, {}, none);
+    const SceneParameters checked = read_scene(SceneText{"s.toml", text, 0, false, columns}, {},
+                                               none);
     CHECK(none.empty()); // the reader of lines has the words
     std::istringstream stream(lines);
     const std::vector<Problem> problems = disc_line_problems(stream, checked);

@@ -22,8 +22,8 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-Scene scene_of(std::uint64_t n_discs) {
-    Scene scene;
+SceneParameters scene_of(std::uint64_t n_discs) {
+    SceneParameters scene;
     scene.name = "t.in";
     scene.lines_before_discs = 5;
     scene.generator = Generator::file;
@@ -38,7 +38,8 @@ struct Outcome {
     std::vector<Problem> problems;
 };
 
-Outcome read_all(const std::string& text, const Scene& scene, std::size_t chunk_size = 1000) {
+Outcome read_all(const std::string& text, const SceneParameters& scene,
+                 std::size_t chunk_size = 1000) {
     std::istringstream stream(text);
     DiscReader reader(stream, scene);
     Outcome outcome;
@@ -100,7 +101,7 @@ TEST_CASE("Each wrong line is one problem, and the good ones are still read") {
 }
 
 TEST_CASE("A file of discs counts its lines from its own start and is named with its folder") {
-    Scene scene = scene_of(1);
+    SceneParameters scene = scene_of(1);
     scene.name = "folder/s.toml";
     scene.discs_file = "d.txt";
     CHECK(places_of(read_all("\n0 5 5\n", scene).problems) == Texts{"folder/d.txt:2"});
@@ -127,7 +128,7 @@ TEST_CASE("Missing ids are summed up as ranges") {
 }
 
 TEST_CASE("A centre may be off the range of centres by the rounding of L, not more") {
-    Scene scene = scene_of(1);
+    SceneParameters scene = scene_of(1);
     scene.radius = 0.1;
     const double high = scene.box.x - scene.radius;
     const auto n_problems = [&](double x) {
@@ -173,7 +174,7 @@ TEST_CASE("A line that does not end, and lines that are never right, end the rea
     };
     const auto problems_with = [](Endless& source) {
         std::istream stream(&source);
-        const Scene scene = scene_of(2);
+        const SceneParameters scene = scene_of(2);
         DiscReader reader(stream, scene);
         std::vector<InputDisc> chunk;
         while (reader.read(chunk, 1000)) {
@@ -191,7 +192,7 @@ TEST_CASE("A line that does not end, and lines that are never right, end the rea
 }
 
 TEST_CASE("A file of discs may begin with a mark of the byte order") {
-    Scene scene = scene_of(1);
+    SceneParameters scene = scene_of(1);
     scene.discs_file = "d.txt";
     CHECK(read_all("\xef\xbb\xbf"
                    "0 5 5 0 0\n",
@@ -219,13 +220,13 @@ TEST_CASE("The line reader agrees with getline on any lengths of lines") {
 }
 
 TEST_CASE("Lines of a scene that is wrong itself are looked at as far as it is known") {
-    const auto places = [](const std::string& text, const Scene& scene) {
+    const auto places = [](const std::string& text, const SceneParameters& scene) {
         std::istringstream stream(text);
         return places_of(disc_line_problems(stream, scene));
     };
     const std::string text = "0 3 3 1\n1 99 7 0 0\n1 4 4 4 4\n7 4 4 0 0\n4294967293 4 4 0 "
                              "0\n4294967294 4 4 0 0\nx 1 1 1 1\n3 nan 4 0 0\n";
-    Scene scene = scene_of(5);
+    SceneParameters scene = scene_of(5);
     CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:9", "t.in:10", "t.in:11",
                                        "t.in:12", "t.in:13", "t.in"});
     scene.n_discs = 0; // ids are all that fit, none is missing

@@ -25,7 +25,7 @@ const std::string& good = test::good_scene;
 } // namespace
 
 TEST_CASE("Effects are read, parameters of others are refused by name") {
-    const Scene scene = read_scene(
+    const SceneParameters scene = read_scene(
         good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n",
         "s.toml");
     CHECK(scene.effects.contact == ContactEffect{ContactKind::restitution, 0.9, 0.01});
@@ -56,11 +56,11 @@ TEST_CASE("Effects are read, parameters of others are refused by name") {
 }
 
 TEST_CASE("Sides are read, and contradictions explained") {
-    const Scene scene = read_scene(good, "s.toml",
-                                   {"box.left.kind=thermal", "box.left.temperature=2",
-                                    "box.right.kind=moving", "box.right.speed=-0.5",
-                                    "box.top.restitution=0.5", "effects.thermal.seed=7",
-                                    "time.method=event-driven"});
+    const SceneParameters scene = read_scene(good, "s.toml",
+                                             {"box.left.kind=thermal", "box.left.temperature=2",
+                                              "box.right.kind=moving", "box.right.speed=-0.5",
+                                              "box.top.restitution=0.5", "effects.thermal.seed=7",
+                                              "time.method=event-driven"});
     CHECK(scene.effects.boundaries[0] == Boundary{BoundaryKind::thermal, 1, 2, 0});
     CHECK(scene.effects.boundaries[1] == Boundary{BoundaryKind::moving, 1, 0, -0.5});
     CHECK(scene.effects.boundaries[2] == Boundary{});
@@ -98,10 +98,10 @@ TEST_CASE("Sides are read, and contradictions explained") {
 }
 
 TEST_CASE("Obstacles are read, each wrong one is named") {
-    const Scene scene = read_scene(good, "s.toml",
-                                   {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
-                                    "effects.obstacles.segments=[[0, 0, 30, 40]]",
-                                    "effects.obstacles.restitution=0.5"});
+    const SceneParameters scene = read_scene(good, "s.toml",
+                                             {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
+                                              "effects.obstacles.segments=[[0, 0, 30, 40]]",
+                                              "effects.obstacles.restitution=0.5"});
     CHECK(scene.effects.obstacles.discs == std::vector<FixedDisc>{{10, 20, 3}, {40, 50, 0}});
     CHECK(scene.effects.obstacles.segments == std::vector<Segment>{{0, 0, 30, 40}});
     CHECK(scene.effects.obstacles.restitution == 0.5);
@@ -122,9 +122,9 @@ TEST_CASE("Obstacles are read, each wrong one is named") {
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving",
                              "box.top.speed=1", "time.method=event-driven"}),
               "together with obstacles"));
-    const Scene other = read_scene(good, "s.toml",
-                                   {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]",
-                                    "effects.obstacles.segments=[[0, 0, 30, 40]]"});
+    const SceneParameters other = read_scene(good, "s.toml",
+                                             {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]",
+                                              "effects.obstacles.segments=[[0, 0, 30, 40]]"});
     CHECK(physical_differences(scene, other).size() == 2);
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("Classes of discs are read, by table and by list") {
     const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
     const std::string two = "[[discs.species]]\ncount = 3\nradius = 2\nmass = "
                             "7\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
-    const Scene scene = read_scene(box + two, "s.toml");
+    const SceneParameters scene = read_scene(box + two, "s.toml");
     CHECK(scene.effects.species == std::vector<Species>{{3, 2, 7}, {40, 0.5, 1}});
     CHECK(scene.n_discs == 43);
     CHECK(scene.radius == 2);
@@ -215,9 +215,10 @@ TEST_CASE("Classes of discs are read, by table and by list") {
     CHECK(summary_of(scene.effects) ==
           "3 discs of radius 2 and mass 7, 40 discs of radius 0.5 and mass 1");
 
-    const Scene listed = read_scene(box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, "
-                                          "2, 3], [0.5, 50, 0, 0, 0.5, 1]]\n",
-                                    "s.toml");
+    const SceneParameters listed = read_scene(
+        box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, "
+              "2, 3], [0.5, 50, 0, 0, 0.5, 1]]\n",
+        "s.toml");
     CHECK(listed.effects.species == std::vector<Species>{{2, 2, 3}, {1, 0.5, 1}});
     CHECK(listed.listed_discs[1] == InputDisc{1, 20, 20, 1, 0});
 

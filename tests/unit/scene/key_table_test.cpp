@@ -34,7 +34,7 @@ std::vector<Problem> problems_in(const std::string& text, const Texts& overrides
 }
 
 /// Names of all keys that are not the same in both scenes.
-Texts keys_that_differ(const Scene& a, const Scene& b) {
+Texts keys_that_differ(const SceneParameters& a, const SceneParameters& b) {
     Texts names;
     for (const Key& key : keys()) {
         const Table& table = *find_table(key.table());
@@ -184,7 +184,7 @@ TEST_CASE("Every key says what it takes") {
         CAPTURE(rule.one);
         CHECK((!rule.keys.empty() || rule.boundary));
         for (const std::string_view key : rule.keys) CHECK(find_key(key) != nullptr);
-        CHECK_FALSE(rule.is_broken(Scene{}));
+        CHECK_FALSE(rule.is_broken(SceneParameters{}));
         CHECK(conflicts_page().find(rule.why) != std::string::npos);
     }
 }
@@ -222,13 +222,13 @@ TEST_CASE("What is written of a scene reads as the same scene, whatever it names
             problems = problems_in(box, overrides);
         }
         if (!problems.empty()) continue;
-        const Scene scene = read_scene(box, "s.toml", overrides);
+        const SceneParameters scene = read_scene(box, "s.toml", overrides);
         const std::string text = scene_text(scene);
         CAPTURE(overrides, text);
         const auto faults = problems_in(text);
         for (const Problem& fault : faults) UNSCOPED_INFO(to_string(fault));
         REQUIRE(faults.empty());
-        const Scene again = read_scene(text, "s.toml");
+        const SceneParameters again = read_scene(text, "s.toml");
         REQUIRE(keys_that_differ(scene, again) == Texts{});
         REQUIRE(scene_text(again) == text);
         REQUIRE(physical_differences(scene, again).empty());
@@ -252,7 +252,7 @@ TEST_CASE("Spins, masses and a column of radii are written as they were read") {
           "2\n",
           "[discs]\nradius = 1\nlist = [[10, 10, 1, 0], [20, 20, 0, 0, 0.25]]\n",
           "[discs]\nlist = [[10, 10, 1, 0, 2, 3, 1.5], [20, 20, -0.0, 0, 1, 1]]\n"}) {
-        const Scene scene = read_scene(box + discs + rough, "s.toml");
+        const SceneParameters scene = read_scene(box + discs + rough, "s.toml");
         CHECK(keys_that_differ(scene, read_scene(scene_text(scene), "s.toml")) == Texts{});
     }
     const std::string columns =
@@ -261,8 +261,9 @@ TEST_CASE("Spins, masses and a column of radii are written as they were read") {
     std::istringstream lines("0 10 10 0 0 1 2 3\n1 20 20 0 0 4 5 6\n");
     const DiscColumns read = read_disc_columns(
         lines, read_scene(SceneText{"s.toml", columns, 0, false, {}}));
-    const Scene scene = read_scene(SceneText{"s.toml", columns, 0, false, read});
-    const Scene again = read_scene(SceneText{"s.toml", scene_text(scene), 0, false, read});
+    const SceneParameters scene = read_scene(SceneText{"s.toml", columns, 0, false, read});
+    const SceneParameters again = read_scene(
+        SceneText{"s.toml", scene_text(scene), 0, false, read});
     CHECK(keys_that_differ(scene, again) == Texts{});
     CHECK(again.disc_columns.size() == 3);
 }

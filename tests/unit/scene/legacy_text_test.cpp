@@ -24,7 +24,7 @@ std::vector<Problem> problems_in(const std::string& text, const Texts& overrides
 } // namespace
 
 TEST_CASE("A header alone asks for the legacy generator") {
-    const Scene scene = read_scene("1000\n20000\n1\n500\nperf\n", "t.in");
+    const SceneParameters scene = read_scene("1000\n20000\n1\n500\nperf\n", "t.in");
     CHECK(scene.n_discs == 1000);
     CHECK(scene.box.x == 20000);
     CHECK(scene.radius == 1);
@@ -47,7 +47,7 @@ TEST_CASE("Lines after the header are discs, and the stream is left at the first
     std::string rest;
     std::getline(stream, rest);
     CHECK(rest == "1 2 3 4 5");
-    const Scene scene = read_scene(text);
+    const SceneParameters scene = read_scene(text);
     CHECK(scene.reads_disc_lines());
     CHECK(scene.text == "2\n\n10\n1\n5\nprint\n");
     CHECK(scene.lines_before_discs == 8);
@@ -55,7 +55,7 @@ TEST_CASE("Lines after the header are discs, and the stream is left at the first
 }
 
 TEST_CASE("Overrides work on the legacy text format") {
-    const Scene scene = read_scene(
+    const SceneParameters scene = read_scene(
         "100\n20000\n1\n500\nperf\n", "t.in",
         {"box.size=3", "discs.packing=0.25", "time.steps=7", "output.text=none", "discs.seed=5"});
     CHECK(scene.box.x == 3);

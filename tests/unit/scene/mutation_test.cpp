@@ -54,12 +54,12 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// Reads a damaged text to its end; anything but a Scene or an InputError fails the test.
+/// Reads a damaged text to its end; anything but SceneParameters or an InputError fails the test.
 bool is_refused(const std::string& text, const std::string& name,
                 const std::vector<std::string>& overrides = {}) {
     const auto problems = test::problems_of([&] {
         std::istringstream stream(text);
-        const Scene scene = read_scene(read_scene_text(stream, name), overrides);
+        const SceneParameters scene = read_scene(read_scene_text(stream, name), overrides);
         if (!scene.reads_disc_lines()) return;
         DiscReader reader(stream, scene);
         std::vector<InputDisc> chunk;

@@ -43,7 +43,7 @@ TEST_CASE("A double written with 17 digits is read back bit for bit, in text and
                       "[box]\nsize = %.17e\n[discs]\ncount = 1\nradius = %.17e\n[time]\nsteps = "
                       "1\nmethod = \"time-stepped\"\n",
                       4 * size, size);
-        const Scene scene = read_scene(scene_text, "s.toml");
+        const SceneParameters scene = read_scene(scene_text, "s.toml");
         CHECK(scene.radius == size);
         CHECK(scene.box.x == 4 * size);
     }

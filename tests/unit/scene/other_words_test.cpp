@@ -99,13 +99,14 @@ TEST_CASE("A table on the command line is that of a scene") {
     CHECK(sizes->kind == SizeKind::lognormal);
     CHECK(sizes->mean == 2);
     CHECK(sizes->polydispersity == 0.2);
-    const Scene equal = read_scene("[box]\nsize = 100\n[discs]\ncount = 50\n[discs.radius]\n"
-                                   "distribution = \"normal\"\nmean = 1\n[time]\nsteps = 10\n",
-                                   "s.toml", {"discs.radius=2"});
+    const SceneParameters equal = read_scene(
+        "[box]\nsize = 100\n[discs]\ncount = 50\n[discs.radius]\n"
+        "distribution = \"normal\"\nmean = 1\n[time]\nsteps = 10\n",
+        "s.toml", {"discs.radius=2"});
     CHECK(!equal.sizes);
     CHECK(equal.radius == 2);
-    const Scene thermal = read_scene(scene, "s.toml",
-                                     {"box={left = {kind = \"thermal\", temperature = 0.5}}"});
+    const SceneParameters thermal = read_scene(
+        scene, "s.toml", {"box={left = {kind = \"thermal\", temperature = 0.5}}"});
     CHECK(thermal.effects.boundaries[0].temperature == 0.5);
     for (const auto& [setting, advice] : {
              std::pair{"discs.radius={distribution=lognormal}", "quote it for the shell"},

@@ -39,7 +39,7 @@ TEST_CASE("A box is a square of one length or a rectangle of two") {
     CHECK(read_scene(with_line(2, "size = [30, 30]"), "s.toml").box == Box(30));
     CHECK(read_scene(good, "s.toml", {"box.size=[20, 80]"}).box == Box(20, 80));
     CHECK(read_scene(with_line(2, "size = [20, 80]"), "s.toml", {"box.size=40"}).box == Box(40));
-    const Scene wide = read_scene(with_line(2, "size = [50, 20]"), "s.toml");
+    const SceneParameters wide = read_scene(with_line(2, "size = [50, 20]"), "s.toml");
     CHECK(wide.packing() == Approx(50 * std::numbers::pi / 1000));
     const std::string packed = "[box]\nsize = [50, 20]\n[discs]\ncount = 10\npacking = 0.25\n"
                                "[time]\nsteps = 1\n";
@@ -81,8 +81,8 @@ TEST_CASE("Discs and periodic sides must fit along both edges") {
 }
 
 TEST_CASE("A rectangle's text is read as it is written, and tells boxes apart") {
-    const Scene wide = read_scene(with_line(2, "size = [50, 20.25]"), "s.toml"),
-                square = read_scene(good, "s.toml");
+    const SceneParameters wide = read_scene(with_line(2, "size = [50, 20.25]"), "s.toml"),
+                          square = read_scene(good, "s.toml");
     const Key& key = *find_key("box.size");
     CHECK(toml_text(key, key.get(wide)) == "[50, 20.25]");
     CHECK(toml_text(key, key.get(square)) == "100");

@@ -102,11 +102,11 @@ TEST_CASE("a scene with radii that follow a distribution is written and read aga
     const std::string text = "[box]\nsize = 100\n[discs]\ncount = 300\npacking = 0.3\n"
                              "radius = {distribution = \"normal\", polydispersity = 0.2}\n"
                              "[time]\nsteps = 10\n";
-    const Scene scene = read_scene(text, "s.toml", {});
+    const SceneParameters scene = read_scene(text, "s.toml", {});
     CHECK(scene.packing() == Approx(0.3));
     CHECK(scene.effects.species.size() == 300);
     CHECK(scene.radius == scene.effects.species.back().radius);
-    const Scene again = read_scene(scene_text(scene), "again.toml", {});
+    const SceneParameters again = read_scene(scene_text(scene), "again.toml", {});
     CHECK(again.effects.species == scene.effects.species);
     CHECK(scene_text(again) == scene_text(scene));
 }

@@ -26,7 +26,7 @@ TEST_CASE("A packing or a radius that cannot be says what the bound is") {
                    "at most 0.9069, not 0.95: equal discs cover no more of the plane"));
     CHECK(mentions(problems_in(with_line(5, "radius = 1e-9"), {"time.method=time-stepped"}),
                    "discs of radius 1e-09 in a box of side 100"));
-    const Scene all = read_scene(with_line(5, "radius = 1e-9"), "s.toml");
+    const SceneParameters all = read_scene(with_line(5, "radius = 1e-9"), "s.toml");
     REQUIRE(all.warnings.size() == 1);
     CHECK(all.warnings[0].find("discs of radius 1e-09 in a box of side 100") == 0);
 }
@@ -97,7 +97,7 @@ TEST_CASE("Streams need a region and a finite velocity") {
 TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
     const auto partly = [](const std::string& more) {
         std::vector<Problem> problems;
-        const Scene scene = read_scene(
+        const SceneParameters scene = read_scene(
             {"s.toml", "[time]\nsteps = -1\n[discs]\nfile = \"d\"\n" + more, 0, false}, {},
             problems);
         CHECK(problems.size() >= 1);

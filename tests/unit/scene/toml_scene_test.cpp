@@ -7,7 +7,7 @@ using namespace carrom;
 using namespace carrom::test;
 
 TEST_CASE("A scene has what its text says and the defaults for the rest") {
-    const Scene scene = read_scene(good, "folder/s.toml");
+    const SceneParameters scene = read_scene(good, "folder/s.toml");
     CHECK(scene.name == "folder/s.toml");
     CHECK(scene.text == good);
     CHECK(scene.box.x == 100);
@@ -26,7 +26,7 @@ TEST_CASE("A scene has what its text says and the defaults for the rest") {
 }
 
 TEST_CASE("Every key of a scene is taken over") {
-    const Scene scene = read_scene(
+    const SceneParameters scene = read_scene(
         "[box]\nsize = 1e2\n[discs]\ncount = 1e2\npacking = 0.25\ngenerator = 'lattice'\n"
         "speed = 0.5\nvelocities = \"uniform\"\nseed = 0x10\n"
         "[[discs.streams]]\nregion = [0, 1, 2.5, 3]\nvelocity = [-1, 0.5]\n"
@@ -55,25 +55,25 @@ TEST_CASE("An accuracy stands in for the settings that it chooses, and the comma
     const std::string asks =
         "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 5\naccuracy = 0.1\n";
     CHECK(read_scene(asks, "s.toml").accuracy == 0.1);
-    const Scene chosen = read_scene(asks, "s.toml",
-                                    {"time.method=event-driven", "time.micro_steps=4"});
+    const SceneParameters chosen = read_scene(asks, "s.toml",
+                                              {"time.method=event-driven", "time.micro_steps=4"});
     CHECK_FALSE(chosen.accuracy);
     CHECK((chosen.method == Method::event_driven && chosen.micro_steps == 4));
-    const Scene asked = read_scene(good, "s.toml", {"time.accuracy=0.5"});
+    const SceneParameters asked = read_scene(good, "s.toml", {"time.accuracy=0.5"});
     CHECK(asked.accuracy == 0.5);
     CHECK_THROWS_AS(read_scene(asks + "micro_steps = 2\n", "s.toml"), InputError);
 }
 
 TEST_CASE("Precision and arithmetic are knobs of both methods") {
-    const Scene plain = read_scene(good, "s.toml");
+    const SceneParameters plain = read_scene(good, "s.toml");
     CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable &&
            !plain.contraction));
-    const Scene other = read_scene(
+    const SceneParameters other = read_scene(
         good, "s.toml",
         {"time.precision=single", "time.arithmetic=naive", "time.contraction=true"});
     CHECK((other.precision == Precision::single && other.arithmetic == Arithmetic::naive &&
            other.contraction));
-    const Scene exact = read_scene(
+    const SceneParameters exact = read_scene(
         good, "s.toml",
         {"time.method=event-driven", "time.precision=single", "time.arithmetic=naive"});
     CHECK((exact.method == Method::event_driven && exact.precision == Precision::single &&
@@ -90,7 +90,7 @@ TEST_CASE("Precision and arithmetic are knobs of both methods") {
 }
 
 TEST_CASE("Discs can be listed in the scene or in a file beside it") {
-    const Scene listed = read_scene(
+    const SceneParameters listed = read_scene(
         "[box]\nsize = 10\n[discs]\nradius = 5\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n",
         "s.toml");
     CHECK(listed.generator == Generator::file);
@@ -98,7 +98,7 @@ TEST_CASE("Discs can be listed in the scene or in a file beside it") {
     CHECK(listed.listed_discs == std::vector<InputDisc>{{0, 5, 5, 1, -1}});
     CHECK_FALSE(listed.reads_disc_lines());
 
-    const Scene filed = read_scene(
+    const SceneParameters filed = read_scene(
         "[box]\nsize = 10\n[discs]\ncount = 3\nradius = 1\nfile = \"d.txt\"\n[time]\nsteps = 1\n",
         "folder/s.toml");
     CHECK(filed.reads_disc_lines());
@@ -106,10 +106,10 @@ TEST_CASE("Discs can be listed in the scene or in a file beside it") {
 }
 
 TEST_CASE("Overrides replace what the text says, and what excludes them there") {
-    const Scene scene = read_scene(good, "s.toml",
-                                   {"box.size=30", "discs.packing = 0.2", "output.text=ends",
-                                    "discs.speed=2.5", "time.steps=5", "time.steps=6",
-                                    "discs.velocities='uniform'"});
+    const SceneParameters scene = read_scene(good, "s.toml",
+                                             {"box.size=30", "discs.packing = 0.2",
+                                              "output.text=ends", "discs.speed=2.5", "time.steps=5",
+                                              "time.steps=6", "discs.velocities='uniform'"});
     CHECK(scene.box.x == 30);
     CHECK(scene.radius == Approx(30 * std::sqrt(0.2 / (50 * 3.14159265358979))));
     CHECK(scene.text_output == TextOutput::first_and_last);
@@ -117,7 +117,7 @@ TEST_CASE("Overrides replace what the text says, and what excludes them there") 
     CHECK(scene.steps == 6);
     CHECK(scene.velocities == VelocityKind::uniform);
 
-    const Scene regenerated = read_scene(good, "s.toml", {"discs.generator=legacy"});
+    const SceneParameters regenerated = read_scene(good, "s.toml", {"discs.generator=legacy"});
     CHECK(regenerated.generator == Generator::legacy);
     const std::string listed = "[box]\nsize = 10\n[discs]\nradius = 1\ncount = 1\nlist = [[5, 5, "
                                "1, -1]]\n[time]\nsteps = 1\n";
@@ -127,7 +127,7 @@ TEST_CASE("Overrides replace what the text says, and what excludes them there") 
 }
 
 TEST_CASE("A dense random scene becomes a lattice, and says so") {
-    const Scene scene = read_scene(good, "s.toml", {"discs.packing=0.7"});
+    const SceneParameters scene = read_scene(good, "s.toml", {"discs.packing=0.7"});
     CHECK(scene.generator == Generator::lattice);
     REQUIRE(scene.warnings.size() == 1);
     CHECK(scene.warnings[0].find("lattice") != std::string::npos);
@@ -286,7 +286,7 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
 }
 
 TEST_CASE("Outputs to files are read and checked") {
-    const Scene scene = read_scene(
+    const SceneParameters scene = read_scene(
         std::string(good) + "[output]\nfolder = 'a b'\ncollisions = "
                             "true\n[output.checkpoint]\nevery_steps = 1e3\nevery_minutes = 0.5\n"
                             "keep = 3\nat_end = false\n[output.trajectory]\nevery_steps = 7\n"
@@ -307,8 +307,8 @@ TEST_CASE("Outputs to files are read and checked") {
     REQUIRE(scene.collisions);
     CHECK(scene.collisions->file == "a b/collisions.h5");
 
-    const Scene plain = read_scene(good, "s.toml",
-                                   {"output.folder=x", "output.trajectory.every_steps=1"});
+    const SceneParameters plain = read_scene(
+        good, "s.toml", {"output.folder=x", "output.trajectory.every_steps=1"});
     REQUIRE(plain.checkpoint);
     CHECK(plain.checkpoint->keep == 2);
     CHECK(plain.checkpoint->at_end);

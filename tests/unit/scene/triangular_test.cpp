@@ -105,7 +105,7 @@ TEST_CASE("A box that no triangular lattice fits gets the nearest one that does"
 }
 
 TEST_CASE("Scenes of triangular lattices") {
-    const Scene scene = read_scene(periodic_scene(120, "[10, 10.3923]", 0.49), "s.toml");
+    const SceneParameters scene = read_scene(periodic_scene(120, "[10, 10.3923]", 0.49), "s.toml");
     CHECK(scene.generator == Generator::triangular);
     CHECK(mentions(problems_in(periodic_scene(120, "10", 0.4)),
                    "no triangular lattice of 120 discs fits a box of side 10: columns times an "

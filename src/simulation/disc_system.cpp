@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/simulation.hpp"
+#include "simulation/disc_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
 
 /// Frees inputs as it makes states, because both together would take the most memory
 /// of a run.
-StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
+StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     StoredState state;
     BySideColumn<std::vector<double>> numbers;
@@ -51,7 +51,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
     for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap shrinks
         for (const InputDisc& input : parts.back()) {
-            Disc& disc = state.discs.emplace_back();
+            DiscState& disc = state.discs.emplace_back();
             disc.id = input.id;
             disc.x = input.x;
             disc.y = input.y;
@@ -68,7 +68,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     return state;
 }
 
-std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state,
+std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState state,
                                    const Communicator& communicator, const Tuning& tuning) {
     if (scene.method == Method::event_driven)
         return make_event_driven_engine(scene, std::move(state), communicator, tuning);
@@ -76,10 +76,11 @@ std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state,
 }
 
 /// The speed per micro-step that discs are likely to have, now or later; the same on all ranks.
-double usual_speed(const Scene& scene, std::span<const Disc> own, const Communicator& ranks) {
+double usual_speed(const SceneParameters& scene, std::span<const DiscState> own,
+                   const Communicator& ranks) {
     const Effects& effects = scene.effects;
     double fastest = 0;
-    for (const Disc& disc : own)
+    for (const DiscState& disc : own)
         fastest = std::max({fastest, std::fabs(disc.vx), std::fabs(disc.vy)});
     fastest = ranks.max(fastest) * static_cast<double>(scene.micro_steps);
     for (const Boundary& side : effects.boundaries)
@@ -88,13 +89,13 @@ double usual_speed(const Scene& scene, std::span<const Disc> own, const Communic
     return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
 }
 
-double heaviest_of(const Scene& scene) {
+double heaviest_of(const SceneParameters& scene) {
     double heaviest = scene.effects.species.empty() ? 1 : 0;
     for (const Species& one : scene.effects.species) heaviest = std::max(heaviest, one.mass);
     return heaviest;
 }
 
-AveragedSystem system_to_average(const Scene& scene, std::uint64_t n_discs) {
+AveragedSystem system_to_average(const SceneParameters& scene, std::uint64_t n_discs) {
     AveragedSystem system;
     system.n_discs = static_cast<double>(n_discs);
     system.box = scene.box;
@@ -115,12 +116,12 @@ AveragedSystem system_to_average(const Scene& scene, std::uint64_t n_discs) {
 
 } // namespace
 
-Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs,
+DiscSystem::DiscSystem(const SceneParameters& scene, std::vector<InputDisc> discs,
                        const Communicator& communicator, const Tuning& tuning)
-    : Simulation(scene, first_state(scene, std::move(discs)), communicator, tuning) {}
+    : DiscSystem(scene, first_state(scene, std::move(discs)), communicator, tuning) {}
 
-Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
-                       const Tuning& tuning)
+DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
+                       const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
       effects_(scene.effects), columns_(side_columns_of(scene)), box_(scene.box),
       n_threads_(tuning.threads), heaviest_(heaviest_of(scene)),
@@ -134,25 +135,25 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
 }
 
-Simulation::~Simulation() = default;
+DiscSystem::~DiscSystem() = default;
 
-void Simulation::advance_towards(std::int64_t last_step) {
+void DiscSystem::advance_towards(std::int64_t last_step) {
     if (check_ && step() < last_step)
         advance_checked();
     else // at most to the first step after a sync
         engine_->advance_towards(last_step);
 }
 
-void Simulation::begin_stress_sums(double bound) {
+void DiscSystem::begin_stress_sums(double bound) {
     if (stress_ && bound == stress_bound_) return; // the run may go on from a checkpoint
     stress_bound_ = bound;
     stress_ = std::make_unique<StressSums>(bound);
     engine_->add_stress_to(stress_.get());
 }
 
-const StressSums& Simulation::stress_sums() const { return *stress_; }
+const StressSums& DiscSystem::stress_sums() const { return *stress_; }
 
-MotionSample Simulation::motion_sample() const {
+MotionSample DiscSystem::motion_sample() const {
     MotionSample sample = sample_motion(in_flow(), table_if_mixed(), heaviest_, engine_->n_discs(),
                                         n_threads_, communicator_);
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
@@ -160,22 +161,22 @@ MotionSample Simulation::motion_sample() const {
     return sample;
 }
 
-void Simulation::integrate(const StressSums& mine, MotionSample& sample) const {
+void DiscSystem::integrate(const StressSums& mine, MotionSample& sample) const {
     add_integrals(mine, communicator_, sample);
     integrate_flights(sample);
 }
 
-void Simulation::integrate_flights(MotionSample& sample) const {
+void DiscSystem::integrate_flights(MotionSample& sample) const {
     add_flights(engine_->flight_integral(), frame(), sample);
 }
 
-void Simulation::check_every_step(const Scene& scene) {
+void DiscSystem::check_every_step(const SceneParameters& scene) {
     check_ = std::make_unique<StateCheck>(scene, species_table(), discs(), micro_steps_done(),
                                           communicator_, frame(), clock(), spins(),
                                           engine_->energy_given());
 }
 
-void Simulation::advance_checked() {
+void DiscSystem::advance_checked() {
     std::vector<Collision> collisions;
     double work = 0;
     engine_->log_to(&collisions);
@@ -190,20 +191,20 @@ void Simulation::advance_checked() {
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
-std::int64_t Simulation::step() const {
+std::int64_t DiscSystem::step() const {
     return micro_steps_done() / static_cast<std::int64_t>(velocity_unit_);
 }
 
-std::int64_t Simulation::micro_steps_done() const { return engine_->micro_steps_done(); }
+std::int64_t DiscSystem::micro_steps_done() const { return engine_->micro_steps_done(); }
 
-std::span<const Disc> Simulation::discs() const {
+std::span<const DiscState> DiscSystem::discs() const {
     if (engine_->departed().empty()) return engine_->own();
     stored_.assign(engine_->own().begin(), engine_->own().end());
     stored_.insert(stored_.end(), engine_->departed().begin(), engine_->departed().end());
     return stored_;
 }
 
-SideSpans Simulation::side_columns() const {
+SideSpans DiscSystem::side_columns() const {
     if (engine_->departed().empty()) return engine_->side_columns();
     const SideSpans own = engine_->side_columns(), departed = engine_->departed_columns();
     columns_.for_each([&](SideColumn column) {
@@ -214,55 +215,55 @@ SideSpans Simulation::side_columns() const {
     return stored_columns_.spans();
 }
 
-Frame Simulation::frame() const { return engine_->frame(); }
+Frame DiscSystem::frame() const { return engine_->frame(); }
 
-std::span<const Disc> Simulation::shown() const {
+std::span<const DiscState> DiscSystem::shown() const {
     const Frame now = frame();
     if (!now.is_moving) return discs();
     shown_.clear();
-    for (const Disc& disc : discs()) shown_.push_back(now.in_box(disc, clock()));
+    for (const DiscState& disc : discs()) shown_.push_back(now.in_box(disc, clock()));
     return shown_;
 }
 
-std::span<const Disc> Simulation::in_motion() const {
+std::span<const DiscState> DiscSystem::in_motion() const {
     return frame().keeps_velocities() ? discs() : shown();
 }
 
-std::span<const Disc> Simulation::in_flow() const {
+std::span<const DiscState> DiscSystem::in_flow() const {
     if (!effects_.are_sheared()) return in_motion();
     static_cast<void>(shown());
-    for (Disc& disc : shown_) disc.vx -= effects_.flow_at(disc.y, box_) / velocity_unit_;
+    for (DiscState& disc : shown_) disc.vx -= effects_.flow_at(disc.y, box_) / velocity_unit_;
     return shown_;
 }
 
-double Simulation::clock() const { return engine_->clock(); }
+double DiscSystem::clock() const { return engine_->clock(); }
 
-void Simulation::log_to(std::vector<Collision>* log) {
+void DiscSystem::log_to(std::vector<Collision>* log) {
     log_ = log;
     engine_->log_to(log);
 }
 
-void Simulation::follow_pairs(PairFollower& follower) {
+void DiscSystem::follow_pairs(PairFollower& follower) {
     engine_->followers_of_pairs().add(follower);
 }
 
-void Simulation::forget(PairFollower& follower) { engine_->followers_of_pairs().forget(follower); }
+void DiscSystem::forget(PairFollower& follower) { engine_->followers_of_pairs().forget(follower); }
 
-void Simulation::follow_walls(WallFollower& follower) {
+void DiscSystem::follow_walls(WallFollower& follower) {
     engine_->followers_of_walls().add(follower);
 }
 
-void Simulation::forget(WallFollower& follower) { engine_->followers_of_walls().forget(follower); }
+void DiscSystem::forget(WallFollower& follower) { engine_->followers_of_walls().forget(follower); }
 
-void Simulation::note_crossings_in(std::vector<Crossing>& crossings) {
+void DiscSystem::note_crossings_in(std::vector<Crossing>& crossings) {
     engine_->note_crossings_in(crossings);
 }
 
-void Simulation::forget_crossings_in(std::vector<Crossing>& crossings) {
+void DiscSystem::forget_crossings_in(std::vector<Crossing>& crossings) {
     engine_->forget_crossings_in(crossings);
 }
 
-void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
+void DiscSystem::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
                                       std::span<std::uint64_t> counts) const {
     const std::size_t n_bins = counts.size() / n_pair_kinds(species_ends.size());
     const LocalView now = engine_->local_view(bin_width * static_cast<double>(n_bins));
@@ -272,7 +273,7 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
 
 /// The orders of all discs of the view that are at most `reach_beyond` from the own
 /// ones. The view is good until images are forgotten. **Collective.**
-LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
+LocalView DiscSystem::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
     CellSizes sizes;
@@ -290,7 +291,7 @@ LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& o
     }
 }
 
-HexaticSums Simulation::hexatic_order(double largest_distance, std::size_t n_bins) const {
+HexaticSums DiscSystem::hexatic_order(double largest_distance, std::size_t n_bins) const {
     HexaticSums sums(engine_->n_discs(), n_bins);
     std::vector<BondOrder> orders;
     const LocalView now = find_orders(largest_distance, orders);
@@ -303,7 +304,7 @@ HexaticSums Simulation::hexatic_order(double largest_distance, std::size_t n_bin
     return sums;
 }
 
-std::vector<BondOrder> Simulation::bond_orders() const {
+std::vector<BondOrder> DiscSystem::bond_orders() const {
     std::vector<BondOrder> orders;
     const LocalView now = find_orders(0, orders);
     orders.resize(now.population.n_own);
@@ -312,7 +313,7 @@ std::vector<BondOrder> Simulation::bond_orders() const {
     return orders;
 }
 
-Totals Simulation::totals() const {
+Totals DiscSystem::totals() const {
     Totals totals = energies();
     measure_collisions(discs(), side_columns(), communicator_, totals);
     measure_departures(discs(), box_, communicator_, totals);
@@ -320,13 +321,13 @@ Totals Simulation::totals() const {
     return totals;
 }
 
-const SpeciesTable& Simulation::species_table() const { return engine_->species_table(); }
+const SpeciesTable& DiscSystem::species_table() const { return engine_->species_table(); }
 
-const SpeciesTable* Simulation::table_if_mixed() const {
+const SpeciesTable* DiscSystem::table_if_mixed() const {
     return effects_.species.empty() ? nullptr : &species_table();
 }
 
-Totals Simulation::energies() const {
+Totals DiscSystem::energies() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
     measure_motion(in_motion(), table_if_mixed(), velocity_unit_, communicator_, totals);
@@ -338,8 +339,8 @@ Totals Simulation::energies() const {
     return totals;
 }
 
-RollbackCounts Simulation::rollback_counts() const { return engine_->rollback_counts(); }
+RollbackCounts DiscSystem::rollback_counts() const { return engine_->rollback_counts(); }
 
-PhaseSeconds Simulation::phase_seconds() const { return engine_->phase_seconds(); }
+PhaseSeconds DiscSystem::phase_seconds() const { return engine_->phase_seconds(); }
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-double Scene::packing() const {
+double SceneParameters::packing() const {
     if (!effects.species.empty()) {
         double sum = 0;
         for (const Species& one : effects.species)
@@ -20,12 +20,12 @@ double Scene::packing() const {
     return static_cast<double>(n_discs) * std::numbers::pi * (radius / box.x) * (radius / box.y);
 }
 
-void choose_fields(TrajectoryOutput& trajectory, const Scene& scene) {
+void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene) {
     trajectory.columns = side_columns_of(scene);
     trajectory.has_image = scene.effects.are_periodic() && !scene.effects.are_sheared();
 }
 
-double first_number(const Scene& scene, SideColumn column, DiscId id) {
+double first_number(const SceneParameters& scene, SideColumn column, DiscId id) {
     const std::vector<NumberRun>& runs = scene.first_numbers[column];
     const auto run = std::upper_bound(
         runs.begin(), runs.end(), id,
@@ -33,7 +33,7 @@ double first_number(const Scene& scene, SideColumn column, DiscId id) {
     return run == runs.end() ? 0 : run->number;
 }
 
-SideColumnSet side_columns_of(const Scene& scene) {
+SideColumnSet side_columns_of(const SceneParameters& scene) {
     SideColumnSet columns = side_columns_of(scene.effects);
     for (const SideColumn column : all_side_columns) {
         const bool is_given = !scene.first_numbers[column].empty() ||
@@ -43,7 +43,7 @@ SideColumnSet side_columns_of(const Scene& scene) {
     return columns;
 }
 
-std::string discs_path(const Scene& scene) {
+std::string discs_path(const SceneParameters& scene) {
     const std::string& name = scene.discs_from.empty() ? scene.discs_file : scene.discs_from;
     return (std::filesystem::path(scene.name).parent_path() / name).string();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One checked description of a run. Every reader ends in a `Scene`; after that nothing
+// One checked description of a run. Every reader ends in `SceneParameters`; after that nothing
 // reads the input's text again.
 //
 // Velocities and times are the scene's (per step). The engine divides by `micro_steps`
@@ -17,7 +17,7 @@
 
 #include <carrom/box.hpp>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "scene/size_distribution.hpp"
 
@@ -129,7 +129,7 @@ struct MeasurementOutput {
     void derive(const std::string& setting, double value) { settings[setting] = {value, false}; }
 };
 
-struct Scene {
+struct SceneParameters {
     std::string name; ///< the file's name, "standard input" for `-`
     std::string text; ///< the input's own text without lines of discs, for checkpoints
     std::int64_t lines_before_discs =
@@ -193,16 +193,16 @@ struct Scene {
 };
 
 /// A disc's number at the start.
-double first_number(const Scene& scene, SideColumn column, DiscId id);
+double first_number(const SceneParameters& scene, SideColumn column, DiscId id);
 
 /// The columns beside the states that the scene's discs have: those that the dynamics
 /// needs, and those to which the scene gives numbers.
-SideColumnSet side_columns_of(const Scene& scene);
+SideColumnSet side_columns_of(const SceneParameters& scene);
 
 /// Chooses the fields of frames for a scene that does not name them.
-void choose_fields(TrajectoryOutput& trajectory, const Scene& scene);
+void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene);
 
 /// The path of `discs_file` or `discs_from`, which are relative to the scene's own file.
-std::string discs_path(const Scene& scene);
+std::string discs_path(const SceneParameters& scene);
 
 } // namespace carrom

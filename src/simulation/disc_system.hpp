@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a run and how it moves forward in time. It opens no file and prints nothing.
+// All discs of a run and the engine that moves them forward in time. It opens no file and prints
+// nothing.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/disc.hpp"
+#include "core/disc_state.hpp"
 #include "core/frame.hpp"
 #include "engine/collision.hpp"
 #include "engine/pair_event.hpp"
@@ -20,7 +21,7 @@
 #include "engine/tuning.hpp"
 #include "engine/wall_event.hpp"
 #include "parallel/communicator.hpp"
-#include "scene/scene.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -33,18 +34,18 @@ struct LocalView;
 struct MotionSample;
 struct StressSums;
 
-class Simulation {
+class DiscSystem {
 public:
     /// Takes the scene's `discs` (velocities per step, tau 0), in any
     /// distribution over the ranks. Velocities become those per micro-step.
     /// **Collective.**
-    Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
-               const Tuning& tuning);
+    DiscSystem(const SceneParameters& scene, std::vector<InputDisc> discs,
+               const Communicator& communicator, const Tuning& tuning);
     /// Goes on from a stored state of the same scene, in any distribution over the
     /// ranks. **Collective.**
-    Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
+    DiscSystem(const SceneParameters& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
-    ~Simulation();
+    ~DiscSystem();
 
     /// Runs until `last_step`, or until an earlier step that is a good one to read the state at (at
     /// least one step on). Steps are the scene's. **Collective.**
@@ -54,22 +55,22 @@ public:
     std::int64_t micro_steps_done() const;
 
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
-    /// have left the box are among them (Disc::has_departed). Good until the next call.
-    std::span<const Disc> discs() const;
+    /// have left the box are among them (DiscState::has_departed). Good until the next call.
+    std::span<const DiscState> discs() const;
     /// The numbers of side columns along `discs()`. Good until the next call.
     SideSpans side_columns() const;
     /// The spins, in angles per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
     /// The radius and the mass of each disc. A copy shares the memory.
     const SpeciesTable& species_table() const;
-    /// The present time in micro-steps since the last sync, for Disc::x_at.
+    /// The present time in micro-steps since the last sync, for DiscState::x_at.
     double clock() const;
     /// The frame of the coordinates of `discs()` at `clock()`. It is the box's own
     /// unless there is gravity.
     Frame frame() const;
     /// The own discs as the box sees them at `clock()`. This is `discs()` itself
     /// unless there is gravity; else it is good until the next call.
-    std::span<const Disc> shown() const;
+    std::span<const DiscState> shown() const;
     /// The factor from stored velocities to velocities per step.
     double velocity_unit() const { return velocity_unit_; }
 
@@ -122,7 +123,7 @@ public:
     /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards`
     /// goes one step at a time and throws CheckFailure on every rank when one is broken. `scene`
     /// must outlive the run, and be of the default precision and arithmetic. **Collective.**
-    void check_every_step(const Scene& scene);
+    void check_every_step(const SceneParameters& scene);
 
     /// **Collective.**
     Totals totals() const;
@@ -136,9 +137,9 @@ private:
     const SpeciesTable* table_if_mixed() const; ///< null if all discs are equal
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
     /// Like `shown()`, but only the velocities are right.
-    std::span<const Disc> in_motion() const;
+    std::span<const DiscState> in_motion() const;
     /// Like in_motion, without the mean flow between sheared sides, which is no temperature.
-    std::span<const Disc> in_flow() const;
+    std::span<const DiscState> in_flow() const;
 
     Communicator communicator_;
     double velocity_unit_;
@@ -152,8 +153,8 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
-    mutable std::vector<Disc> shown_;       ///< under gravity
-    mutable std::vector<Disc> stored_;      ///< once discs have left the box
+    mutable std::vector<DiscState> shown_;  ///< under gravity
+    mutable std::vector<DiscState> stored_; ///< once discs have left the box
     mutable SideColumns stored_columns_;    ///< once discs have left the box
     std::vector<Collision>* log_ = nullptr; ///< the user's log, while the check has its own
 };

@@ -23,7 +23,7 @@ using LocalIndex = std::uint32_t;
 /// Lengths are in the scene's unit, velocities in lengths per micro-step, `tau` in micro-steps
 /// since the last sync. Counters have 47 bits: a disc that collides a million times a second
 /// reaches their end after four years.
-struct alignas(64) Disc {
+struct alignas(64) DiscState {
     double x = 0, y = 0;
     double vx = 0, vy = 0;
     double tau = 0;
@@ -52,8 +52,10 @@ struct alignas(64) Disc {
         return static_cast<std::uint32_t>(wall_collisions + pair_collisions);
     }
 };
-static_assert(sizeof(Disc) == 64);
+static_assert(sizeof(DiscState) == 64);
 
-inline double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+inline double squared_speed_of(const DiscState& disc) {
+    return disc.vx * disc.vx + disc.vy * disc.vy;
+}
 
 } // namespace carrom
