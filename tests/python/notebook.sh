@@ -8,7 +8,8 @@ source "$(dirname "$0")/environment.sh"
 use_environment "$1/package"
 for needed in 'h5py h5py' 'numpy numpy' 'matplotlib matplotlib' 'PIL pillow' \
     'freud freud-analysis' \
-    'nbformat nbformat' 'nbclient nbclient' 'ipykernel ipykernel' 'pandas pandas'; do
+    'nbformat nbformat' 'nbclient nbclient' 'ipykernel ipykernel' 'pandas pandas' \
+    'xarray xarray'; do
     read -r module name <<<"$needed"
     has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
