@@ -56,6 +56,13 @@ else
     printf 'skipped: Debian has not both MPI libraries installed\n'
 fi
 
+# A folder whose name HDF5's own h5pcc does not bear.
+odd="$test_folder/it's of ä"
+mkdir "$odd"
+timeout 200 "$cmake" -S "$CARROM_SOURCE_DIR" -B "$odd/build" -DCARROM_TESTS=OFF \
+    -DCMAKE_CXX_COMPILER="$compiler" >log 2>&1 || { complain 'a folder of odd name'; tail -n 5 log; }
+rm -rf "$odd"
+
 mkdir parent
 cat >parent/CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.25)
