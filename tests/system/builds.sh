@@ -60,7 +60,8 @@ fi
 odd="$test_folder/it's of ä"
 mkdir "$odd"
 timeout 200 "$cmake" -S "$CARROM_SOURCE_DIR" -B "$odd/build" -DCARROM_TESTS=OFF \
-    -DCMAKE_CXX_COMPILER="$compiler" >log 2>&1 || { complain 'a folder of odd name'; tail -n 5 log; }
+    -DCMAKE_CXX_COMPILER="$compiler" >log 2>&1 ||
+    { complain 'a folder of odd name'; tail -n 5 log; }
 rm -rf "$odd"
 
 mkdir parent
