@@ -51,12 +51,17 @@ install() {
     [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}"
 }
 
-# mpi_packages: of the library that MPI names, or of the one that is there
+# mpi_library: the one that MPI names, or whose HDF5 is there, else Open MPI
+mpi_library() {
+    if [ -z "${MPI:-}" ] && has_apt && [ -z "$(missing_packages libhdf5-mpich-dev)" ] &&
+        [ -n "$(missing_packages libhdf5-openmpi-dev)" ]; then
+        echo mpich
+    else
+        echo "${MPI:-openmpi}"
+    fi
+}
 mpi_packages() {
-    local library=${MPI:-openmpi}
-    if [ -z "${MPI:-}" ] && [ -z "$(missing_packages libhdf5-mpich-dev)" ] &&
-        [ -n "$(missing_packages libhdf5-openmpi-dev)" ]; then library=mpich; fi
-    [ $library = mpich ] && printf '%s\n' "${mpich_packages[@]}" ||
+    [ "$(mpi_library)" = mpich ] && printf '%s\n' "${mpich_packages[@]}" ||
         printf '%s\n' "${openmpi_packages[@]}"
 }
 
@@ -127,13 +132,17 @@ unpack_debian() {
     touch "$folder/unpacked"
 }
 
-# mpi_words: cmake's words for the library that MPI names. Debian has several side by side, and an
-# HDF5 for each: all parts of one build must be of the same.
+# mpi_words: cmake's words for mpi_library, unless it is what cmake finds by itself. Debian has
+# several side by side, and an HDF5 for each: all parts of one build must be of the same.
 mpi_words() {
-    [ -n "${MPI:-}" ] && command -v "mpicc.$MPI" >/dev/null || return 0
-    printf '%s\n' "-DMPI_C_COMPILER=$(command -v "mpicc.$MPI")" \
-        "-DMPIEXEC_EXECUTABLE=$(command -v "mpiexec.$MPI")" \
-        "-DHDF5_C_COMPILER_EXECUTABLE=$(command -v "h5pcc.$MPI")"
+    local library
+    library=$(mpi_library)
+    command -v "mpicc.$library" >/dev/null && command -v "h5pcc.$library" >/dev/null || return 0
+    [ -n "${MPI:-}" ] || [ ! "$(command -v mpicc)" -ef "$(command -v "mpicc.$library")" ] ||
+        return 0
+    printf '%s\n' "-DMPI_C_COMPILER=$(command -v "mpicc.$library")" \
+        "-DMPIEXEC_EXECUTABLE=$(command -v "mpiexec.$library")" \
+        "-DHDF5_C_COMPILER_EXECUTABLE=$(command -v "h5pcc.$library")"
 }
 
 # configure WORD...: makes the build, or changes it by cmake's words. Several sources are compiled
