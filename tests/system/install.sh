@@ -64,6 +64,10 @@ step configure "$cmake" -S "$prefix/share/doc/carrom/docs/examples/embed" -B "$t
 grep -q "^Carrom_DIR:PATH=$prefix/" "$test_folder/embed/CMakeCache.txt" ||
     complain 'the package was found elsewhere'
 step build "$cmake" --build "$test_folder/embed"
+# HDF5's own compiler, which CMake asks, does not bear such a name.
+rm -rf "$test_folder/it's ä"
+step configure_odd "$cmake" -S "$prefix/share/doc/carrom/docs/examples/embed" \
+    -B "$test_folder/it's ä" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler"
 
 # The same example by pkg-config, for projects without CMake.
 flags() { PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name carrom.pc)") pkg-config "$@" carrom; }
