@@ -23,6 +23,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "crowded_gas.hpp"
 #include "event_driven/event_driven_engine.hpp"
 #include "initial_state/initial_state.hpp"
 #include "parallel/communicator.hpp"
@@ -34,7 +35,6 @@ using namespace carrom;
 namespace {
 
 constexpr double per_disc = 0.14;
-constexpr double stretch = 10; // of the box's sides where discs crowd
 
 double work_of(const BlockWork& block) {
     return static_cast<double>(block.n_carried) + per_disc * static_cast<double>(block.n_seen);
@@ -54,25 +54,6 @@ double span_of(const std::vector<BlockWork>& round, int n_threads) {
     return end;
 }
 
-enum class Crowd { none, all, half };
-
-/// Moves the discs of a box into one of 100 times its area.
-std::vector<InputDisc> crowded(std::vector<InputDisc> discs, const Box& corner, Crowd crowd) {
-    if (crowd != Crowd::half) return discs;
-    std::vector<InputDisc> kept;
-    for (std::size_t k = 0; k < discs.size(); ++k) {
-        InputDisc disc = discs[k];
-        if (k % 2 == 0) {
-            disc.x *= stretch;
-            disc.y *= stretch;
-            if (disc.x < 1.1 * corner.x && disc.y < 1.1 * corner.y) continue;
-        }
-        disc.id = kept.size();
-        kept.push_back(disc);
-    }
-    return kept;
-}
-
 struct Shared {
     double work = 0, span = 0;
     std::size_t n_windows = 0, n_rounds = 0, n_blocks = 0;
@@ -89,16 +70,9 @@ Shared shared_by(int n_threads, std::size_t n_discs, Crowd kind) {
     const std::vector<InputDisc> inputs = crowded(initial_state(scene, nullptr, world), scene.box,
                                                   kind);
     scene.n_discs = inputs.size();
-    if (kind != Crowd::none) scene.box = {stretch * scene.box.x, stretch * scene.box.y};
+    scene.box = box_around(scene.box, kind);
     StoredState state;
-    for (const InputDisc& input : inputs) {
-        DiscState& disc = state.discs.emplace_back();
-        disc.id = input.id;
-        disc.x = input.x;
-        disc.y = input.y;
-        disc.vx = input.vx / static_cast<double>(scene.micro_steps);
-        disc.vy = input.vy / static_cast<double>(scene.micro_steps);
-    }
+    for (const InputDisc& input : inputs) state.discs.push_back(first_state(input, scene));
     Tuning tuning;
     tuning.threads = n_threads;
     BlockTuning blocks;

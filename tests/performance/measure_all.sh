@@ -24,7 +24,7 @@ say() { printf '%s: %s\n' "$(date +%T)" "$*" >&2; }
 targets=(carrom machine_peaks)
 known=$(cmake --build "$build" --target help)
 have() { grep -q "$1" <<<"$known"; }
-for target in simulated_cluster carrom_benchmarks; do
+for target in simulated_cluster replay_cluster carrom_benchmarks; do
     if have "$target"; then targets+=("$target")
     else say "$target cannot be built here: its part is left out"; fi
 done
@@ -56,5 +56,8 @@ if [ -x "$build/tests/simulated_cluster" ]; then
     say 'simulated cluster'
     python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" \
         --jobs "$(nproc)" --most-ranks "${MOST_RANKS:-256}" ${SHORT:+--largest 140000}
+    say 'large cluster'
+    python3 "$here/cluster_model.py" "$build/tests/replay_cluster" \
+        --study "$folder/large_cluster.csv" --ranks 1 16 64 256 ${MOST_RANKS:+1024 8192}
 fi
 say 'done; tests/performance/page.py draws the page'

@@ -5,11 +5,11 @@ pictures beside its CSV files.
 
   tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
 
-Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), kernels.json
-(carrom_benchmarks) and peaks.txt (machine_peaks); measure_all.sh writes all but sizes.csv. Other
-machines' rates, as rates_xeon.csv, get a table each behind the first one's. A part whose file is
-missing keeps what it says. Words around the markers are the page's own. Needs the Python
-environment of docs/tools/README.md.
+Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), large_cluster.csv
+(cluster_model.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
+measure_all.sh writes all but sizes.csv. Other machines' rates, as rates_xeon.csv, get a table each
+behind the first one's. A part whose file is missing keeps what it says. Words around the markers
+are the page's own. Needs the Python environment of docs/tools/README.md.
 """
 
 import argparse
@@ -214,6 +214,23 @@ def draw_cluster(rows, folder):
         plt.close(figure)
 
 
+def draw_large_cluster(rows, folder):
+    figure, both = plt.subplots(1, 2, figsize=(11, 5.5), sharey=True)
+    for axes, kind in zip(both, ("weak, 1e6 a rank", "strong, 1e8")):
+        series, chosen = {}, (row for row in rows if row["case"].startswith(kind))
+        for row in chosen:
+            point = (int(row["ranks"]), float(row["efficiency"]))
+            series.setdefault(row["case"].removeprefix(f"{kind}, "), []).append(point)
+        draw_series(axes, series)
+        axes.get_legend().remove()
+        axes.set_xscale("log", base=2)
+        axes.set(xlabel=f"ranks, 32 a node ({kind})", ylim=(0, 1.05))
+    both[0].set_ylabel("time of one core / time of all ranks")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.savefig(folder / "large_cluster.png")
+    plt.close(figure)
+
+
 def draw_numbers(rows, folder):
     points = sorted(
         (int(r["n_discs"]), float(r["ns_per_disc_step"]))
@@ -368,6 +385,10 @@ def main():
         rows = read_csv(folder / "cluster.csv")
         text = replace_part(text, "cluster", cluster_part(rows))
         draw_cluster(rows, folder)
+    if (folder / "large_cluster.csv").exists():
+        rows = read_csv(folder / "large_cluster.csv")
+        text = replace_part(text, "large cluster", cluster_part(rows))
+        draw_large_cluster(rows, folder)
     if (folder / "kernels.json").exists() and (folder / "peaks.txt").exists():
         kernels, peaks = read_kernels(folder / "kernels.json"), read_peaks(folder / "peaks.txt")
         text = replace_part(text, "kernels", kernels_part(peaks))

@@ -95,7 +95,8 @@ def simulated(program, case, method="time-stepped", timeout=3600):
         numbers = [
             str(n) for n in (case.steps, case.ns_own, case.ns_halo, case.stands_for, case.window)
         ]
-        command = [program, PLATFORM, str(case.ranks), path, *numbers, "--log=root.thresh:warning"]
+        command = [program, PLATFORM, str(case.ranks), "1", path, *numbers]
+        command.append("--log=root.thresh:warning")
         heading = subprocess.run(
             [program], capture_output=True, text=True, check=True
         ).stdout.strip()

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene on the ranks of a simulated cluster: SimGrid (SMPI) stands in for the MPI library
-// and the network, all ranks take turns in this one process. Says what is sent and how long it
-// would take. Discs are stepped for real, so messages are the ones that a real run sends; what
-// computing takes is told to the simulation instead of measured, so that the same run gives the
-// same numbers on any machine.
+// Steps a scene on the ranks of a simulated cluster (simulated_ranks.hpp). Says what is sent and
+// how long it would take. Discs are stepped for real, so messages are the ones that a real run
+// sends; what computing takes is told to the simulation instead of measured, so that the same run
+// gives the same numbers on any machine.
 //
-//   simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW
+//   simulated_cluster PLATFORM RANKS RANKS_PER_NODE SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW
 //
 // The first interval between two syncs is left out of the tallies; then STEPS steps count. A rank
 // computes for NS_OWN nanoseconds per own disc and micro-step and for NS_HALO per disc that it has
@@ -22,15 +21,13 @@
 #include <vector>
 
 #include <mpi.h>
-#include <simgrid/kernel/resource/Action.hpp>
-#include <simgrid/s4u.hpp>
-#include <smpi/smpi.h>
 
 #include "core/disc_state.hpp"
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/read_scene.hpp"
+#include "simulated_ranks.hpp"
 #include "simulation/disc_system.hpp"
 
 using namespace carrom;
@@ -53,9 +50,6 @@ extern "C" int __wrap_MPI_Alltoall(const void* out, int n_out, MPI_Datatype out_
 
 namespace {
 
-constexpr double simulated_flops =
-    1e9; ///< of every host in the platform file: a nanosecond is an operation
-
 /// What one rank has sent and computed while steps counted.
 struct Tally {
     Traffic traffic;
@@ -75,15 +69,12 @@ struct Job {
     Tuning tuning;
     std::vector<Tally> tallies;
     std::vector<std::vector<InputDisc>> dealt{}; ///< by the rank whose strip they begin in
-    std::uint64_t network_messages = 0;
 };
 
 Traffic difference(const Traffic& after, const Traffic& before) {
     return {after.messages - before.messages, after.bytes - before.bytes,
             after.collectives - before.collectives};
 }
-
-void compute_for(double nanoseconds) { smpi_execute_flops(nanoseconds * 1e-9 * simulated_flops); }
 
 /// The scene's discs that begin in this rank's strip. They get there through memory, not the
 /// network: a million flows at once of 1024 ranks would take the simulation hours, and a run's
@@ -111,7 +102,7 @@ void step(Job& job, int rank) {
     Tally& tally = job.tallies[static_cast<std::size_t>(rank)];
     const double start = MPI_Wtime();
     const Traffic at_start = world.traffic();
-    const std::uint64_t messages_at_start = job.network_messages,
+    const std::uint64_t messages_at_start = n_network_messages(),
                         any_to_any_at_start = n_any_to_any;
     while (system.step() < last) {
         const std::int64_t micro_steps = system.micro_steps_done();
@@ -126,17 +117,10 @@ void step(Job& job, int rank) {
     tally.traffic = difference(world.traffic(), at_start);
     world.barrier();
     tally.seconds = MPI_Wtime() - start;
-    tally.network_messages = job.network_messages - messages_at_start;
+    tally.network_messages = n_network_messages() - messages_at_start;
     tally.any_to_any = n_any_to_any - any_to_any_at_start;
     tally.steps = system.step() - first;
     tally.hash = to_string(system.totals().hash);
-}
-
-/// A rank's whole life.
-void live(Job& job, int rank) {
-    MPI_Init(nullptr, nullptr); // not by class Mpi: SMPI promises no threads
-    step(job, rank);
-    MPI_Finalize();
 }
 
 /// Means and largest values over ranks, per rank and step.
@@ -173,50 +157,22 @@ int main(int argc, char** argv) {
         std::printf("%s\n", heading);
         return 0;
     }
-    simgrid::s4u::Engine engine(&argc, argv); // takes its own options out
-    if (argc != 9) {
-        std::fprintf(
-            stderr,
-            "simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW\n");
+    if (argc < 10) {
+        std::fprintf(stderr, "simulated_cluster PLATFORM RANKS RANKS_PER_NODE SCENE STEPS NS_OWN "
+                             "NS_HALO STANDS_FOR WINDOW\n");
         return 2;
     }
-    const int n_ranks = std::stoi(argv[2]);
-    const double stands_for = std::stod(argv[7]);
-    Job job{argv[3],
-            std::stoll(argv[4]),
-            std::stod(argv[5]) * stands_for,
-            std::stod(argv[6]) * stands_for,
+    SimulatedCluster cluster{argv[1], std::stoi(argv[2]), std::stoi(argv[3]), std::stod(argv[8])};
+    Job job{argv[4],
+            std::stoll(argv[5]),
+            std::stod(argv[6]) * cluster.bytes_stand_for,
+            std::stod(argv[7]) * cluster.bytes_stand_for,
             {},
             {}};
-    if (const double window = std::stod(argv[8]); window > 0) job.tuning.window = window;
-    job.tallies.resize(static_cast<std::size_t>(n_ranks));
+    if (const double window = std::stod(argv[9]); window > 0) job.tuning.window = window;
+    job.tallies.resize(static_cast<std::size_t>(cluster.n_ranks));
     job.dealt.resize(job.tallies.size());
-    SMPI_init(); // knows the settings from here on
-    simgrid::s4u::Engine::set_config("smpi/simulate-computation:no");
-    simgrid::s4u::Engine::set_config(
-        "network/model:CM02"); // latency + bytes / bandwidth, shared by what meets on a link
-    simgrid::s4u::Engine::set_config("network/TCP-gamma:0");
-    simgrid::s4u::Engine::set_config("network/bandwidth-factor:" + std::to_string(1 / stands_for));
-    simgrid::s4u::Engine::set_config("smpi/coll-selector:ompi");
-    simgrid::s4u::Engine::set_config("smpi/host-speed:1Gf");
-    simgrid::s4u::Engine::set_config(
-        "smpi/privatization:no"); // no variable of the program differs between ranks
-    engine.load_platform(argv[1]);
-    simgrid::s4u::Link::on_communication_state_change_cb(
-        [&job](const simgrid::kernel::resource::NetworkAction&,
-               simgrid::kernel::resource::Action::State before) {
-            if (before == simgrid::kernel::resource::Action::State::STARTED) ++job.network_messages;
-        });
-    SMPI_app_instance_register("carrom", nullptr, n_ranks);
-    for (int rank = 0; rank < n_ranks; ++rank) {
-        const simgrid::s4u::ActorPtr actor = simgrid::s4u::Actor::init(
-            "rank-" + std::to_string(rank), engine.host_by_name("node-" + std::to_string(rank)));
-        actor->set_property("instance_id", "carrom");
-        actor->set_property("rank", std::to_string(rank));
-        actor->start([&job, rank] { live(job, rank); });
-    }
-    engine.run();
-    SMPI_finalize();
+    run_simulated(argc, argv, cluster, [&job](int rank) { step(job, rank); });
     std::ifstream file = open_input(job.scene);
     print_row(job, read_scene(read_scene_text(file, job.scene)).n_discs);
     return 0;
