@@ -22,16 +22,14 @@ enum class SideColumn : std::size_t { spin, n_columns };
 inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_columns);
 
 struct SideColumnInfo {
-    const char* name; ///< in checkpoints, and where a scene gives the discs' first numbers
-    const char* unit;
-    const char* shown;      ///< its name in recordings, tables and the fields of a trajectory
-    const char* shown_unit; ///< the unit of a rate is per step
-    bool is_rate;           ///< stored per micro-step
-    bool is_of_dynamics;    ///< effects decide who has it; else whoever is given first numbers
-    const char* needs;      ///< the message about discs that do not have it
+    const char* name;    ///< in checkpoints, and where a scene gives the discs' first numbers
+    const char* shown;   ///< its name in recordings, tables and the fields of a trajectory
+    bool is_rate;        ///< stored per micro-step
+    bool is_of_dynamics; ///< effects decide who has it; else whoever is given first numbers
+    const char* needs;   ///< the message about discs that do not have it
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
-    {{"spin", "angle per micro-step", "angular_velocity", "angle per step", true, true,
+    {{"spin", "angular_velocity", true, true,
       "it needs discs that turn, effects.contact.kind = \"rough\""}}};
 
 constexpr const SideColumnInfo& info_of(SideColumn column) {

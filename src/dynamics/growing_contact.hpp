@@ -21,17 +21,8 @@ template <class Real>
                                                          Real deepest_overlap) {
     const Real none = -1;
     const Real vx = std::fma(-growth, dx, wx), vy = std::fma(-growth, dy, wy);
-    const Real b = dx * vx + dy * vy;
-    if (!(b < 0)) return none;
-    const Real reach = std::sqrt(vx * vx + vy * vy) * sigma;
-    const Real x = std::fabs(cross(dx, dy, wx, wy));
-    const Real disc = (reach - x) * (reach + x);
-    if (!(disc > 0)) return none; // an exact graze is no contact
-    const Real distance = std::sqrt(dx * dx + dy * dy);
-    const Real gap = distance - sigma;
-    if (gap < -deepest_overlap) return none;
-    if (gap <= 0) return 0;
-    const Real clock = gap * (distance + sigma) / (-b + std::sqrt(disc));
+    const Real clock = contact_delay(dx, dy, vx, vy, wx, wy, sigma, deepest_overlap);
+    if (clock < 0) return none;
     const Real rest = std::fma(-growth, clock, Real{1});
     return rest > 0 ? clock / rest : none; // the clock never comes to 1 / g
 }

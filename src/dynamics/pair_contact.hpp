@@ -31,17 +31,20 @@ template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
     return (p1 - p2) + (e1 - e2);
 }
 
-/// The time until points at separation (dx, dy) with relative velocity (wx, wy) come within
+/// The time until points at separation (dx, dy) with relative velocity (vx, vy) come within
 /// `sigma`; negative if they never do. Pairs that overlap by more than `deepest_overlap`
-/// never do (infinity: they collide at once if they approach). Inlined wherever it is called,
-/// so that the code of one dynamics does not depend on which others are compiled beside it.
+/// never do (infinity: they collide at once if they approach). The cross product is that of
+/// the separation and (wx, wy): of growing discs this is the velocity before a rounded part along
+/// the separation was taken off, so that this rounding does not count at a graze.
+/// Inlined wherever it is called, so that the code of one dynamics does not depend on which others
+/// are compiled beside it.
 template <class Real>
-[[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
-                                                 Real deepest_overlap) {
+[[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real vx, Real vy, Real wx,
+                                                 Real wy, Real sigma, Real deepest_overlap) {
     const Real none = -1;
-    const Real b = dx * wx + dy * wy;
+    const Real b = dx * vx + dy * vy;
     if (!(b < 0)) return none;
-    const Real a = wx * wx + wy * wy;
+    const Real a = vx * vx + vy * vy;
     const Real reach = std::sqrt(a) * sigma;
     const Real x = std::fabs(cross(dx, dy, wx, wy));
     const Real disc = (reach - x) * (reach + x);
@@ -52,6 +55,11 @@ template <class Real>
     if (gap <= 0) return 0;
     const Real c = gap * (distance + sigma);
     return c / (-b + std::sqrt(disc));
+}
+template <class Real>
+[[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
+                                                 Real deepest_overlap) {
+    return contact_delay(dx, dy, wx, wy, wx, wy, sigma, deepest_overlap);
 }
 
 /// The contact of discs `p` and `q` (in any order) from their stored states alone, so

@@ -1,11 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measure/wall_sums.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "measure/speeds.hpp"
 #include "statistics/blocking.hpp"
 
 namespace carrom {
+
+void WallMeasurement::begin() {
+    speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
+    follow();
+}
+
+void WallMeasurement::follow() {
+    clear();
+    run_.system.forget(*this);
+    run_.system.follow_walls(*this);
+}
+
+std::vector<MeasuredTable> WallMeasurement::tables() const {
+    if (given_.empty()) return {};
+    MeasuredTable over_time = history();
+    MeasuredTable means = means_of(over_time);
+    return {std::move(means), std::move(over_time)};
+}
 
 double length_of_side(const SceneParameters& scene, std::size_t side, double step) {
     const Extent box = extent_of_lines(scene.effects, scene.box, step);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/exact_sum.hpp"
+#include "engine/wall_event.hpp"
 #include "measure/measurement.hpp"
 
 namespace carrom {
@@ -54,6 +55,28 @@ private:
     }
 
     std::array<ExactSum, 4> sums_;
+};
+
+/// A quantity of collisions with the sides of the box. Its samples are what each side has given
+/// since the sample before.
+class WallMeasurement : public Measurement, public WallFollower {
+public:
+    using Measurement::Measurement;
+    ~WallMeasurement() override { run_.system.forget(*this); }
+
+    void begin() override;
+    std::vector<MeasuredTable> tables() const override;
+
+protected:
+    /// Follows collisions from now on, with empty sums.
+    void follow();
+    /// Empties the sums since the last sample; their unit follows from `speed_scale_`.
+    virtual void clear() = 0;
+    virtual MeasuredTable history() const = 0;
+    virtual MeasuredTable means_of(const MeasuredTable& history) const = 0;
+
+    double speed_scale_ = 0;    ///< sets the units of sums
+    std::vector<double> given_; ///< what the four sides have given in each interval
 };
 
 /// The length of a side at a step. Between oscillating walls it is the mean.

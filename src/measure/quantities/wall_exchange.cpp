@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/wall_event.hpp"
-#include "measure/speeds.hpp"
 #include "measure/wall_sums.hpp"
 
 namespace carrom {
@@ -18,16 +16,10 @@ namespace {
 constexpr std::array side_words{"left", "right", "bottom", "top"};
 constexpr std::array part_words{"heat", "shear"};
 
-class WallExchange : public Measurement, public WallFollower {
+class WallExchange : public WallMeasurement {
 public:
     explicit WallExchange(MeasuredRun& run)
-        : Measurement(run), since_last_{WallSums(1), WallSums(1)} {}
-    ~WallExchange() override { run_.system.forget(*this); }
-
-    void begin() override {
-        speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
-        follow();
-    }
+        : WallMeasurement(run), since_last_{WallSums(1), WallSums(1)} {}
 
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) {
@@ -59,26 +51,14 @@ public:
         }
     }
 
-    std::vector<MeasuredTable> tables() const override {
-        if (given_.empty()) return {};
-        MeasuredTable over_time = history();
-        MeasuredTable means = means_of(over_time);
-        return {std::move(means), std::move(over_time)};
-    }
-
 private:
-    void clear() {
+    void clear() override {
         // More than a run ever sums up, with a resolution of 2^-63 of a speed, or of its square.
         since_last_ = {WallSums(speed_scale_ * speed_scale_ * 0x1p62),
                        WallSums(speed_scale_ * 0x1p62)};
     }
-    void follow() {
-        clear();
-        run_.system.forget(*this);
-        run_.system.follow_walls(*this);
-    }
 
-    MeasuredTable history() const {
+    MeasuredTable history() const override {
         MeasuredTable table{
             "wall_exchange_history",
             {"heat: kinetic energy that a side has given to the discs between two steps, work of "
@@ -94,7 +74,7 @@ private:
         return table;
     }
 
-    static MeasuredTable means_of(const MeasuredTable& history) {
+    MeasuredTable means_of(const MeasuredTable& history) const override {
         MeasuredTable table{
             "wall_exchange",
             {"means over the history with one standard error (nan where intervals are too few)"},
@@ -109,8 +89,6 @@ private:
         return table;
     }
 
-    double speed_scale_ = 0;             ///< sets the units of sums
-    std::vector<double> given_;          ///< by interval and part: for the four sides
     std::array<WallSums, 2> since_last_; ///< heat and shear on this rank since the last sample
 };
 

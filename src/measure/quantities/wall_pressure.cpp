@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "wall_pressure": the momentum that discs give to each side of the box, collision by collision.
-#include "engine/wall_event.hpp"
-#include "measure/speeds.hpp"
 #include "measure/wall_sums.hpp"
 
 namespace carrom {
 
 namespace {
 
-class WallPressure : public Measurement, public WallFollower {
+class WallPressure : public WallMeasurement {
 public:
-    explicit WallPressure(MeasuredRun& run) : Measurement(run), since_last_(1) {}
-    ~WallPressure() override { run_.system.forget(*this); }
-
-    void begin() override {
-        speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
-        follow();
-    }
+    explicit WallPressure(MeasuredRun& run) : WallMeasurement(run), since_last_(1) {}
 
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) {
@@ -29,13 +21,13 @@ public:
         if (state.is_first) return;
         run_.ranks.sum(std::span<std::uint64_t>(counts_));
         const std::array<double, 4> impulses = since_last_.values(run_.ranks);
-        impulses_.insert(impulses_.end(), impulses.begin(), impulses.end());
+        given_.insert(given_.end(), impulses.begin(), impulses.end());
         for (std::size_t side = 0; side < 4; ++side) collisions_[side] += counts_[side];
         clear();
     }
 
     void keep(KeptNumbers& kept) override {
-        kept(speed_scale_), kept(collisions_), kept(impulses_);
+        kept(speed_scale_), kept(collisions_), kept(given_);
         std::vector<std::uint64_t> pending; ///< sums of all ranks since the last sample
         if (!kept.is_restored()) {
             std::array<std::uint64_t, 4> counts = counts_;
@@ -57,37 +49,25 @@ public:
         since_last_.add_words(words.data());
     }
 
-    std::vector<MeasuredTable> tables() const override {
-        if (impulses_.empty()) return {};
-        MeasuredTable over_time = history();
-        MeasuredTable means = means_of(over_time);
-        return {std::move(means), std::move(over_time)};
-    }
-
 private:
-    void clear() {
+    void clear() override {
         // More than a run ever sums up, with a resolution of 2^-63 of a speed.
         since_last_ = WallSums(speed_scale_ * 0x1p62);
         counts_.fill(0);
     }
-    void follow() {
-        clear();
-        run_.system.forget(*this);
-        run_.system.follow_walls(*this);
-    }
 
-    MeasuredTable history() const {
+    MeasuredTable history() const override {
         MeasuredTable table{
             "wall_pressure_history",
             {"impulse that each side was given between two steps, over its length and "
              "that time (nan: a periodic side); masses of 1, times in steps"},
             {"from_step", "to_step", "left", "right", "bottom", "top"},
             {}};
-        table.rows = rows_over_time(run_, impulses_, 4);
+        table.rows = rows_over_time(run_, given_, 4);
         return table;
     }
 
-    MeasuredTable means_of(const MeasuredTable& history) const {
+    MeasuredTable means_of(const MeasuredTable& history) const override {
         MeasuredTable table{
             "wall_pressure",
             {"mean pressure on each side with one standard error (from joined intervals of the "
@@ -108,10 +88,8 @@ private:
         return table;
     }
 
-    double speed_scale_ = 0; ///< sets the unit of impulses
     std::array<std::uint64_t, 4> collisions_{};
-    std::vector<double> impulses_; ///< by interval: for the four sides
-    WallSums since_last_;          ///< on this rank since the last sample, as all that follows
+    WallSums since_last_; ///< on this rank since the last sample, as all that follows
     std::array<std::uint64_t, 4> counts_{};
 };
 
