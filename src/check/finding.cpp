@@ -5,7 +5,7 @@
 
 namespace carrom {
 
-std::string text_of(const Finding& f, const SceneParameters& scene, const Obstacles* obstacles,
+std::string text_of(const Finding& f, const SceneParameters& scene, const std::string& body,
                     std::int64_t step) {
     std::string who = fmt::format("check failed at step {}: disc {} on rank {} ", step, f.disc,
                                   f.rank);
@@ -22,8 +22,7 @@ std::string text_of(const Finding& f, const SceneParameters& scene, const Obstac
     case Invariant::in_strip: return who + fmt::format("is in the strip of rank {}", f.value);
     case Invariant::in_cell: return who + "is not in the cell that it is filed under";
     case Invariant::clear:
-        return who + fmt::format("overlaps {} by {:.3g}; rounding explains {:.3g}",
-                                 obstacles->name_of(static_cast<std::uint32_t>(f.partner)), f.value,
+        return who + fmt::format("overlaps {} by {:.3g}; rounding explains {:.3g}", body, f.value,
                                  f.bound);
     case Invariant::counters:
         return who + fmt::format("has counted {} collisions with {} in this step, but had {}",

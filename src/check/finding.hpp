@@ -7,7 +7,6 @@
 
 #include "check/check_failure.hpp"
 #include "core/disc_state.hpp"
-#include "dynamics/obstacles.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
@@ -27,8 +26,8 @@ struct Finding {
     double value = 0, bound = 0;
 };
 
-/// `obstacles` may be null if the scene has none.
-std::string text_of(const Finding& finding, const SceneParameters& scene,
-                    const Obstacles* obstacles, std::int64_t step);
+/// `body` names the fixed body that a disc overlaps, if that is the finding.
+std::string text_of(const Finding& finding, const SceneParameters& scene, const std::string& body,
+                    std::int64_t step);
 
 } // namespace carrom

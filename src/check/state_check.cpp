@@ -143,9 +143,11 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
             if (effects_.have_spins()) spins.push_back(each.spin);
         }
     }
-    throw CheckFailure(text_of(first, scene_, obstacles_ ? &*obstacles_ : nullptr, step),
-                       first.invariant, step, first.disc, first.rank, std::move(discs),
-                       std::move(spins));
+    const std::string body = first.invariant == Invariant::clear
+                                 ? obstacles_->name_of(static_cast<std::uint32_t>(first.partner))
+                                 : "";
+    throw CheckFailure(text_of(first, scene_, body, step), first.invariant, step, first.disc,
+                       first.rank, std::move(discs), std::move(spins));
 }
 
 /// The walls at the last check. Moving walls are where they began.

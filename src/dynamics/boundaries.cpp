@@ -9,10 +9,9 @@ namespace carrom {
 
 Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
                        const SpeciesTable& species_table)
-    : effects_(effects), box_(box), radius_(radius), species_(species_table),
+    : sides_(effects.boundaries), contact_time_(effects.contact.contact_time), drag_(effects.drag),
+      thermal_seed_(effects.thermal_seed), box_(box), radius_(radius), species_(species_table),
       gravity_{effects.gravity.x, effects.gravity.y}, fall_(effects.gravity, effects.drag) {
-    effects_.obstacles = {}; // each thread has a copy
-    effects_.species = {};
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
         if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;
@@ -76,9 +75,9 @@ Extent Boundaries::walls_between(double begin, double end) const {
 /// d) - F(s) - F'(s) d = F(d / (1 - c s)).
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
-    if (effects_.drag == 0 || pull == 0) return fall_delay(distance, rate, pull);
+    if (drag_ == 0 || pull == 0) return fall_delay(distance, rate, pull);
     const double slowing = fall_.slowing_at(time);
-    return slowing * dragged_fall_delay(distance, slowing * rate, pull, effects_.drag);
+    return slowing * dragged_fall_delay(distance, slowing * rate, pull, drag_);
 }
 
 double Boundaries::delay_to(const DiscState& disc, std::size_t side) const {
@@ -120,9 +119,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin) con
 
 void Boundaries::bounce_at(DiscState& disc, Axis axis, double time, double* spin) const {
     const std::size_t side = meeting(disc, axis).side;
-    const double restitution = time - disc.tau < effects_.contact.contact_time
-                                   ? 1
-                                   : effects_.boundaries[side].restitution;
+    const double restitution = time - disc.tau < contact_time_ ? 1 : sides_[side].restitution;
     disc.x = disc.x_at(time);
     disc.y = disc.y_at(time);
     disc.tau = time;
@@ -142,7 +139,7 @@ void Boundaries::depart(DiscState& disc, std::size_t side, double time, double* 
 void Boundaries::reverse(DiscState& disc, Axis axis, double* spin) const {
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const std::size_t side = velocity_of(disc, low / 2) < 0 ? low : low + 1;
-    rebound(disc, side, effects_.boundaries[side].restitution, 0, spin);
+    rebound(disc, side, sides_[side].restitution, 0, spin);
 }
 
 void Boundaries::rebound(DiscState& disc, std::size_t side, double restitution, double time,
@@ -153,14 +150,13 @@ void Boundaries::rebound(DiscState& disc, std::size_t side, double restitution, 
     const double sign = sign_of(side),
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     double away = restitution * std::fabs(normal - wall);
-    if (effects_.boundaries[side].kind == BoundaryKind::thermal) {
+    if (sides_[side].kind == BoundaryKind::thermal) {
         // Discs leave a wall of temperature T with v_n of the density v_n / T exp(-v_n^2 / 2
         // T); the other component is Maxwell's. All images of a disc draw the same numbers.
         const std::uint64_t n_before = disc.wall_collisions;
-        DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id,
+        DiscRandom random(thermal_seed_, Purpose::thermal_wall, disc.id,
                           4 * n_before + drawn_side(side));
-        const double temperature = effects_.boundaries[side].temperature /
-                                   species_.of(disc.id).mass;
+        const double temperature = sides_[side].temperature / species_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / fall_.slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random));
         along = (speed * random_direction(random).x) / fall_.slowing_at(time) +
@@ -168,10 +164,9 @@ void Boundaries::rebound(DiscState& disc, std::size_t side, double restitution, 
     }
     // A disc that is pulled back stays away for the contact time at least, because one
     // at rest would otherwise bounce without end.
-    const double contact_time = effects_.contact.contact_time;
-    const double pull = oscillates ? oscillations_[side].pressure_at(time, time + contact_time)
+    const double pull = oscillates ? oscillations_[side].pressure_at(time, time + contact_time_)
                                    : -sign * pull_at(side);
-    if (pull > 0) away = std::max(away, 0.5 * pull * contact_time / fall_.slowing_at(time));
+    if (pull > 0) away = std::max(away, 0.5 * pull * contact_time_ / fall_.slowing_at(time));
     const double before = normal;
     normal = wall + sign * away;
     if (rubbing_[side].acts()) [[unlikely]] {

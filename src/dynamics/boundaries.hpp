@@ -50,9 +50,7 @@ public:
         return 2 * static_cast<std::size_t>(axis) +
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
     }
-    bool is_open(std::size_t side) const {
-        return effects_.boundaries[side].kind == BoundaryKind::open;
-    }
+    bool is_open(std::size_t side) const { return sides_[side].kind == BoundaryKind::open; }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
     /// The centre's coordinate across an open side, in the box, when the disc is just outside.
     double departure(const DiscState& disc, std::size_t side) const {
@@ -102,9 +100,7 @@ private:
     }
     /// The acceleration of discs near the wall towards it, relative to the wall. Drag
     /// brakes discs that a moving wall pushes.
-    double pull_at(std::size_t side) const {
-        return gravity_[side / 2] - effects_.drag * speeds_[side];
-    }
+    double pull_at(std::size_t side) const { return gravity_[side / 2] - drag_ * speeds_[side]; }
     double wall_velocity(std::size_t side, double time) const {
         return speeds_[side] - pull_at(side) * fall_.falling_time(time);
     }
@@ -126,13 +122,15 @@ private:
                  double* spin) const;
     /// The velocity of the surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
-        return effects_.boundaries[side].surface.velocity / fall_.slowing_at(time) -
+        return sides_[side].surface.velocity / fall_.slowing_at(time) -
                gravity_[1 - side / 2] * fall_.falling_time(time);
     }
     /// The direction t of rubbing.hpp along +x or +y.
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
-    Effects effects_;
+    std::array<Boundary, 4> sides_;
+    double contact_time_, drag_;
+    std::uint64_t thermal_seed_;
     Box box_;
     double radius_;
     SpeciesTable species_;

@@ -58,8 +58,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
              stored_columns<Dynamics>(scene, state)),
       n_micro_done_(state.micro_steps_done), species_(species_of(dynamics_)),
-      sync_action_(scene, species_, communicator, tuning.threads),
-      flight_length_(flight_length(scene.effects)),
+      sync_action_(scene, species_, communicator, tuning.threads), flight_length_(flight_length()),
       last_micro_step_(scene.steps * scene.micro_steps) {
     flown_before_ = static_cast<double>(last_sync() % flight_length_);
     dynamics_.begin_interval(last_sync());
@@ -75,10 +74,9 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
 
 /// Where a sync changes velocities flights end there, and so they do in a flow, which they do not
 /// count in.
-template <class Dynamics>
-std::int64_t EngineBase<Dynamics>::flight_length(const Effects& effects) const {
-    const bool sync_changes_velocities = Dynamics::has_moving_images || effects.gravity.is_any() ||
-                                         effects.drag != 0 || sync_action_.has_effects();
+template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
+    const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
+                                         sync_action_.has_effects();
     if (sync_changes_velocities) return sync_every_;
     return std::max<std::int64_t>(1, longest_flight / sync_every_) * sync_every_;
 }

@@ -100,7 +100,7 @@ private:
     double restart_states();
     void wrap(DiscState& disc);
     double energy_of_own() const;
-    std::int64_t flight_length(const Effects& effects) const;
+    std::int64_t flight_length() const;
 
     SpeciesTable species_;
     SyncAction sync_action_;

@@ -34,6 +34,10 @@ void subtract_mean(std::vector<Flight>& flights, std::array<double, 2> Flight::*
 
 } // namespace
 
+bool keeps_common_motion(const SceneParameters& scene) {
+    return !scene.effects.obstacles.are_any();
+}
+
 std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,
                                    const SceneParameters& scene, const Communicator& ranks) {
     const double n = static_cast<double>(ranks.sum(std::uint64_t{flights.size()}));
@@ -41,9 +45,8 @@ std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBou
     for (const Flight& flight : flights) heaviest = std::max(heaviest, flight.mass);
     heaviest = ranks.max(heaviest);
     const bool is_periodic[] = {scene.effects.is_periodic_x(), scene.effects.is_periodic_y()};
-    const bool keeps_momentum = n > 1 && !scene.effects.obstacles.are_any();
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        if (!is_periodic[axis] || !keeps_momentum) continue;
+        if (!is_periodic[axis] || n <= 1 || !keeps_common_motion(scene)) continue;
         subtract_mean(flights, &Flight::way, axis, n, bounds.way, heaviest, ranks);
         subtract_mean(flights, &Flight::first_velocity, axis, n, bounds.velocity, heaviest, ranks);
         subtract_mean(flights, &Flight::velocity, axis, n, bounds.velocity, heaviest, ranks);

@@ -28,6 +28,9 @@ struct FlightBounds {
     double way = 0, velocity = 0;
 };
 
+/// Whether nothing but the sides of the box changes the discs' common motion.
+bool keeps_common_motion(const SceneParameters& scene);
+
 /// Mean squares of displacements along x and y, and the mean product of velocities, over all ranks'
 /// flights. The sums are exact. **Collective.**
 std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/exact_sum.hpp"
+#include "measure/centred_flights.hpp"
 #include "measure/speeds.hpp"
 #include "parallel/pieces.hpp"
 
@@ -43,7 +44,7 @@ const FollowedStates& FollowedDiscs::now() {
             }
             ++i;
         }
-    if (n_discs_ > 1 && !run_.scene.effects.obstacles.are_any()) subtract_mean();
+    if (n_discs_ > 1 && keeps_common_motion(run_.scene)) subtract_mean();
     return states_;
 }
 

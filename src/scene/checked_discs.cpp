@@ -27,9 +27,7 @@ std::string body_problem(double radius, double mass) {
 
 std::string number_problem(const SceneParameters& scene, SideColumn column, double number) {
     std::string text = column_problem(disc_column_of(column), number);
-    if (!text.empty() || column != SideColumn::spin ||
-        scene.effects.contact.kind == ContactKind::rough)
-        return text;
+    if (!text.empty() || column != SideColumn::spin || scene.effects.have_spins()) return text;
     return "a spin has no meaning without effects.contact.kind = \"rough\"";
 }
 

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/effects/effect.hpp"
+
 namespace carrom {
 
 bool has_boundary(const Effects& effects, BoundaryKind kind) {
@@ -26,8 +28,9 @@ bool lose_energy_or_fall(const Effects& effects) {
                (effects.drag > 0 && side.speed != 0); // drag presses discs against such a wall
     };
     return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_lossy) ||
-           are_pairs_lossy(effects) || effects.gravity.is_any() ||
-           effects.obstacles.restitution < 1;
+           std::ranges::any_of(all_effects(), [&effects](const EffectDeclaration& one) {
+               return one.lets_discs_rest && one.lets_discs_rest(effects);
+           });
 }
 
 std::string velocity_problem(double component) {

@@ -9,7 +9,7 @@
 
 #include "core/state_hash.hpp"
 #include "scene/scene_parameters.hpp"
-#include "simulation/disc_system.hpp"
+#include "simulation/advance.hpp"
 
 namespace carrom {
 
@@ -46,7 +46,7 @@ std::string hash_of(Method method) {
                          0.3 * odd(59, 103)});
     }
     DiscSystem system(scene, discs, Communicator::of_this_rank(), {});
-    while (system.step() < scene.steps) system.advance_towards(scene.steps);
+    advance_to(system, scene.steps);
     return to_string(system.totals().hash);
 }
 

@@ -153,9 +153,9 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         report["lost_collisions"] = {{"share", lost.share},
                                      {"pressure_error", lost.pressure_error}};
     }
-    if (scene.effects.have_spins()) report["rotational_energy"] = result.end.rotational_energy;
-    if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
-    if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
+    for (const OtherEnergy& energy : other_energies_of(scene.effects))
+        report[energy.name] = result.end.*energy.value;
+    if (scene.last_packing() != scene.packing()) report["last_packing"] = scene.last_packing();
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);
     // A scene's name may have any bytes that the file system allows; invalid UTF-8 is replaced.

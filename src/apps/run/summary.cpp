@@ -143,7 +143,7 @@ std::string plural(int count, const char* what) {
 }
 
 std::string scene_lines(const SceneParameters& scene) {
-    const std::string grown = scene.effects.growth == 0
+    const std::string grown = scene.last_packing() == scene.packing()
                                   ? ""
                                   : fmt::format(", {:.4g} at the last step", scene.last_packing());
     std::string text = labelled_line(
@@ -219,10 +219,8 @@ std::string collision_lines(const SceneParameters& scene, const RunResult& resul
 
 std::string energy_text(const SceneParameters& scene, const RunResult& result) {
     std::string others;
-    if (scene.effects.have_spins())
-        others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
-    if (scene.effects.gravity.is_any())
-        others += fmt::format(", {:.17g} of height", result.end.potential_energy);
+    for (const OtherEnergy& energy : other_energies_of(scene.effects))
+        others += fmt::format(", {:.17g} {}", result.end.*energy.value, energy.words);
     const std::string what = others.empty() ? "," : " of motion" + others + "; the sum has";
     return fmt::format("{:.17g}{} changed by {:.4g} of itself", result.end.kinetic_energy, what,
                        energy_drift(result));

@@ -239,12 +239,11 @@ std::vector<MeasuredTable> Transport::tables() const {
 }
 
 bool is_another_gas(const SceneParameters& s) {
-    const Effects& effects = s.effects;
-    return measures(s, "transport") &&
-           (!effects.is_periodic_x() || !effects.is_periodic_y() || effects.are_sheared() ||
-            effects.contact.kind != ContactKind::elastic || effects.gravity.is_any() ||
-            effects.drag != 0 || effects.obstacles.are_any() || !effects.species.empty() ||
-            effects.growth != 0 || effects.thermostat.is_any());
+    const bool is_at_home = s.effects.is_periodic_x() && s.effects.is_periodic_y() &&
+                            !s.effects.are_sheared();
+    Effects others = s.effects;
+    others.boundaries = {};
+    return measures(s, "transport") && (!is_at_home || others.are_any());
 }
 
 } // namespace

@@ -36,6 +36,14 @@ CheckAllowance allowance_of(const Effects& effects) {
     return all;
 }
 
+std::vector<OtherEnergy> other_energies_of(const Effects& effects) {
+    std::vector<OtherEnergy> all;
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.energy)
+            if (const auto one = effect.energy(effects)) all.push_back(*one);
+    return all;
+}
+
 double usual_speed_of_effects(const SceneParameters& scene) {
     double speed = 0;
     for (const EffectDeclaration& effect : all_effects())

@@ -126,9 +126,15 @@ EffectDeclaration contact() {
             .rules = rules_of_contacts(),
             .check_times = check_contact_time,
             .summary = summary_of_contacts,
-            .allowance = [](const Effects& e) {
-                return CheckAllowance{.collisions_take_energy = take_energy(e.contact)};
-            }};
+            .allowance =
+                [](const Effects& e) {
+                    return CheckAllowance{.collisions_take_energy = take_energy(e.contact)};
+                },
+            .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
+                if (!e.have_spins()) return std::nullopt;
+                return OtherEnergy{"rotational_energy", "of spin", &Totals::rotational_energy};
+            },
+            .lets_discs_rest = are_pairs_lossy};
 }
 
 } // namespace effects

@@ -2,10 +2,10 @@
 // What an effect says of itself, in one place.
 //
 // Each file of this folder declares one effect: its tables, keys (a key says by itself whether it
-// is a seed), rules, checks, line in the summary, allowance in the self-check, and what it does at
-// syncs. The reader of scenes, the pages, reports, restarts, replicas, the self-check and the
-// engines loop over `all_effects`, and name no effect. An effect stores nothing beside the discs'
-// states and columns, so checkpoints need no word for it.
+// is a seed), rules, checks, line in the summary, allowance in the self-check, energy beside that
+// of motion, and what it does at syncs. The reader of scenes, the pages, reports, restarts,
+// replicas, the self-check and the engines loop over `all_effects`, and name no effect. An effect
+// stores nothing beside the discs' states and columns, so checkpoints need no word for it.
 //
 // The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
 // above the dynamics, where the templates of the hot paths are, and below the engines. So an effect
@@ -16,8 +16,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <carrom/totals.hpp>
 
 #include "dynamics/sync_effect.hpp"
 #include "scene/key.hpp"
@@ -32,6 +35,13 @@ struct CheckAllowance {
     bool acts_at_syncs = false; ///< velocities change there, by an energy that the engine adds up
 };
 
+/// An energy that discs have beside that of their motion.
+struct OtherEnergy {
+    const char* name;  ///< in the report
+    const char* words; ///< in the summary, after its value
+    double Totals::* value;
+};
+
 struct EffectDeclaration {
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
@@ -44,6 +54,11 @@ struct EffectDeclaration {
     /// Its part of the line about effects; empty in a scene without it.
     std::string (*summary)(const Effects&) = nullptr;
     CheckAllowance (*allowance)(const Effects&) = nullptr;
+    /// Nothing in a scene whose discs do not have it.
+    std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
+    /// Whether discs may come to rest on each other, or on a wall, so that they need a contact
+    /// time.
+    bool (*lets_discs_rest)(const Effects&) = nullptr;
     /// A speed per step that it is likely to give to discs.
     double (*usual_speed)(const SceneParameters&) = nullptr;
     /// Nothing in a scene without it.
@@ -58,6 +73,8 @@ const std::vector<EffectDeclaration>& all_effects();
 std::string summary_of(const Effects& effects);
 /// What the self-check cannot hold against a run with these effects and sides of the box.
 CheckAllowance allowance_of(const Effects& effects);
+/// In the order of the effects.
+std::vector<OtherEnergy> other_energies_of(const Effects& effects);
 /// The largest of all effects'.
 double usual_speed_of_effects(const SceneParameters& scene);
 /// In the order in which they act.

@@ -140,6 +140,11 @@ EffectDeclaration gravity() {
                     return CheckAllowance{.collisions_take_energy = e.gravity.is_any() &&
                                                                     e.drag != 0};
                 },
+            .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
+                if (!e.gravity.is_any()) return std::nullopt;
+                return OtherEnergy{"potential_energy", "of height", &Totals::potential_energy};
+            },
+            .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
             .usual_speed =
                 [](const SceneParameters& s) {
                     const Gravity& g = s.effects.gravity;

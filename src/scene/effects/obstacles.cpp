@@ -113,9 +113,11 @@ EffectDeclaration obstacles() {
             .rules = rules_of_obstacles(),
             .check_room = check_obstacles,
             .summary = summary_of_obstacles,
-            .allowance = [](const Effects& e) {
-                return CheckAllowance{.collisions_take_energy = e.obstacles.restitution < 1};
-            }};
+            .allowance =
+                [](const Effects& e) {
+                    return CheckAllowance{.collisions_take_energy = e.obstacles.restitution < 1};
+                },
+            .lets_discs_rest = [](const Effects& e) { return e.obstacles.restitution < 1; }};
 }
 
 } // namespace effects
