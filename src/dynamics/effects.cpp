@@ -34,6 +34,7 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
     scaled.drag /= micro_steps;
     scaled.growth /= micro_steps;
     scaled.shear /= micro_steps;
+    scaled.lasting_speed /= micro_steps;
     scaled.gravity.x /= micro_steps * micro_steps;
     scaled.gravity.y /= micro_steps * micro_steps;
     return scaled;

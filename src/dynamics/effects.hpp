@@ -140,6 +140,8 @@ struct Effects {
         species{};     ///< in the order of ids; empty if all discs have one radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
     double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
+    /// Slower pairs press each other from sync to sync (contact_impulses.hpp); 0 is none.
+    double lasting_speed = 0;
     Thermostat thermostat{};
 
     bool have_spins() const { return contact.kind == ContactKind::rough; }

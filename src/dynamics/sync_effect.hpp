@@ -4,7 +4,8 @@
 // At a sync all states are at one time and in the box's own coordinates. What an effect does to a
 // disc may depend on that disc's state, on exact sums over all discs, and on random numbers of
 // `at_sync`, which are functions of the seed, the disc and the count of syncs. Then every machine
-// shape gets the same bits, and a restart needs nothing but the count.
+// shape gets the same bits, and a restart needs nothing but the count and what an effect says that
+// it keeps.
 //
 // The engine calls the list of effects once a sync, never for a pair. The list is
 // empty in scenes without such an effect.
@@ -25,6 +26,13 @@
 
 namespace carrom {
 
+/// What a side of the box gives to discs at a sync.
+struct WallImpulse {
+    std::size_t side = 0;
+    double normal = 0; ///< away from the side
+    double along = 0;  ///< in the direction of its axis
+};
+
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
 /// they are taken about the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
@@ -40,6 +48,14 @@ struct SyncDiscs {
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
     /// **Collective.**
     std::function<double(double)> largest_over_ranks = {};
+    /// The bytes of all ranks, one rank after the other, on every rank. **Collective.**
+    std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
+    /// Adds what a side of the box gives to discs, per micro-step. It is called on one rank for
+    /// all, and is empty while nobody measures walls.
+    std::function<void(const WallImpulse&)> note_wall = {};
+    /// Adds a pair's impulse, which the first disc gets, at the separation to the second one. It is
+    /// called on one rank for all, and is empty while nobody measures stress.
+    std::function<void(double ix, double iy, double dx, double dy)> note_pair = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
     /// a copy of `sums`. **Collective.**
@@ -66,8 +82,13 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Changes velocities and spins, and nothing else. **Collective.**
-    virtual void act(const SyncDiscs& at) const = 0;
+    /// Changes velocities and spins of discs, and nothing else of them. **Collective.**
+    virtual void act(const SyncDiscs& at) = 0;
+
+    /// What the effect needs at the next sync beside the states of discs, equal on all ranks. A
+    /// checkpoint has it, and a restart gives it back.
+    virtual std::vector<std::int64_t> kept() const { return {}; }
+    virtual void go_on(std::span<const std::int64_t> /*kept*/) {}
 };
 
 using SyncEffects = std::vector<std::unique_ptr<SyncEffect>>;

@@ -67,6 +67,7 @@ public:
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too
     /// See SyncAction::energy_given.
     virtual double energy_given() const { return 0; }
+    virtual std::vector<std::int64_t> kept_by_effects() const { return {}; } ///< in StoredState
     virtual PhaseSeconds phase_seconds() const = 0;
 
     /// See DiscSystem::log_to. Engines append what they carry out while `log_` is not null.

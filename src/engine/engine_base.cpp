@@ -60,6 +60,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
       n_micro_done_(state.micro_steps_done), species_(species_of(dynamics_)),
       sync_action_(scene, species_, communicator, tuning.threads), flight_length_(flight_length()),
       last_micro_step_(scene.steps * scene.micro_steps) {
+    sync_action_.go_on(state.kept_by_effects);
     flown_before_ = static_cast<double>(last_sync() % flight_length_);
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
@@ -191,7 +192,8 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     }
     if (is_work_asked) *work_ += energy_of_own();
     if (sync_action_.has_effects()) {
-        sync_action_.act(discs_, n_micro_done_ / sync_every_);
+        sync_action_.act(discs_, n_micro_done_ / sync_every_,
+                         {&this->wall_followers_, this->stress_});
         fastest = 0;
         for (const DiscState& disc : own())
             fastest = std::max(fastest, dynamics_.squared_speed(disc));

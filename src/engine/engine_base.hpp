@@ -41,6 +41,7 @@ public:
     }
     std::uint64_t n_discs() const final { return discs_.n_with_departed(); }
     double energy_given() const final { return sync_action_.energy_given(); }
+    std::vector<std::int64_t> kept_by_effects() const final { return sync_action_.kept(); }
     PhaseSeconds phase_seconds() const final { return phases_.seconds(); }
 
 protected:

@@ -16,6 +16,8 @@ struct StoredState {
     std::vector<DiscState> discs;
     std::int64_t micro_steps_done = 0;
     SideColumns columns{}; ///< along the discs; missing numbers are 0
+    /// What effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.
+    std::vector<std::int64_t> kept_by_effects{};
 };
 
 } // namespace carrom

@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include "core/errors.hpp"
 #include "scene/effects/effect.hpp"
 
 namespace carrom {
@@ -10,12 +11,13 @@ namespace carrom {
 SyncAction::SyncAction(const SceneParameters& scene, const SpeciesTable& species,
                        const Communicator& communicator, int n_threads)
     : effects_(sync_effects_of(scene)), species_(species), inertia_(scene.effects.contact.inertia),
-      box_(scene.box), shear_(scene.effects.are_sheared()
-                                  ? scene.effects.shear / static_cast<double>(scene.micro_steps)
-                                  : 0),
+      micro_steps_(static_cast<double>(scene.micro_steps)), box_(scene.box),
+      shear_(scene.effects.are_sheared()
+                 ? scene.effects.shear / static_cast<double>(scene.micro_steps)
+                 : 0),
       communicator_(communicator), n_threads_(n_threads) {}
 
-void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
+void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes) {
     SyncDiscs at{species_};
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
@@ -33,12 +35,64 @@ void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs) {
         for (ExactSum& sum : sums) communicator_.sum(sum);
     };
     at.largest_over_ranks = [this](double value) { return communicator_.max(value); };
+    at.gather_over_ranks = [this](std::span<const std::byte> mine) { return gathered(mine); };
+    if (communicator_.is_root()) follow(at, notes);
 
     energy_given_ -= energy_of(at);
     if (shear_ != 0) add_flow(at, -1);
     for (const auto& effect : effects_) effect->act(at);
     if (shear_ != 0) add_flow(at, 1);
     energy_given_ += energy_of(at);
+}
+
+std::vector<std::int64_t> SyncAction::kept() const {
+    std::vector<std::int64_t> all;
+    for (const auto& effect : effects_) {
+        const std::vector<std::int64_t> one = effect->kept();
+        all.push_back(static_cast<std::int64_t>(one.size()));
+        all.insert(all.end(), one.begin(), one.end());
+    }
+    return all.size() > effects_.size() ? all : std::vector<std::int64_t>{};
+}
+
+void SyncAction::go_on(std::span<const std::int64_t> kept) {
+    if (kept.empty()) return;
+    for (const auto& effect : effects_) {
+        if (kept.empty()) throw CollectiveError("the state has no numbers of some effect");
+        const auto n = static_cast<std::size_t>(kept.front());
+        kept = kept.subspan(1);
+        if (n > kept.size()) throw CollectiveError("the state has too few numbers of an effect");
+        effect->go_on(kept.first(n));
+        kept = kept.subspan(n);
+    }
+}
+
+void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
+    if (notes.walls->are_any())
+        at.note_wall = [this, walls = notes.walls](const WallImpulse& impulse) {
+            WallEvent event;
+            event.side = static_cast<std::uint8_t>(impulse.side);
+            event.normal = impulse.normal * micro_steps_;
+            event.along = impulse.along * micro_steps_;
+            walls->give({&event, 1});
+        };
+    if (notes.stress != nullptr)
+        at.note_pair = [stress = notes.stress](double ix, double iy, double dx, double dy) {
+            StressTerms terms;
+            terms.add(ix, iy, {dx, dy}, *stress);
+            terms.add_to(*stress);
+        };
+}
+
+std::vector<std::byte> SyncAction::gathered(std::span<const std::byte> mine) const {
+    std::vector<std::byte> all;
+    for (int rank = 0; rank < communicator_.size(); ++rank) {
+        std::vector<std::byte> part;
+        if (rank == communicator_.rank()) part.assign(mine.begin(), mine.end());
+        communicator_.broadcast(part, rank);
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
 }
 
 /// vx = rate (y - Ly / 2) turns clockwise at half the rate.

@@ -4,10 +4,18 @@
 
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
+#include "engine/stress_sums.hpp"
+#include "engine/wall_event.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
+
+/// Who is told of impulses that effects give at a sync.
+struct SyncNotes {
+    const Followers<WallEvent>* walls = nullptr;
+    StressSums* stress = nullptr; ///< null if nobody asks
+};
 
 class SyncAction {
 public:
@@ -16,20 +24,27 @@ public:
 
     bool has_effects() const { return !effects_.empty(); }
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.
-    /// Adds to `energy_given()`. **Collective.**
-    void act(StripDiscs& discs, std::int64_t n_syncs);
+    /// Adds to `energy_given()` and to what `notes` names. **Collective.**
+    void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
     /// included, per micro-step. For checks: its last bits depend on the machine shape.
     double energy_given() const { return energy_given_; }
 
+    /// What effects keep, one after the other, each after the count of its numbers; empty if none
+    /// keeps any.
+    std::vector<std::int64_t> kept() const;
+    void go_on(std::span<const std::int64_t> kept);
+
 private:
+    void follow(SyncDiscs& at, const SyncNotes& notes) const;
+    std::vector<std::byte> gathered(std::span<const std::byte> mine) const;
     double energy_of(const SyncDiscs& at) const;
     /// Adds the flow of sheared discs, so many times, to velocities and spins.
     void add_flow(const SyncDiscs& at, double times) const;
 
     SyncEffects effects_;
     SpeciesTable species_;
-    double inertia_;
+    double inertia_, micro_steps_;
     Box box_;
     double shear_; ///< per micro-step
     Communicator communicator_;

@@ -28,6 +28,7 @@ namespace {
 
 constexpr const char* measurements_path = "/carrom/measurements";
 constexpr const char* averages_path = "/carrom/averages";
+constexpr const char* effects_path = "/carrom/effects";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
 /// Refuses headers that no writer of this program would write. A file with right
@@ -73,6 +74,8 @@ StoredSamples samples_of(hid_t file, const Checksums& sums) {
         if (is_listed(sums, column.path)) samples.*column.is_there = true;
     if (h5::has(file, averages_path))
         samples.averages = h5::read_column<std::int64_t>(file, averages_path);
+    if (h5::has(file, effects_path))
+        samples.effects = h5::read_column<std::int64_t>(file, effects_path);
     if (!h5::has(file, measurements_path)) return samples;
     samples.sums = h5::read_column<std::int64_t>(file, sums_path);
     if (samples.sums.empty()) throw FileError("its measurements are no list of sums");
@@ -160,6 +163,7 @@ void broadcast(Contents& contents, const Communicator& communicator) {
         communicator.broadcast(data.checksum);
     }
     communicator.broadcast(contents.samples.averages);
+    communicator.broadcast(contents.samples.effects);
     communicator.broadcast(contents.samples.sums);
     for (const SampleColumn& column : sample_columns) {
         bool& is_there = contents.samples.*column.is_there;

@@ -59,6 +59,7 @@ void Run::commit() {
 
 StoredSamples Run::stored_samples() {
     StoredSamples samples = sampler_.stored();
+    samples.effects = system_.kept_by_effects();
     samples.have_images = images_.has_value();
     if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
     return samples;

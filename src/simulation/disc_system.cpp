@@ -204,6 +204,8 @@ std::span<const DiscState> DiscSystem::discs() const {
     return stored_;
 }
 
+std::vector<std::int64_t> DiscSystem::kept_by_effects() const { return engine_->kept_by_effects(); }
+
 SideSpans DiscSystem::side_columns() const {
     if (engine_->departed().empty()) return engine_->side_columns();
     const SideSpans own = engine_->side_columns(), departed = engine_->departed_columns();

@@ -59,6 +59,8 @@ public:
     std::span<const DiscState> discs() const;
     /// The numbers of side columns along `discs()`. Good until the next call.
     SideSpans side_columns() const;
+    /// What effects keep from sync to sync, for StoredState; equal on all ranks.
+    std::vector<std::int64_t> kept_by_effects() const;
     /// The spins, in angles per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
     /// The radius and the mass of each disc. A copy shares the memory.

@@ -4,8 +4,8 @@
 // Each file of this folder declares one effect: its tables, keys (a key says by itself whether it
 // is a seed), rules, checks, line in the summary, allowance in the self-check, energy beside that
 // of motion, and what it does at syncs. The reader of scenes, the pages, reports, restarts,
-// replicas, the self-check and the engines loop over `all_effects`, and name no effect. An effect
-// stores nothing beside the discs' states and columns, so checkpoints need no word for it.
+// replicas, the self-check and the engines loop over `all_effects`, and name no effect. Beside the
+// discs' states and columns, a checkpoint has what an effect at syncs says that it keeps.
 //
 // The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
 // above the dynamics, where the templates of the hot paths are, and below the engines. So an effect

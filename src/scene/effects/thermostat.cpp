@@ -79,7 +79,7 @@ class Kicks final : public ThermostatEffect {
 public:
     using ThermostatEffect::ThermostatEffect;
 
-    void act(const SyncDiscs& at) const override {
+    void act(const SyncDiscs& at) override {
         const double size = std::sqrt(setting_.strength * interval_);
         // Numbers beyond 2^10 do not occur: one in exp(2^19) is as large.
         const double bound = n_discs_ * heaviest_ * size * 0x1p10;
@@ -112,7 +112,7 @@ class Andersen final : public ThermostatEffect {
 public:
     using ThermostatEffect::ThermostatEffect;
 
-    void act(const SyncDiscs& at) const override {
+    void act(const SyncDiscs& at) override {
         const double kept = drag_slowing(setting_.rate, interval_);
         for_each(at, [&](std::size_t i, DiscRandom random) {
             if (random.uniform() < kept) return;
@@ -131,7 +131,7 @@ class Langevin final : public ThermostatEffect {
 public:
     using ThermostatEffect::ThermostatEffect;
 
-    void act(const SyncDiscs& at) const override {
+    void act(const SyncDiscs& at) override {
         const double kept = drag_slowing(setting_.rate, interval_);
         const double noise = std::sqrt((1 - kept) * (1 + kept));
         for_each(at, [&](std::size_t i, DiscRandom random) {
@@ -152,7 +152,7 @@ class Rescale final : public ThermostatEffect {
 public:
     using ThermostatEffect::ThermostatEffect;
 
-    void act(const SyncDiscs& at) const override {
+    void act(const SyncDiscs& at) override {
         double largest = 0; // the largest velocity, surfaces of rough discs included
         for (std::size_t i = 0; i < at.discs.size(); ++i) {
             const DiscState& disc = at.discs[i];

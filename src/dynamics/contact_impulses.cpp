@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/contact_impulses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace carrom {
+
+namespace {
+
+/// Over-relaxation brings forces through a heap in fewer sweeps; more of it does not settle under
+/// friction.
+constexpr double relaxation = 1.3;
+/// Sweeps end when none changes a velocity by more than this share of g T.
+constexpr double small_change = 0.005;
+/// Impulses begin from those of the last sync, so a sync need not find all of them. Sweeps at most
+/// for n contacts: that many and the root of n.
+constexpr double sweeps_at_most = 20;
+
+} // namespace
+
+/// In the mean until the next sync. `turning` is the spin times the radius.
+struct ContactImpulses::Body {
+    double vx = 0, vy = 0, turning = 0;
+    double share = 0; ///< 1 over the mass, 0 of what stands fixed
+};
+
+struct ContactImpulses::Contact {
+    std::uint32_t a = 0, b = 0; ///< b is the place after the last disc's for fixed bodies
+    std::uint32_t part = 0;
+    std::int64_t body = -1; ///< of LastingContact
+    double nx = 0, ny = 0;
+    double friction = 0, velocity = 0;
+    double approach = 0; ///< the largest normal velocity that is allowed
+    double mass = 0;     ///< 1 over the sum of both shares
+    double height = 0;
+    double distance = 0;
+    double normal = 0, tangential = 0; ///< impulses on b
+};
+
+struct ContactImpulses::Part {
+    std::size_t first = 0, end = 0;
+};
+
+ContactImpulses::ContactImpulses(const Box& box, const Effects& effects,
+                                 const SpeciesTable& species, double interval)
+    : finder_(box, effects), effects_(effects), species_(species), interval_(interval),
+      pull_(std::hypot(effects.gravity.x, effects.gravity.y) * interval),
+      fall_x_((0.5 * effects.gravity.x) * interval), fall_y_((0.5 * effects.gravity.y) * interval),
+      rest_gap_(pull_ * interval / 8),
+      turning_(effects.contact.kind == ContactKind::rough ? 1 / effects.contact.inertia : 0) {}
+
+LastingForces ContactImpulses::act(std::span<HeapDisc> discs,
+                                   std::vector<KeptImpulse>& kept) const {
+    std::vector<Contact> contacts = lasting_contacts(discs, kept);
+    std::vector<Body> bodies(discs.size() + 1); // the last one is what stands fixed
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const SizeAndMass& body = species_.of(discs[i].id);
+        bodies[i] = {discs[i].vx + fall_x_, discs[i].vy + fall_y_, discs[i].spin * body.radius,
+                     1 / body.mass};
+    }
+    int n_sweeps = 0;
+    for (const Part& part : connected_parts(contacts, discs.size())) {
+        const std::span<Contact> own = std::span(contacts).subspan(part.first,
+                                                                   part.end - part.first);
+        n_sweeps = std::max(n_sweeps, sweep(own, bodies));
+        stop_slow(own, bodies);
+    }
+    std::vector<std::uint8_t> is_pressed(discs.size() + 1);
+    for (const Contact& contact : contacts)
+        if (contact.normal > 0) is_pressed[contact.a] = is_pressed[contact.b] = 1;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        if (is_pressed[i] == 0) continue;
+        discs[i].vx = bodies[i].vx - fall_x_;
+        discs[i].vy = bodies[i].vy - fall_y_;
+        discs[i].spin = bodies[i].turning / species_.of(discs[i].id).radius;
+    }
+    LastingForces forces = forces_of(contacts, discs, kept);
+    forces.n_sweeps = n_sweeps;
+    return forces;
+}
+
+LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
+                                         std::span<const HeapDisc> discs,
+                                         std::vector<KeptImpulse>& kept) const {
+    LastingForces forces;
+    kept.clear();
+    for (const Contact& contact : contacts) {
+        if (!(contact.normal > 0)) continue;
+        // on disc a
+        const double ix = -(contact.normal * contact.nx - contact.tangential * contact.ny),
+                     iy = -(contact.normal * contact.ny + contact.tangential * contact.nx);
+        if (contact.b < discs.size()) {
+            forces.pairs.push_back(
+                {ix, iy, contact.nx * contact.distance, contact.ny * contact.distance});
+        } else if (contact.body < 4) {
+            WallPush& wall = forces.walls[static_cast<std::size_t>(contact.body)];
+            wall.normal += contact.normal;
+            wall.along += contact.body < 2 ? iy : ix;
+        }
+        kept.push_back(
+            {discs[contact.a].id, key_of(contact, discs), contact.normal, contact.tangential});
+    }
+    std::sort(kept.begin(), kept.end(), [](const KeptImpulse& p, const KeptImpulse& q) {
+        return std::tuple(p.a, p.b) < std::tuple(q.a, q.b);
+    });
+    return forces;
+}
+
+std::int64_t ContactImpulses::key_of(const Contact& contact, std::span<const HeapDisc> discs) {
+    return contact.b < discs.size() ? static_cast<std::int64_t>(discs[contact.b].id)
+                                    : -1 - contact.body;
+}
+
+std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
+    std::span<const HeapDisc> discs, std::span<const KeptImpulse> kept) const {
+    std::vector<double> radii(discs.size());
+    for (std::size_t i = 0; i < discs.size(); ++i) radii[i] = species_.of(discs[i].id).radius;
+    const double speed = effects_.lasting_speed;
+    std::vector<Contact> contacts;
+    for (const LastingContact& one : finder_.find(discs, radii, speed * interval_ + rest_gap_)) {
+        const bool is_pair = one.b != LastingContact::fixed_body;
+        const HeapDisc& a = discs[one.a];
+        double wx = -a.vx - fall_x_, wy = -a.vy - fall_y_;
+        if (is_pair) wx = discs[one.b].vx - a.vx, wy = discs[one.b].vy - a.vy;
+        if (!(wx * one.nx + wy * one.ny > -speed)) continue;
+        Contact contact;
+        contact.a = one.a;
+        contact.b = is_pair ? one.b : static_cast<std::uint32_t>(discs.size());
+        contact.body = one.body;
+        contact.nx = one.nx;
+        contact.ny = one.ny;
+        contact.friction = one.friction;
+        contact.velocity = one.velocity;
+        contact.distance = one.distance;
+        // Discs closer than the rest gap need not part: where they cannot, impulses would grow.
+        contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
+        contact.mass = 1 / (1 / species_.of(a.id).mass +
+                            (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));
+        contact.height = -(effects_.gravity.x * (a.x + radii[one.a] * one.nx) +
+                           effects_.gravity.y * (a.y + radii[one.a] * one.ny));
+        const std::tuple key(a.id, key_of(contact, discs));
+        const auto found = std::lower_bound(
+            kept.begin(), kept.end(), key,
+            [](const KeptImpulse& p, const auto& wanted) { return std::tuple(p.a, p.b) < wanted; });
+        if (found != kept.end() && std::tuple(found->a, found->b) == key) {
+            contact.normal = found->normal;
+            contact.tangential = found->tangential;
+        }
+        contacts.push_back(contact);
+    }
+    return contacts;
+}
+
+/// Sorts contacts by the part that they belong to, and in it from the lowest up.
+std::vector<ContactImpulses::Part> ContactImpulses::connected_parts(std::vector<Contact>& contacts,
+                                                                    std::size_t n) const {
+    std::vector<std::uint32_t> root(n);
+    std::iota(root.begin(), root.end(), 0);
+    const auto root_of = [&](std::uint32_t i) {
+        while (root[i] != i) i = root[i] = root[root[i]];
+        return i;
+    };
+    for (const Contact& contact : contacts) {
+        if (contact.b == n) continue;
+        const std::uint32_t p = root_of(contact.a), q = root_of(contact.b);
+        root[std::max(p, q)] = std::min(p, q);
+    }
+    for (Contact& contact : contacts) contact.part = root_of(contact.a);
+    std::sort(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
+        return std::tuple(p.part, p.height, p.a, p.b, p.body) <
+               std::tuple(q.part, q.height, q.a, q.b, q.body);
+    });
+    std::vector<Part> parts;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        if (k == 0 || contacts[k].part != contacts[k - 1].part) parts.push_back({k, k});
+        parts.back().end = k + 1;
+    }
+    return parts;
+}
+
+void ContactImpulses::give(const Contact& contact, const Change& change,
+                           std::vector<Body>& bodies) const {
+    Body &a = bodies[contact.a], &b = bodies[contact.b];
+    const double ix = change.normal * contact.nx - change.along * contact.ny,
+                 iy = change.normal * contact.ny + change.along * contact.nx;
+    a.vx -= a.share * ix;
+    a.vy -= a.share * iy;
+    a.turning -= a.share * turning_ * change.along;
+    b.vx += b.share * ix;
+    b.vy += b.share * iy;
+    b.turning -= b.share * turning_ * change.along;
+}
+
+ContactImpulses::Change ContactImpulses::change_of(const Contact& contact,
+                                                   const std::vector<Body>& bodies) const {
+    const Body &a = bodies[contact.a], &b = bodies[contact.b];
+    const double nx = contact.nx, ny = contact.ny, wx = b.vx - a.vx, wy = b.vy - a.vy;
+    const double mass = relaxation * contact.mass;
+    const double normal = std::max(contact.normal - mass * (wx * nx + wy * ny + contact.approach),
+                                   0.0);
+    Change change{normal - contact.normal, 0};
+    if (!(contact.friction > 0)) return change;
+    const double slip = contact.velocity + (wy * nx - wx * ny) - (a.turning + b.turning);
+    const double limit = contact.friction * normal;
+    change.along = std::clamp(contact.tangential - mass / (1 + turning_) * slip, -limit, limit) -
+                   contact.tangential;
+    return change;
+}
+
+/// Impulses that are right already stay as they are, so that a heap at rest repeats its state.
+int ContactImpulses::sweep(std::span<Contact> part, std::vector<Body>& bodies) const {
+    for (const Contact& contact : part) give(contact, {contact.normal, contact.tangential}, bodies);
+    const double small = small_change * pull_;
+    const auto is_small = [&](const Contact& contact, const Change& change) {
+        return std::fabs(change.normal) + std::fabs(change.along) <= small * contact.mass;
+    };
+    bool is_settled = std::all_of(part.begin(), part.end(), [&](const Contact& contact) {
+        return is_small(contact, change_of(contact, bodies));
+    });
+    const double most = sweeps_at_most + std::sqrt(static_cast<double>(part.size()));
+    int n_sweeps = 0;
+    for (; n_sweeps < most && !is_settled; ++n_sweeps) {
+        is_settled = true;
+        for (Contact& contact : part) {
+            const Change change = change_of(contact, bodies);
+            contact.normal += change.normal;
+            contact.tangential += change.along;
+            give(contact, change, bodies);
+            is_settled = is_settled && is_small(contact, change);
+        }
+    }
+    return n_sweeps;
+}
+
+void ContactImpulses::stop_slow(std::span<const Contact> part, std::vector<Body>& bodies) const {
+    const double least = least_motion * pull_;
+    const auto stop = [least](Body& body) {
+        if (std::fabs(body.vx) < least && std::fabs(body.vy) < least &&
+            std::fabs(body.turning) < least)
+            body.vx = body.vy = body.turning = 0;
+    };
+    for (const Contact& contact : part) {
+        if (!(contact.normal > 0)) continue;
+        stop(bodies[contact.a]);
+        stop(bodies[contact.b]);
+    }
+}
+
+} // namespace carrom

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact dynamics at a sync: the impulses that keep slow discs from meeting until the next one.
+//
+// Gravity pulls a disc down by g T^2 / 2 between two syncs. What lies on something would so meet it
+// again and again. Here it gets at the sync what its supports give it in all of the time T, as in
+// the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl. Mech. Eng.
+// 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync, impulses P at the
+// contacts are such that
+//
+//   gap + T w_n >= rest gap,   P_n >= 0,   and one of both with "=";   |P_t| <= mu P_n against slip
+//
+// A disc of a heap then has w = 0: it flies up by g T^2 / 8 and is back at the next sync. All discs
+// of the heap do so together, so none meets another one, and the heap costs nothing. Pairs that
+// approach faster than `speed` are no lasting contacts, and meet as others do. So do all pairs for
+// which the impulses are not right, so that no error of this kind makes an overlap.
+//
+// Gauss and Seidel's sweeps with over-relaxation go over the contacts from the lowest up. They end
+// when impulses have settled, or after a number of sweeps. Then discs in contact that are left with
+// less than `least_motion` of g T stop (w = 0), so that a heap that bears itself repeats its state
+// bit by bit. The result is a function of the discs in the order of ids, so all ranks have the same
+// bits. Price: some 10 ns for each contact and sweep.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dynamics/lasting_contacts.hpp"
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+/// The impulse (ix, iy) that the first disc of a pair gets at the separation (dx, dy) to the
+/// second.
+struct LastingPair {
+    double ix = 0, iy = 0, dx = 0, dy = 0;
+};
+
+/// The impulse of a contact, from which the next sync begins. `b` is a disc's id, or below 0 for
+/// walls and obstacles.
+struct KeptImpulse {
+    DiscId a = 0;
+    std::int64_t b = 0;
+    double normal = 0, tangential = 0;
+
+    friend bool operator==(const KeptImpulse&, const KeptImpulse&) = default;
+};
+
+/// What a side of the box gives to discs: impulses away from it and along its axis, and energy.
+struct WallPush {
+    double normal = 0, along = 0;
+};
+
+struct LastingForces {
+    std::vector<LastingPair> pairs;
+    std::array<WallPush, 4> walls{};
+    int n_sweeps = 0; ///< the most of any connected component
+};
+
+class ContactImpulses {
+public:
+    static constexpr double least_motion = 0.01;
+
+    /// `effects` per micro-step; `interval` in micro-steps. Gravity must not be zero.
+    ContactImpulses(const Box& box, const Effects& effects, const SpeciesTable& species,
+                    double interval);
+
+    /// Gives new velocities and spins to `discs`, which are in the order of ids. `kept` are the
+    /// impulses of the last sync, and become those of this one.
+    LastingForces act(std::span<HeapDisc> discs, std::vector<KeptImpulse>& kept) const;
+
+private:
+    struct Body;
+    struct Contact;
+    struct Part;
+    struct Change {
+        double normal = 0, along = 0;
+    };
+
+    LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
+                            std::vector<KeptImpulse>& kept) const;
+    static std::int64_t key_of(const Contact& contact, std::span<const HeapDisc> discs);
+    std::vector<Contact> lasting_contacts(std::span<const HeapDisc> discs,
+                                          std::span<const KeptImpulse> kept) const;
+    std::vector<Part> connected_parts(std::vector<Contact>& contacts, std::size_t n) const;
+    void give(const Contact& contact, const Change& change, std::vector<Body>& bodies) const;
+    Change change_of(const Contact& contact, const std::vector<Body>& bodies) const;
+    int sweep(std::span<Contact> part, std::vector<Body>& bodies) const;
+    void stop_slow(std::span<const Contact> part, std::vector<Body>& bodies) const;
+
+    LastingContactFinder finder_;
+    Effects effects_;
+    SpeciesTable species_;
+    double interval_, pull_;
+    double fall_x_, fall_y_; ///< g T / 2
+    double rest_gap_;
+    double turning_; ///< 1 over the moment of inertia in m r^2; 0 where discs do not turn
+};
+
+} // namespace carrom

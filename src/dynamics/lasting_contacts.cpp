@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/lasting_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace carrom {
+
+namespace {
+
+double friction_of(const Surface& surface) { return surface.rubs() ? surface.friction : 0; }
+
+/// Numbers of the cells from `low` to `high` along one axis. Around a periodic box each cell is
+/// named once.
+class CellLine {
+public:
+    CellLine(double length, double width, double most, bool is_periodic)
+        : n_(static_cast<int>(std::clamp(std::floor(length / width), 1.0, most))),
+          per_length_(n_ / length), is_periodic_(is_periodic) {}
+
+    int size() const { return n_; }
+    int cell_of(double place) const {
+        return static_cast<int>(std::clamp(std::floor(place * per_length_), 0.0, n_ - 1.0));
+    }
+    template <class Visit> void visit(double low, double high, const Visit& visit) const {
+        int first = static_cast<int>(std::floor(std::max(low * per_length_, -1.0 * n_))),
+            last = static_cast<int>(std::floor(std::min(high * per_length_, 2.0 * n_)));
+        if (!is_periodic_) {
+            first = std::clamp(first, 0, n_ - 1);
+            last = std::clamp(last, 0, n_ - 1);
+        }
+        last = std::min(last, first + n_ - 1);
+        for (int cell = first; cell <= last; ++cell) visit((cell + n_) % n_);
+    }
+
+private:
+    int n_;
+    double per_length_;
+    bool is_periodic_;
+};
+
+/// The point of a segment that is nearest to (x, y).
+std::array<double, 2> nearest_point(const Segment& line, double x, double y) {
+    const double ux = line.x1 - line.x0, uy = line.y1 - line.y0, square = ux * ux + uy * uy;
+    const double share = square > 0 ? std::clamp(((x - line.x0) * ux + (y - line.y0) * uy) / square,
+                                                 0.0, 1.0)
+                                    : 0;
+    return {line.x0 + share * ux, line.y0 + share * uy};
+}
+
+} // namespace
+
+struct LastingContactFinder::Search {
+    std::span<const HeapDisc> discs;
+    std::span<const double> radii;
+    double widest_gap, largest_radius;
+    CellLine columns, rows;
+    std::vector<std::uint32_t> starts, sorted; ///< discs in the order of their cells
+    std::vector<LastingContact> found;
+
+    Search(const Box& box, const Effects& effects, std::span<const HeapDisc> all,
+           std::span<const double> all_radii, double gap)
+        : discs(all), radii(all_radii), widest_gap(gap),
+          largest_radius(*std::max_element(all_radii.begin(), all_radii.end())),
+          columns(box.x, width(), most_cells(), effects.is_periodic_x()),
+          rows(box.y, width(), most_cells(), effects.is_periodic_y()) {
+        sort();
+    }
+
+    double width() const { return 2 * largest_radius + widest_gap; }
+    /// Along one axis, so that a thin gas in a large box has no more cells than some per disc.
+    double most_cells() const {
+        return std::ceil(4 * std::sqrt(static_cast<double>(discs.size()))) + 1;
+    }
+    std::size_t cell_of(const HeapDisc& disc) const {
+        return static_cast<std::size_t>(rows.cell_of(disc.y) * columns.size() +
+                                        columns.cell_of(disc.x));
+    }
+    void sort() {
+        starts.assign(static_cast<std::size_t>(columns.size() * rows.size()) + 1, 0);
+        for (const HeapDisc& disc : discs) ++starts[cell_of(disc) + 1];
+        for (std::size_t cell = 1; cell < starts.size(); ++cell) starts[cell] += starts[cell - 1];
+        std::vector<std::uint32_t> next(starts);
+        sorted.resize(discs.size());
+        for (std::uint32_t i = 0; i < discs.size(); ++i) sorted[next[cell_of(discs[i])]++] = i;
+    }
+    /// Calls visit(disc) for all discs of cells that the rectangle touches.
+    template <class Visit>
+    void in_rectangle(double x0, double x1, double y0, double y1, const Visit& visit) const {
+        rows.visit(y0, y1, [&](int row) {
+            columns.visit(x0, x1, [&](int column) {
+                const auto cell = static_cast<std::size_t>(row * columns.size() + column);
+                for (std::uint32_t k = starts[cell]; k < starts[cell + 1]; ++k) visit(sorted[k]);
+            });
+        });
+    }
+    /// Where (dx, dy) points from the centre of disc i to a body of this radius.
+    void add(LastingContact contact, double dx, double dy, double radius) {
+        const double square = dx * dx + dy * dy, touching = radii[contact.a] + radius,
+                     reach = touching + widest_gap;
+        if (!(square < reach * reach) || square == 0) return;
+        const double distance = std::sqrt(square);
+        contact.nx = dx / distance;
+        contact.ny = dy / distance;
+        contact.gap = distance - touching;
+        contact.distance = distance;
+        found.push_back(contact);
+    }
+};
+
+LastingContactFinder::LastingContactFinder(const Box& box, const Effects& effects)
+    : box_(box), effects_(effects),
+      pair_friction_(effects.contact.kind == ContactKind::rough &&
+                             effects.contact.tangential_restitution != -1
+                         ? effects.contact.friction
+                         : 0) {}
+
+std::vector<LastingContact> LastingContactFinder::find(std::span<const HeapDisc> discs,
+                                                       std::span<const double> radii,
+                                                       double widest_gap) const {
+    if (discs.empty()) return {};
+    Search search(box_, effects_, discs, radii, widest_gap);
+    add_pairs(search);
+    add_walls(search);
+    add_obstacles(search);
+    return std::move(search.found);
+}
+
+void LastingContactFinder::add_pairs(Search& search) const {
+    const Periods periods = effects_.periods(box_);
+    const auto nearest = [](double far, double period) {
+        return period == 0 ? far : far - period * std::round(far / period);
+    };
+    LastingContact contact;
+    contact.friction = pair_friction_;
+    for (std::uint32_t i = 0; i < search.discs.size(); ++i) {
+        const HeapDisc& disc = search.discs[i];
+        const double reach = search.radii[i] + search.largest_radius + search.widest_gap;
+        contact.a = i;
+        search.in_rectangle(
+            disc.x - reach, disc.x + reach, disc.y - reach, disc.y + reach, [&](std::uint32_t j) {
+                if (j <= i) return;
+                contact.b = j;
+                search.add(contact, nearest(search.discs[j].x - disc.x, periods.x),
+                           nearest(search.discs[j].y - disc.y, periods.y), search.radii[j]);
+            });
+    }
+}
+
+/// Walls that heat or move hold nothing.
+void LastingContactFinder::add_walls(Search& search) const {
+    for (std::int64_t side = 0; side < 4; ++side) {
+        const Boundary& wall = effects_.boundaries[static_cast<std::size_t>(side)];
+        if (wall.kind != BoundaryKind::wall) continue;
+        LastingContact contact;
+        contact.body = side;
+        const double sign = side % 2 == 0 ? -1 : 1;
+        (side < 2 ? contact.nx : contact.ny) = sign;
+        contact.friction = friction_of(wall.surface);
+        // The surface moves along +x or +y.
+        contact.velocity = wall.surface.velocity * (side < 2 ? contact.nx : -contact.ny);
+        for (std::uint32_t i = 0; i < search.discs.size(); ++i) {
+            const double place = side < 2 ? search.discs[i].x : search.discs[i].y,
+                         length = side < 2 ? box_.x : box_.y;
+            contact.gap = (side % 2 == 0 ? place : length - place) - search.radii[i];
+            contact.a = i;
+            if (contact.gap < search.widest_gap) search.found.push_back(contact);
+        }
+    }
+}
+
+/// The surface of an obstacle moves counterclockwise around it.
+void LastingContactFinder::add_obstacles(Search& search) const {
+    const ObstacleList& obstacles = effects_.obstacles;
+    LastingContact contact;
+    contact.friction = friction_of(obstacles.surface);
+    contact.velocity = -obstacles.surface.velocity;
+    contact.body = 3;
+    const double reach = search.largest_radius + search.widest_gap;
+    for (const FixedDisc& body : obstacles.discs) {
+        const double far = reach + body.radius;
+        ++contact.body;
+        search.in_rectangle(body.x - far, body.x + far, body.y - far, body.y + far,
+                            [&](std::uint32_t i) {
+                                contact.a = i;
+                                search.add(contact, body.x - search.discs[i].x,
+                                           body.y - search.discs[i].y, body.radius);
+                            });
+    }
+    for (const Segment& line : obstacles.segments) {
+        ++contact.body;
+        search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,
+                            std::min(line.y0, line.y1) - reach, std::max(line.y0, line.y1) + reach,
+                            [&](std::uint32_t i) {
+                                const HeapDisc& disc = search.discs[i];
+                                const auto [x, y] = nearest_point(line, disc.x, disc.y);
+                                contact.a = i;
+                                search.add(contact, x - disc.x, y - disc.y, 0);
+                            });
+    }
+}
+
+} // namespace carrom

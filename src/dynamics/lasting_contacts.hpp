@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pairs, and the discs at walls and obstacles, that are so close at a sync that they may press
+// each other until the next one. They are found with cells as wide as the largest contact.
+//
+// A contact that is left out costs time, not truth: the discs meet as others do.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/disc_state.hpp"
+#include "dynamics/effects.hpp"
+
+namespace carrom {
+
+/// A disc at a sync, as all ranks know it.
+struct HeapDisc {
+    DiscId id = 0;
+    double x = 0, y = 0, vx = 0, vy = 0;
+    double spin = 0;
+
+    friend bool operator==(const HeapDisc&, const HeapDisc&) = default;
+};
+
+/// Between disc `a` and disc `b`, which is `fixed_body` for walls and obstacles. The normal (nx,
+/// ny) points from a to b, and the tangent is (-ny, nx).
+struct LastingContact {
+    static constexpr std::uint32_t fixed_body = 0xffffffff;
+
+    std::uint32_t a = 0, b = fixed_body; ///< places in the list of discs
+    std::int64_t body = -1; ///< of fixed bodies: the side of the box, or four more than the number
+                            ///< of the obstacle, segments after discs
+    double nx = 0, ny = 0;
+    double gap = 0;      ///< between the surfaces
+    double distance = 0; ///< between the centres of a pair
+    double friction = 0; ///< Coulomb's
+    double velocity = 0; ///< of the fixed body's surface, along the tangent
+};
+
+class LastingContactFinder {
+public:
+    LastingContactFinder(const Box& box, const Effects& effects);
+
+    /// The contacts whose gap is less than `widest_gap`, in an order that depends on the discs and
+    /// their order alone. `radii` is along `discs`.
+    std::vector<LastingContact> find(std::span<const HeapDisc> discs, std::span<const double> radii,
+                                     double widest_gap) const;
+
+private:
+    struct Search;
+
+    void add_pairs(Search& search) const;
+    void add_walls(Search& search) const;
+    void add_obstacles(Search& search) const;
+
+    Box box_;
+    Effects effects_;
+    double pair_friction_;
+};
+
+} // namespace carrom

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts that last from sync to sync (dynamics/contact_impulses.hpp).
+//
+// Every rank gathers all discs, in the order of ids, and finds the same impulses: 48 bytes a disc
+// and some 100 a contact on each rank. Impulses begin from those of the sync before, so checkpoints
+// keep them, 32 bytes a contact. While a heap bears itself, its states and impulses repeat bit by
+// bit, and a sync costs one comparison.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "dynamics/contact_impulses.hpp"
+#include "scene/effects/effect.hpp"
+#include "scene/key_members.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+class LastingContacts final : public SyncEffect {
+public:
+    explicit LastingContacts(const SceneParameters& scene)
+        : impulses_(scene.box,
+                    per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)),
+                    SpeciesTable(scene.effects.species, scene.radius),
+                    static_cast<double>(scene.sync_every)) {}
+
+    void act(const SyncDiscs& at) override {
+        std::vector<HeapDisc> mine = discs_of(at);
+        const bool has_changed = mine != mine_ || kept_ != kept_before_;
+        if (at.largest_over_ranks(has_changed ? 1 : 0) > 0) {
+            mine_ = std::move(mine);
+            gather(at);
+            kept_before_ = kept_;
+            forces_ = impulses_.act(after_, kept_);
+        }
+        set_velocities(at);
+        note(at);
+    }
+
+    std::vector<std::int64_t> kept() const override {
+        std::vector<std::int64_t> numbers;
+        numbers.reserve(4 * kept_.size());
+        for (const KeptImpulse& one : kept_)
+            numbers.insert(numbers.end(), {static_cast<std::int64_t>(one.a), one.b,
+                                           std::bit_cast<std::int64_t>(one.normal),
+                                           std::bit_cast<std::int64_t>(one.tangential)});
+        return numbers;
+    }
+    void go_on(std::span<const std::int64_t> kept) override {
+        kept_.clear();
+        for (std::size_t k = 0; k + 4 <= kept.size(); k += 4)
+            kept_.push_back({static_cast<DiscId>(kept[k]), kept[k + 1],
+                             std::bit_cast<double>(kept[k + 2]),
+                             std::bit_cast<double>(kept[k + 3])});
+    }
+
+private:
+    /// The discs of this rank, in the order of ids because that of cells changes.
+    static std::vector<HeapDisc> discs_of(const SyncDiscs& at) {
+        std::vector<HeapDisc> mine;
+        for (std::size_t i = 0; i < at.discs.size(); ++i) {
+            const DiscState& disc = at.discs[i];
+            if (disc.has_departed()) continue;
+            mine.push_back(
+                {disc.id, disc.x, disc.y, disc.vx, disc.vy, at.spins.empty() ? 0 : at.spins[i]});
+        }
+        sort_by_id(mine);
+        return mine;
+    }
+    static void sort_by_id(std::vector<HeapDisc>& discs) {
+        std::sort(discs.begin(), discs.end(),
+                  [](const HeapDisc& a, const HeapDisc& b) { return a.id < b.id; });
+    }
+    void gather(const SyncDiscs& at) {
+        const std::vector<std::byte> bytes = at.gather_over_ranks(std::as_bytes(std::span(mine_)));
+        after_.resize(bytes.size() / sizeof(HeapDisc));
+        if (!after_.empty()) std::memcpy(after_.data(), bytes.data(), bytes.size());
+        sort_by_id(after_);
+    }
+
+    void set_velocities(const SyncDiscs& at) const {
+        for (std::size_t i = 0; i < at.discs.size(); ++i) {
+            DiscState& disc = at.discs[i];
+            if (disc.has_departed()) continue;
+            const auto found = std::lower_bound(
+                after_.begin(), after_.end(), disc.id,
+                [](const HeapDisc& one, DiscId id) { return one.id < id; });
+            disc.vx = found->vx;
+            disc.vy = found->vy;
+            if (!at.spins.empty()) at.spins[i] = found->spin;
+        }
+    }
+
+    void note(const SyncDiscs& at) const {
+        for (std::size_t side = 0; at.note_wall && side < 4; ++side)
+            if (forces_.walls[side].normal > 0)
+                at.note_wall({side, forces_.walls[side].normal, forces_.walls[side].along});
+        if (!at.note_pair) return;
+        for (const LastingPair& pair : forces_.pairs)
+            at.note_pair(pair.ix, pair.iy, pair.dx, pair.dy);
+    }
+
+    ContactImpulses impulses_;
+    std::vector<KeptImpulse> kept_;
+    // What has been found is kept for a sync with the same states and impulses before it.
+    std::vector<HeapDisc> mine_, after_; ///< of this rank before it, of all afterwards
+    std::vector<KeptImpulse> kept_before_;
+    LastingForces forces_;
+};
+
+bool has_lasting(const SceneParameters& s) { return s.effects.lasting_speed > 0; }
+
+std::vector<Key> keys_of_lasting_contacts() {
+    return {
+        key("effects.lasting_contacts.speed", "length/step",
+            "Discs that approach each other, a wall or an obstacle more slowly than this at a sync "
+            "press each other until the next one, and do not bounce.",
+            [](auto& s) -> auto& { return s.effects.lasting_speed; })
+            .within({.low = 0}),
+    };
+}
+
+std::vector<Rule> rules_of_lasting_contacts() {
+    const std::string_view lasting = "contacts that last";
+    const RuleKeys keys = {"effects.lasting_contacts.speed"};
+    return {
+        rule(
+            lasting, "no gravity", "nothing presses discs on each other; set effects.gravity", keys,
+            [](const SceneParameters& s) { return has_lasting(s) && !s.effects.gravity.is_any(); }),
+        rule(lasting, "elastic discs, or discs that pass through each other",
+             "these never come to rest; take effects.contact.kind = \"restitution\" or \"rough\"",
+             keys,
+             [](const SceneParameters& s) {
+                 const ContactKind kind = s.effects.contact.kind;
+                 return has_lasting(s) &&
+                        (kind == ContactKind::elastic || kind == ContactKind::none);
+             }),
+        rule(lasting, "drag or a thermostat", "this version does not have both", keys,
+             [](const SceneParameters& s) {
+                 return has_lasting(s) && (s.effects.drag != 0 || s.effects.thermostat.is_any());
+             }),
+        rule(lasting, "growing discs, or sheared, moving, oscillating or thermal sides",
+             "this version does not have both", keys,
+             [](const SceneParameters& s) {
+                 return has_lasting(s) &&
+                        (has_growth(s) || s.effects.are_sheared() || has_moving(s) ||
+                         has_oscillating(s) || has_boundary(s.effects, BoundaryKind::thermal));
+             }),
+    };
+}
+
+double smallest_radius_of(const SceneParameters& scene) {
+    if (scene.effects.species.empty()) return scene.radius;
+    double smallest = scene.effects.species.front().radius;
+    for (const Species& one : scene.effects.species) smallest = std::min(smallest, one.radius);
+    return smallest;
+}
+
+/// How high discs at rest fly between two syncs.
+double hop_of(const SceneParameters& scene) {
+    const double time = steps_between_syncs(scene);
+    return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y) * time * time / 8;
+}
+
+/// By default syncs follow each other so closely that discs at rest fly up by a hundredth of the
+/// radius.
+void shorten_sync_for_hops(const SceneDraft& draft) {
+    SceneParameters& scene = draft.scene;
+    if (!has_lasting(scene) || draft.settings.has("time.sync_every")) return;
+    const double radius = smallest_radius_of(scene); // 0 where a packing gives it, later
+    while (radius > 0 && scene.sync_every > 1 && hop_of(scene) > 0.01 * radius)
+        scene.sync_every /= 2;
+}
+
+void check_hops(const SceneDraft& draft) {
+    const SceneParameters& scene = draft.scene;
+    const double radius = smallest_radius_of(scene);
+    if (!has_lasting(scene) || !(radius > 0) || !(hop_of(scene) > 0.05 * radius)) return;
+    const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
+                                   static_cast<double>(scene.sync_every));
+    draft.refuse({"effects.lasting_contacts.speed", "time.sync_every"},
+                 fmt::format("discs at rest fly up by {:.2g} from sync to sync, which is more than "
+                             "a twentieth of the smallest radius; {}",
+                             hop_of(scene),
+                             most >= 1 ? fmt::format("time.sync_every = {} or less will do", most)
+                                       : "take more time.micro_steps"));
+}
+
+} // namespace
+
+namespace effects {
+
+EffectDeclaration lasting_contacts() {
+    return {.tables = {{"effects.lasting_contacts", "Slow contacts that last from sync to sync."}},
+            .keys = keys_of_lasting_contacts(),
+            .rules = rules_of_lasting_contacts(),
+            .derive = shorten_sync_for_hops,
+            .check_room = check_hops,
+            .summary =
+                [](const Effects& e) {
+                    return e.lasting_speed > 0
+                               ? fmt::format("contacts slower than {:g} last", e.lasting_speed)
+                               : "";
+                },
+            .allowance =
+                [](const Effects& e) {
+                    return CheckAllowance{.collisions_take_energy = e.lasting_speed > 0,
+                                          .acts_at_syncs = e.lasting_speed > 0};
+                },
+            .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
+                if (!has_lasting(s)) return nullptr;
+                return std::make_unique<LastingContacts>(s);
+            }};
+}
+
+} // namespace effects
+
+} // namespace carrom

@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Hold heaps whose contacts last from sync to sync to soft discs of the same geometry (LAMMPS).
+
+  tests/physics/heaps.py CARROM STUDY [--short]
+
+column     a column beside a wall collapses on a floor, with friction 0, 0.3 and 0.8
+heap       a block collapses on a floor of fixed discs into a heap, with the same frictions
+silo       discs run out through an opening: the rates of both programs, and Beverloo's law
+
+Each study prints a row of CSV for each friction or opening. Both programs begin from the same five
+starts. LAMMPS (lmp, gran/hooke/history) has linear springs, so stiff that discs overlap by less
+than 4 % of a radius, and the same restitution and friction. Two sizes of discs do not crystallize.
+A number fails if the means of the programs differ by more than the scatter of the starts. Without
+lmp the code is 77.
+"""
+import argparse
+import json
+import math
+import os
+import random
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+
+G = 0.01
+RADII = (0.9, 1.1)
+RESTITUTION = 0.5
+STIFFNESS = 500
+FLOOR = 20  # the height of the silo's bottom
+
+COLUMN = {"box": (300, 80), "corner": (1.2, 1.2), "columns": 9, "rows": 26, "steps": 800,
+          "fixed": [], "bottom": "wall"}
+HEAP = {"box": (160, 60), "corner": (62, 2.2), "columns": 16, "rows": 16, "steps": 800,
+        "fixed": [(x, 0, 1) for x in range(1, 160, 2)], "bottom": "wall"}
+
+
+def silo(width):
+    fixed = [(20 + sign * (width / 2 + 0.5 + k), FLOOR, 0.5)
+             for sign in (-1, 1) for k in range(math.ceil(20 - width / 2))]
+    return {"box": (40, 130), "corner": (1.5, FLOOR + 2), "columns": 16, "rows": 40, "steps": 700,
+            "fixed": [body for body in fixed if 0 <= body[0] <= 40], "bottom": "open"}
+
+
+def start_of(case, seed):
+    """Rows of x, y and radius, small discs first."""
+    draw = random.Random(seed)
+    places = []
+    for row in range(case["rows"]):
+        for column in range(case["columns"]):
+            places.append((case["corner"][0] + 2.26 * (column + row % 2 / 2) +
+                           draw.uniform(-0.02, 0.02),
+                           case["corner"][1] + 2.24 * row + draw.uniform(-0.02, 0.02)))
+    draw.shuffle(places)
+    half = len(places) // 2
+    return [(x, y, RADII[0] if k < half else RADII[1]) for k, (x, y) in enumerate(places)]
+
+
+def scene_of(case, friction, count, steps, speed):
+    rubs = f"tangential_restitution = 0\nfriction = {friction}\n"
+    bottom = 'kind = "open"\n' if case["bottom"] == "open" else \
+        f"restitution = {RESTITUTION}\n{rubs}"
+    obstacles = (f"[effects.obstacles]\nrestitution = {RESTITUTION}\n{rubs}"
+                 f"discs = {[list(map(float, body)) for body in case['fixed']]}\n"
+                 if case["fixed"] else "")
+    return f"""[box]
+size = [{case["box"][0]}, {case["box"][1]}]
+[box.bottom]
+{bottom}
+[discs]
+count = {count}
+generator = "file"
+file = "discs.txt"
+columns = ["radius", "mass"]
+[time]
+steps = {steps}
+method = "event-driven"
+sync_every = 1
+[effects.contact]
+kind = "rough"
+restitution = {RESTITUTION}
+contact_time = 0.001
+{rubs}
+[effects.gravity]
+y = {-G}
+[effects.lasting_contacts]
+speed = {speed}
+{obstacles}"""
+
+
+def carrom(options, case, friction, discs, steps=None):
+    """The places at the end of the discs in the box."""
+    with tempfile.TemporaryDirectory() as folder:
+        scene = os.path.join(folder, "scene.toml")
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(scene_of(case, friction, len(discs), steps or case["steps"],
+                                options.speed))
+        with open(os.path.join(folder, "discs.txt"), "w", encoding="utf-8") as file:
+            for k, (x, y, radius) in enumerate(discs):
+                file.write(f"{k} {x:.17g} {y:.17g} 0 0 {radius} {radius ** 2:.17g}\n")
+        report = os.path.join(folder, "report.json")
+        done = subprocess.run([options.program, "run", scene, "--quiet", "--threads", "1",
+                               "--report", report, "--set", "output.text=ends"],
+                              check=True, stdout=subprocess.PIPE, text=True)
+        rows = [line.split() for line in done.stdout.splitlines()]
+        with open(report, encoding="utf-8") as file:
+            result = json.load(file)
+        return [(float(row[2]), float(row[3])) for row in rows[-len(discs):]], result
+
+
+LAMMPS = """units lj
+dimension 2
+atom_style sphere
+comm_modify vel yes
+boundary f f p
+newton off
+region all block 0 {width} -400 {height} -0.5 0.5
+create_box 3 all
+{atoms}
+set type 1 diameter {d1} mass {m1}
+set type 2 diameter {d2} mass {m2}
+set type 3 diameter {d3} mass 1
+group moving type 1 2
+pair_style gran/hooke/history {kn} {kt} {gn} {gt} {mu} 1
+pair_coeff * *
+neighbor 0.4 bin
+neigh_modify delay 0 every 10 check yes exclude type 3 3
+fix gravity moving gravity {g} vector 0 -1 0
+fix motion moving nve/sphere disc
+fix plane all enforce2d
+{floor}
+fix sides moving wall/gran hooke/history {kn} {kt} {gn} 0 0 1 xplane 0 {width}
+timestep {dt}
+thermo_modify lost ignore
+thermo 100000
+run {steps}
+write_dump all custom {dump} id type x y modify sort id
+"""
+
+
+def lammps(case, friction, discs, steps=None):
+    """The places of the discs that are left at the end."""
+    frequency = math.sqrt(2 * STIFFNESS)
+    decay = -math.log(RESTITUTION)
+    damping = 2 * frequency * decay / math.hypot(math.pi, decay)
+    dt = math.pi / frequency / 30
+    atoms = [f"create_atoms {1 if radius < 1 else 2} single {x:.12g} {y:.12g} 0"
+             for x, y, radius in discs]
+    atoms += [f"create_atoms 3 single {x} {y} 0" for x, y, _ in case["fixed"]]
+    springs = {"kn": STIFFNESS, "kt": STIFFNESS * 2 / 7, "gn": damping, "gt": damping / 2,
+               "mu": friction}
+    floor = "" if case["bottom"] == "open" else (
+        "fix floor moving wall/gran hooke/history {kn} {kt} {gn} {gt} {mu} 1 yplane 0 NULL"
+        .format(**springs))
+    with tempfile.TemporaryDirectory() as folder:
+        dump = os.path.join(folder, "last")
+        script = os.path.join(folder, "in.heap")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(LAMMPS.format(
+                width=case["box"][0], height=case["box"][1], atoms="\n".join(atoms),
+                d1=2 * RADII[0], d2=2 * RADII[1], m1=RADII[0] ** 2, m2=RADII[1] ** 2,
+                d3=2 * (case["fixed"][0][2] if case["fixed"] else 1), g=G, dt=dt, floor=floor,
+                steps=round((steps or case["steps"]) / dt), dump=dump, **springs))
+        subprocess.run(["lmp", "-in", script, "-log", "none", "-screen", "none"], check=True)
+        with open(dump, encoding="utf-8") as file:
+            rows = [line.split() for line in file.read().splitlines()[9:]]
+    return [(float(x), float(y)) for _, kind, x, y in rows if kind != "3"]
+
+
+def shape_of(case, places):
+    """How far and how high the discs lie, and the slope of the surface in degrees."""
+    middle = case["box"][0] / 2 if case is HEAP else 0
+    far = sorted(abs(x - middle) for x, _ in places)
+    highest = {}
+    for x, y in places:
+        column = int(abs(x - middle) / 4)
+        highest[column] = max(highest.get(column, 0), y)
+    flank = [(4 * k + 2, y) for k, y in sorted(highest.items()) if y > 3 and k > 0]
+    slope = float("nan")
+    if len(flank) > 2:
+        mean_x, mean_y = (statistics.fmean(values) for values in zip(*flank))
+        slope = -math.degrees(math.atan(
+            sum((x - mean_x) * (y - mean_y) for x, y in flank) /
+            sum((x - mean_x) ** 2 for x, _ in flank)))
+    return {"runout": far[int(0.95 * len(far))],
+            "height": 2 * statistics.fmean(y for _, y in places), "slope": slope}
+
+
+def collapse(options, case):
+    for friction in (0.3,) if options.short else (0, 0.3, 0.8):
+        found = {"carrom": [], "lammps": []}
+        for seed in range(1, 3 if options.short else 6):
+            discs = start_of(case, seed)
+            found["carrom"].append(shape_of(case, carrom(options, case, friction, discs)[0]))
+            found["lammps"].append(shape_of(case, lammps(case, friction, discs)))
+        yield row_of("friction", friction, found)
+
+
+def row_of(name, value, found):
+    row = {name: value}
+    for quantity in found["carrom"][0]:
+        for who, shapes in found.items():
+            values = [shape[quantity] for shape in shapes]
+            row[f"{quantity}_{who}"] = statistics.fmean(values)
+            row[f"{quantity}_{who}_scatter"] = statistics.stdev(values)
+    return row
+
+
+def run_out(options):
+    """Discs that pass the opening in a step, between two times."""
+    early, late = 250, 700
+    for width in (10,) if options.short else (8, 10, 12, 14):
+        case = silo(width)
+        found = {"carrom": [], "lammps": []}
+        for seed in range(1, 3 if options.short else 4):
+            discs = start_of(case, seed)
+            left = {"carrom": [], "lammps": []}
+            for steps in (early, late):
+                left["carrom"].append(sum(
+                    y > FLOOR for _, y in carrom(options, case, 0.5, discs, steps)[0]))
+                left["lammps"].append(sum(
+                    y > FLOOR for _, y in lammps(case, 0.5, discs, steps)))
+            for who, (before, after) in left.items():
+                found[who].append({"rate": (before - after) / (late - early)})
+        yield row_of("opening", width, found)
+
+
+def check_beverloo(rows):
+    """The rate to the power 2/3 is linear in the opening and vanishes at k mean diameters.
+
+    In two dimensions W = C b sqrt(g) (D - k d)^1.5, where b is the number of discs in a unit of
+    area, C is 0.5 to 0.8, and k is 0.5 to 2 (Beverloo 1961; Mankoc et al. 2007).
+    """
+    x = [row["opening"] for row in rows]
+    y = [row["rate_carrom"] ** (2 / 3) for row in rows]
+    mean_x, mean_y = statistics.fmean(x), statistics.fmean(y)
+    slope = (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) /
+             sum((a - mean_x) ** 2 for a in x))
+    k = (mean_x - mean_y / slope) / 2
+    worst = max(abs(mean_y + slope * (a - mean_x) - b) / b for a, b in zip(x, y))
+    constant = slope ** 1.5 / (0.8 / math.pi * math.sqrt(G))
+    print(f"# Beverloo: C = {constant:.3f}, k = {k:.2f}, off by {worst:.3f} at most")
+    return 0 if 0.5 < k < 2 and 0.5 < constant < 0.8 and worst < 0.05 else 1
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="CARROM")
+    parser.add_argument("study", choices=("column", "heap", "silo"))
+    parser.add_argument("--short", action="store_true")
+    parser.add_argument("--speed", type=float, default=0.05)
+    options = parser.parse_args()
+    if not shutil.which("lmp"):
+        print("left out: there is no LAMMPS (lmp)", file=sys.stderr)
+        return 77
+    code, rows = 0, []
+    for row in (run_out(options) if options.study == "silo" else
+                collapse(options, COLUMN if options.study == "column" else HEAP)):
+        if not rows:
+            print(",".join(row))
+        rows.append(row)
+        print(",".join(f"{value:.4g}" for value in row.values()), flush=True)
+        for name in [key[:-7] for key in row if key.endswith("_carrom")]:
+            scatter = math.hypot(row[f"{name}_carrom_scatter"], row[f"{name}_lammps_scatter"])
+            away = abs(row[f"{name}_carrom"] - row[f"{name}_lammps"])
+            if away > scatter and not math.isnan(away):
+                print(f"{next(iter(row.values()))}: {name} differs by {away / scatter:.2f} "
+                      "scatters", file=sys.stderr)
+                code = 1
+    if options.study == "silo" and not options.short:
+        code = max(code, check_beverloo(rows))
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Contacts that last: the heap of inputs/heap.toml passes the self-check, comes to rest and then
+# costs no collision; its weight is what the floor bears and what the virial theorem says; and rows
+# that just fill a box, with and without friction, come to rest as well.
+source "$(dirname "$0")/common.sh"
+heap=$CARROM_SOURCE_DIR/inputs/heap.toml
+
+run 1 run "$heap" --check --quiet --steps 400 --report checked.json
+expect_code 0 'the self-check of a heap'
+
+run 2 run "$heap" -o heap --quiet --set output.averages_from_step=600 \
+    --set 'output.measurements.quantities=["wall_pressure", "pressure"]' \
+    --set output.measurements.from_step=600 --set output.measurements.every_steps=10
+expect_code 0 'a heap on two ranks'
+# The box is 80 x 60, and 400 discs of mass 1 weigh 4. The heap's energy of height is 4 times the
+# mean height, and its disc centres are a radius higher than the floor's line of contact.
+python3 - heap/report.json <<'END' || complain 'the forces of the heap'
+import json
+import sys
+
+report = json.load(open(sys.argv[1], encoding="utf-8"))
+tables = report["measurements"]
+floor = tables["wall_pressure"]["bottom"][0] * 80
+height = report["potential_energy"]
+stress = report["pressure_tensor"]["yy"]["value"] * 80 * 60
+print("floor", floor, "stress", stress, "height less a radius", height - 4)
+assert abs(floor / 4 - 1) < 0.01, floor
+assert abs(stress / (height - 4) - 1) < 0.01, (stress, height - 4)
+END
+sed -n 's/^  "collisions_per_disc_per_micro_step".*/&/p' heap/report.json
+
+run 1 run "$heap" --quiet --steps 600 --report early.json
+expect_code 0 'the same on one rank'
+[ "$(json_value early.json pair_collisions)" = "$(json_value heap/report.json pair_collisions)" ] ||
+    complain 'discs at rest collide'
+
+# Rows of exactly 30 discs. Without the effect such a run takes hundreds of times as long.
+for friction in 0 0.5; do
+    run 1 run "$heap" --check --quiet --steps 600 --set "box.size=[60, 60]" \
+        --set effects.contact.friction=$friction --report full.json
+    expect_code 0 "rows that fill the box, friction $friction"
+    [ "$(json_value full.json pair_collisions)" -lt 300000 ] ||
+        complain "collisions of rows that fill the box, friction $friction"
+done
+
+for wrong in time.sync_every=64 effects.gravity.y=0 effects.contact.kind=elastic \
+    box.bottom.kind=thermal; do
+    run 1 run "$heap" --quiet --set $wrong
+    expect_code 2 "$wrong"
+done
+finish
