@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measure/multiple_tau.hpp"
 
-#include <algorithm>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -27,11 +27,14 @@ void warn_without_lags(const SceneDraft& draft) {
     const MeasurementOutput& output = *draft.scene.measurements;
     const std::int64_t steps = draft.scene.steps - output.from_step;
     if (draft.scene.steps == 0 || steps < 0 || steps >= output.every_steps) return;
-    draft.scene.warnings.push_back(fmt::format(
-        "no lags of \"correlations\" and \"transport\": the shortest one takes {} steps, "
-        "and from step {} to the last one are {}; try: output.measurements.every_steps "
-        "= {} or less",
-        output.every_steps, output.from_step, steps, std::max<std::int64_t>(steps, 1)));
+    const std::string remedy = steps > 0
+                                   ? fmt::format("output.measurements.every_steps = {} or less",
+                                                 steps)
+                                   : "a smaller output.measurements.from_step";
+    draft.scene.warnings.push_back(
+        fmt::format("no lags of \"correlations\" and \"transport\": the shortest one takes {} "
+                    "steps, and from step {} to the last one are {}; try: {}",
+                    output.every_steps, output.from_step, steps, remedy));
 }
 
 } // namespace carrom

@@ -102,6 +102,14 @@ class Measurements(ProgramTest):
         self.refuse(*AROUND, *FLIGHTS, *settings(correlation_steps=20, largest_wavenumber="1e4"),
                     says=["must be a multiple of 'output.measurements.every_steps' = 7, from 14 on",
                           "where a million are, not 10000"])
+        # A wave and a distance that no disc in the box can have are errors of one line each.
+        for key, value in (("correlation_wavenumber", "1e-9"), ("correlation_wavenumber", "1e9"),
+                           ("correlation_wavenumber", "-1"), ("overlap_distance", "1e9")):
+            with self.subTest(key, value=value):
+                run = self.run_program(1, "run", "gas.toml", "-o", "x", *AROUND, *FIELDS,
+                                       *settings(**{key: value}), code=2,
+                                       says=f"'output.measurements.{key}'")
+                self.assertEqual(run.err.count("--set output.measurements"), 1)
         self.refuse(*settings(quantities=["structure_factor", "diffusion", "displacement"]),
                     says=["make all four sides periodic", "one first place of each disc"])
         self.refuse(*settings(quantities=["density"], largest_distance=3), says="largest_distance")

@@ -27,9 +27,36 @@ namespace {
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
 constexpr std::size_t most_species = 8;
+/// In a radius. Discs cross shorter waves in free flight alone.
+constexpr double shortest_waves = 1000;
 constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< a rank has whole runs
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
+
+/// The wave and the distance are of a size that discs can have in this box.
+void check_lengths(const SceneDraft& draft) {
+    const SceneParameters& scene = draft.scene;
+    const std::string wave = correlation_wavenumber.key_name(),
+                      overlap = overlap_distance.key_name();
+    const double k = correlation_wavenumber.of(*scene.measurements),
+                 least = 2 * std::numbers::pi / scene.box.longest(),
+                 most = 2 * std::numbers::pi * shortest_waves / scene.radius,
+                 distance = overlap_distance.of(*scene.measurements);
+    if (k > 0 && k < least) // 0 has been refused
+        draft.refuse({wave, quantities_key},
+                     fmt::format("'{}' = {:g} is a wave that is longer than the box; take {:g} or "
+                                 "more",
+                                 wave, k, least));
+    if (k > most)
+        draft.refuse({wave, quantities_key},
+                     fmt::format("'{}' = {:g} is a wave that is shorter than a thousandth of the "
+                                 "radius; take {:g} or less",
+                                 wave, k, most));
+    if (distance > scene.box.longest())
+        draft.refuse({overlap, quantities_key},
+                     fmt::format("'{}' = {:g} is longer than the box; take {:g} or less", overlap,
+                                 distance, scene.box.longest()));
+}
 
 void check_correlations(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
@@ -40,13 +67,7 @@ void check_correlations(const SceneDraft& draft) {
                                    std::numbers::pi / scene.radius);
     if (!draft.settings.has(overlap))
         scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
-    const double k = correlation_wavenumber.of(*scene.measurements),
-                 least = 2 * std::numbers::pi / scene.box.longest();
-    if (k < least)
-        draft.refuse({wave, quantities_key},
-                     fmt::format("'{}' = {:g} is a wave that is longer than the box; take {:g} or "
-                                 "more",
-                                 wave, k, least));
+    check_lengths(draft);
     if (!scene.measurements->measures("transport")) // which checks them itself
         check_correlation_points(draft);
     if (scene.effects.species.size() > most_species)

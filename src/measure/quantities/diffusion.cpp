@@ -30,11 +30,14 @@ void warn_of_short_run(SceneParameters& scene) {
     const std::int64_t longest = steps / output.every_steps * output.every_steps;
     const std::string remedy =
         longest >= 2 * output.every_steps
-            ? fmt::format("correlation_steps = {} or less; an error takes four windows", longest)
-            : fmt::format("every_steps = {} or less", std::max(steps / 2, std::int64_t{1}));
+            ? fmt::format("output.measurements.correlation_steps = {} or less; an error takes four "
+                          "windows",
+                          longest)
+        : steps >= 2 ? fmt::format("output.measurements.every_steps = {} or less", steps / 2)
+                     : "a smaller output.measurements.from_step";
     scene.warnings.push_back(
         fmt::format("no table of diffusion: its first window takes {} steps, and from step {} to "
-                    "the last one are {}; try: output.measurements.{}",
+                    "the last one are {}; try: {}",
                     window, output.from_step, steps, remedy));
 }
 

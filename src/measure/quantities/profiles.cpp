@@ -45,10 +45,22 @@ void check_grid(const SceneDraft& draft) {
     const double n_blocks = static_cast<double>(scene.steps - output.from_step) /
                             static_cast<double>(output.every_steps) / profile_samples.of(output);
     if (n_blocks * static_cast<double>(n_cells) > most_rows)
-        draft.refuse({profile_samples.key_name(), quantities_key},
-                     fmt::format("{:.0f} blocks of {} cells are more than a million rows; try: a "
-                                 "larger '{}'",
-                                 n_blocks, n_cells, profile_samples.key_name()));
+        draft.refuse(
+            {profile_samples.key_name(), quantities_key},
+            fmt::format("{:.0f} blocks of {} cells are over a million rows; try: a larger '{}'",
+                        n_blocks, n_cells, profile_samples.key_name()));
+}
+
+/// What gives a run with so many steps from its first sample on a whole block.
+std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t steps) {
+    const std::string samples = profile_samples.key_name();
+    const auto intervals = static_cast<std::int64_t>(profile_samples.of(output)) - 1;
+    if (steps == 0) return "a smaller output.measurements.from_step";
+    if (steps >= output.every_steps)
+        return fmt::format("{} = {} or less", samples, steps / output.every_steps + 1);
+    if (steps < intervals)
+        return fmt::format("{} = {} or less with every_steps = 1", samples, steps + 1);
+    return fmt::format("output.measurements.every_steps = {} or less", steps / intervals);
 }
 
 /// A restart may complete a block, so this is no error.
@@ -58,17 +70,10 @@ void warn_without_blocks(const SceneDraft& draft) {
     const double needed = (profile_samples.of(output) - 1) *
                           static_cast<double>(output.every_steps);
     if (draft.scene.steps == 0 || steps < 0 || needed <= static_cast<double>(steps)) return;
-    const bool is_rare = steps < output.every_steps; // a single sample has no collisions
-    draft.scene.warnings.push_back(fmt::format(
-        "no table of profiles: its first block takes {:.0f} steps, and from step {} to the "
-        "last one are {}; try: {} = {} or less",
-        needed, output.from_step, steps,
-        is_rare ? "output.measurements.every_steps" : profile_samples.key_name(),
-        is_rare
-            ? std::max<std::int64_t>(static_cast<std::int64_t>(static_cast<double>(steps) /
-                                                               (profile_samples.of(output) - 1)),
-                                     1)
-            : steps / output.every_steps + 1));
+    draft.scene.warnings.push_back(
+        fmt::format("no table of profiles: its first block takes {:.0f} steps, and from step {} to "
+                    "the last one are {}; try: {}",
+                    needed, output.from_step, steps, remedy_for_short_run(output, steps)));
 }
 
 /// A block's last sample, the steps whose collisions it counts, and the mean edges of the box.
@@ -82,19 +87,15 @@ public:
         : Measurement(run), n_x_(static_cast<std::size_t>(profile_columns.of(run.output))),
           n_y_(static_cast<std::size_t>(profile_rows.of(run.output))),
           per_block_(static_cast<std::uint64_t>(profile_samples.of(run.output))),
-          n_kinds_(profile_species.of(run.output) != 0
-                       ? std::max<std::size_t>(run.scene.effects.species.size(), 1)
-                       : 1),
+          n_kinds_(std::max<std::size_t>(
+              profile_species.of(run.output) != 0 ? run.scene.effects.species.size() : 1, 1)),
           species_(run.system.species_table()), sums_(0, 1, 1) {
-        const auto& sides = run.scene.effects.boundaries;
-        are_sides_moving_ = std::any_of(sides.begin(), sides.end(), [](const Boundary& side) {
-            return side.speed != 0 || side.amplitude != 0;
-        });
-        have_masses_ = std::any_of(run.scene.effects.species.begin(),
-                                   run.scene.effects.species.end(),
-                                   [](const Species& one) { return one.mass != 1; });
-        DiscId end = 0;
-        for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
+        for (const Boundary& side : run.scene.effects.boundaries)
+            are_sides_moving_ = are_sides_moving_ || side.speed != 0 || side.amplitude != 0;
+        for (const Species& one : run.scene.effects.species) {
+            have_masses_ = have_masses_ || one.mass != 1;
+            ends_.push_back((ends_.empty() ? 0 : ends_.back()) + one.count);
+        }
     }
     ~Profiles() override { run_.system.forget(*this); }
 

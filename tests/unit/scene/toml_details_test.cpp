@@ -155,3 +155,45 @@ TEST_CASE("A run too short for a window of diffusion is warned of, with what wou
     REQUIRE(too_short.size() == 1);
     CHECK(too_short[0].ends_with("try: output.measurements.every_steps = 2 or less"));
 }
+
+TEST_CASE("What a warning of a short run proposes makes the warning go away") {
+    const auto warnings = [](const std::string& quantity, Texts more) {
+        more.insert(more.end(), {"output.measurements.quantities=[\"" + quantity + "\"]",
+                                 "output.folder=f", "time.steps=20"});
+        if (quantity == "profiles")
+            more.insert(more.end(), {"output.measurements.profile_columns=2",
+                                     "output.measurements.profile_rows=2"});
+        return read_scene(good, "s.toml", more).warnings;
+    };
+    const std::string every = "output.measurements.every_steps=",
+                      from = "output.measurements.from_step=",
+                      samples = "output.measurements.profile_samples=";
+    struct Case {
+        std::string quantity;
+        Texts wrong;
+        std::string proposal;
+        Texts right;
+    };
+    const std::vector<Case> cases = {
+        {"profiles", {}, "profile_samples = 3 or less", {samples + "3"}},
+        {"profiles", {every + "1000"}, "every_steps = 2 or less", {every + "2"}},
+        {"profiles",
+         {every + "1000", from + "15"},
+         "profile_samples = 6 or less with every_steps = 1",
+         {every + "1", samples + "6", from + "15"}},
+        {"profiles", {from + "20"}, "a smaller output.measurements.from_step", {every + "1"}},
+        {"correlations", {every + "21"}, "every_steps = 20 or less", {every + "20"}},
+        {"correlations", {from + "20"}, "a smaller output.measurements.from_step", {from + "5"}},
+        {"diffusion",
+         {from + "20"},
+         "a smaller output.measurements.from_step",
+         {every + "1", "output.measurements.correlation_steps=20"}}};
+    for (const Case& one : cases) {
+        INFO(one.quantity << " " << one.proposal);
+        const std::vector<std::string> found = warnings(one.quantity, one.wrong);
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].find("try: ") != std::string::npos);
+        CHECK(found[0].ends_with(one.proposal));
+        CHECK(warnings(one.quantity, one.right).empty());
+    }
+}
