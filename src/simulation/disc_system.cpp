@@ -222,8 +222,10 @@ Frame DiscSystem::frame() const { return engine_->frame(); }
 std::span<const DiscState> DiscSystem::shown() const {
     const Frame now = frame();
     if (!now.is_moving) return discs();
-    shown_.clear();
-    for (const DiscState& disc : discs()) shown_.push_back(now.in_box(disc, clock()));
+    const std::span<const DiscState> stored = discs();
+    const double time = clock();
+    shown_.resize(stored.size());
+    for (std::size_t i = 0; i < stored.size(); ++i) shown_[i] = now.in_box(stored[i], time);
     return shown_;
 }
 
