@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vector of numbers that does not fill new elements with zeros. The thread that resizes would
-// write them all, while the others wait, and their memory would be near that thread's processor.
-// So the threads that use the elements write them first.
+// A vector of numbers or plain structs that does not fill new elements with zeros. The thread that
+// resizes would write them all, while the others wait, and their memory would be near that thread's
+// processor. So the threads that use the elements write them first.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,13 @@
 namespace carrom {
 
 template <class T> struct RawAllocator : std::allocator<T> {
-    static_assert(std::is_arithmetic_v<T>);
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
     template <class U> struct rebind {
         using other = RawAllocator<U>;
     };
-    template <class U> void construct(U* place) { ::new (static_cast<void*>(place)) U; }
+    /// Does nothing, because whole elements are assigned before they are read.
+    template <class U> void construct(U*) {}
     template <class U, class... Arguments> void construct(U* place, Arguments&&... arguments) {
         ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
     }

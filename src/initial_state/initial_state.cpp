@@ -108,10 +108,10 @@ std::vector<InputDisc> triangular_discs(const SceneParameters& scene,
 
 /// The generated discs with places, but without velocities.
 std::vector<InputDisc> generated_discs(const SceneParameters& scene,
-                                       const Communicator& communicator) {
+                                       const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
-    return insert_at_random(scene, communicator);
+    return insert_at_random(scene, communicator, n_threads);
 }
 
 std::vector<InputDisc> legacy_discs(const SceneParameters& scene,
@@ -166,7 +166,7 @@ void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDi
 } // namespace
 
 std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
-                                     const Communicator& communicator) {
+                                     const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::file) {
         std::vector<InputDisc> listed = scene.reads_disc_lines()
                                             ? read_discs(scene, lines, communicator)
@@ -180,7 +180,7 @@ std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream*
         discs = legacy_discs(scene, communicator);
         add_streams(scene, discs);
     } else {
-        discs = generated_discs(scene, communicator);
+        discs = generated_discs(scene, communicator, n_threads);
         give_velocities(scene, discs, communicator);
     }
     return discs;

@@ -17,6 +17,6 @@ namespace carrom {
 /// InputError on every rank. Scenes with a generator give the same discs for any number of ranks.
 /// **Collective.**
 std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
-                                     const Communicator& communicator);
+                                     const Communicator& communicator, int n_threads = 1);
 
 } // namespace carrom

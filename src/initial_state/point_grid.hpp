@@ -8,10 +8,13 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "core/raw_vector.hpp"
 #include "lattices/lattice.hpp"
 
 namespace carrom {
@@ -34,9 +37,24 @@ public:
 
     /// Adds the next point; its number is how many were added before.
     void add(Point point) {
-        std::uint32_t& head = heads_[column(point.x) * rows_ + row(point.y)];
+        std::uint32_t& head = heads_[cell_of(point)];
         next_.push_back(head);
         head = static_cast<std::uint32_t>(next_.size() - 1);
+    }
+
+    /// Adds the points that follow those added before, which are the first ones of `points`. The
+    /// order in a cell's list depends on the threads.
+    template <class Points> void add_rest(const Points& points, int n_threads) {
+        const std::size_t first = next_.size();
+        next_.resize(points.size());
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+        for (std::size_t k = first; k < points.size(); ++k) {
+            std::uint32_t& head = heads_[cell_of({points[k].x, points[k].y})];
+            const auto number = static_cast<std::uint32_t>(k);
+            next_[k] = n_threads == 1
+                           ? std::exchange(head, number)
+                           : std::atomic_ref(head).exchange(number, std::memory_order_relaxed);
+        }
     }
 
     /// Whether `is_hit(number)` holds for a point near `place`; stops at the first such point.
@@ -52,14 +70,18 @@ public:
     }
 
     /// Forgets all points; `points` must be those that were added.
-    template <class Points> void clear(const Points& points) {
-        for (const auto& point : points) heads_[column(point.x) * rows_ + row(point.y)] = none;
+    template <class Points> void clear(const Points& points, int n_threads) {
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+        for (std::size_t k = 0; k < points.size(); ++k)
+            std::atomic_ref(heads_[cell_of({points[k].x, points[k].y})])
+                .store(none, std::memory_order_relaxed);
         next_.clear();
     }
 
 private:
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
+    std::uint64_t cell_of(Point point) const { return column(point.x) * rows_ + row(point.y); }
     std::uint64_t column(double x) const { return place((x - x_low_) * per_length_, columns_); }
     std::uint64_t row(double y) const { return place(y * per_length_, rows_); }
     static std::uint64_t place(double cells, std::uint64_t n) {
@@ -68,7 +90,8 @@ private:
 
     double x_low_, per_length_ = 0;
     std::uint64_t columns_ = 0, rows_ = 0;
-    std::vector<std::uint32_t> heads_, next_;
+    std::vector<std::uint32_t> heads_;
+    RawVector<std::uint32_t> next_;
 };
 
 } // namespace carrom

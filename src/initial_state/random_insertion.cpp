@@ -3,20 +3,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
-#include "core/random_numbers.hpp"
 #include "core/stop_request.hpp"
-#include "dynamics/obstacles.hpp"
+#include "initial_state/insertion_batch.hpp"
+#include "initial_state/insertion_box.hpp"
+#include "initial_state/placed_discs.hpp"
 #include "initial_state/point_grid.hpp"
-#include "lattices/lattice.hpp"
-#include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
 
 namespace carrom {
@@ -26,29 +26,16 @@ namespace {
 constexpr std::uint64_t most_idle_rounds =
     10000; ///< without a place for any disc, before all starts anew
 constexpr std::uint64_t most_starts = 10;
-constexpr DiscId copy_mark = DiscId{1}
-                             << 63; ///< set in the id of a neighbour's disc among the placed discs
 
-/// A proposal, or the update of a place taken near a strip's edge.
-struct Notice {
-    double x = 0, y = 0;
-    std::uint32_t id = 0;
-    std::uint32_t is_placed = 0;
-};
+/// Rounds in which a larger share of proposals is accepted are judged one by one.
+constexpr double most_placed_in_batches = 0.25;
 
-/// Works in a box that lies down: x is along the longer side, which strips cut.
 class Insertion {
 public:
-    Insertion(const SceneParameters& scene, const Communicator& communicator, std::uint64_t start)
-        : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
-          species_(scene.effects.species, scene.radius), axis_(longer_axis(scene.box)),
-          box_(scene.box.longest(), scene.box.shortest()),
-          periods_(lying(scene.effects.periods(scene.box))), placed_grid_(grid()),
-          proposal_grid_(grid()) {
-        if (scene.effects.obstacles.are_any())
-            obstacles_.emplace(scene.box, scene.radius, scene.effects);
-        placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
-    }
+    Insertion(const SceneParameters& scene, const Communicator& communicator, std::uint64_t start,
+              int n_threads)
+        : scene_(scene), communicator_(communicator), n_threads_(n_threads),
+          box_(scene, communicator, start), placed_(box_, n_threads) {}
 
     /// Returns the places, or nothing if the discs have jammed. **Collective.**
     std::optional<std::vector<InputDisc>> run() {
@@ -62,19 +49,10 @@ public:
                 ++end;
             if (!place_all_of(radii[end - 1], radii[first])) return std::nullopt;
         }
-        placed_.erase(std::remove_if(placed_.begin(), placed_.end(),
-                                     [](const InputDisc& d) { return (d.id & copy_mark) != 0; }),
-                      placed_.end());
-        for (InputDisc& disc : placed_) std::tie(disc.x, disc.y) = turned(axis_, disc.x, disc.y);
-        return std::move(placed_);
+        return placed_.take_own();
     }
 
 private:
-    Periods lying(const Periods& periods) const {
-        const auto [x, y] = turned(axis_, periods.x, periods.y);
-        return {x, y};
-    }
-
     /// A few radii are placed one after the other. Many would need a round or more each, so those
     /// that differ little are placed together.
     static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
@@ -87,17 +65,57 @@ private:
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
         for (std::uint64_t id = first; id < last; ++id)
-            if (const double radius = species_.of(id).radius;
-                radius >= smallest && radius <= largest)
+            if (const double radius = box_.radius_of(id); radius >= smallest && radius <= largest)
                 unplaced_.push_back(static_cast<std::uint32_t>(id));
-        std::uint64_t n_left = n_unplaced(), idle_rounds = 0;
-        for (std::uint64_t round = 0; n_left > 0 && idle_rounds < most_idle_rounds; ++round) {
-            exchange(round);
+        placed_.forget_map();
+        Rounds rounds;
+        rounds.n_left = n_unplaced();
+        judge_one_by_one(rounds);
+        judge_in_batches(rounds, smallest);
+        unplaced_.clear();
+        return rounds.n_left == 0;
+    }
+
+    struct Rounds {
+        std::uint64_t next = 0, n_idle = 0; ///< the next round; rounds since the last place
+        std::uint64_t n_left = 0;           ///< discs without a place, over all ranks
+
+        bool are_over() const { return n_left == 0 || n_idle >= most_idle_rounds; }
+    };
+
+    /// Judges rounds as long as many proposals are accepted. **Collective.**
+    void judge_one_by_one(Rounds& rounds) {
+        proposal_grid_.emplace(box_.grid(box_.share()));
+        for (double share_placed = 1;
+             !rounds.are_over() && share_placed >= most_placed_in_batches;) {
+            box_.propose(unplaced_, rounds.next++, 1, n_threads_, proposals_);
+            exchange();
             judge();
-            const std::uint64_t n_before = std::exchange(n_left, n_unplaced());
-            idle_rounds = n_left < n_before ? 0 : idle_rounds + 1;
+            const std::uint64_t n_before = std::exchange(rounds.n_left, n_unplaced());
+            const std::uint64_t n_placed = n_before - rounds.n_left;
+            rounds.n_idle = n_placed > 0 ? 0 : rounds.n_idle + 1;
+            share_placed = static_cast<double>(n_placed) / static_cast<double>(n_before);
         }
-        return n_left == 0;
+        proposal_grid_.reset();
+        proposals_.clear();
+        exchange(); // the last updates
+    }
+
+    /// Judges many rounds at once. That takes one exchange, and is enough work for all threads.
+    /// **Collective.**
+    void judge_in_batches(Rounds& rounds, double smallest) {
+        if (rounds.are_over()) return;
+        placed_.map_refused(smallest);
+        InsertionBatch batch(box_, communicator_, n_threads_, placed_);
+        std::uint64_t n_rounds = 1;
+        while (!rounds.are_over()) {
+            const auto last_found = batch.judge(unplaced_, rounds.next, n_rounds);
+            rounds.next += n_rounds;
+            rounds.n_idle = last_found ? n_rounds - 1 - *last_found : rounds.n_idle + n_rounds;
+            const std::uint64_t n_before = std::exchange(rounds.n_left, n_unplaced());
+            n_rounds = batch.choose_rounds(n_before - rounds.n_left, n_rounds, rounds.n_left);
+            n_rounds = std::clamp<std::uint64_t>(most_idle_rounds - rounds.n_idle, 1, n_rounds);
+        }
     }
 
     /// Over all ranks. Ends the start after a request to stop if it takes long. **Collective.**
@@ -110,169 +128,87 @@ private:
         return sums[0];
     }
 
-    double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
-
-    PointGrid grid() const {
-        const double strip = box_.x / communicator_.size();
-        const double low = strip * communicator_.rank() - margin(),
-                     high = strip * (communicator_.rank() + 1) + margin();
-        return {low, high, box_.y, diameter_, share()};
-    }
-
-    double margin() const { return diameter_ * (1 + 1e-9); }
-
-    std::size_t owner(double x) const {
-        const double strip = x / box_.x * communicator_.size();
-        return static_cast<std::size_t>(
-            std::clamp(static_cast<int>(strip), 0, communicator_.size() - 1));
-    }
-
-    Point proposal(DiscId id, std::uint64_t round) const {
-        const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
-        const double radius = species_.of(id).radius;
-        const auto place = [radius](double period, double length, double number) {
-            const double low = period == 0 ? radius : 0,
-                         high = period == 0 ? length - radius : period;
-            return std::min(low + (high - low) * number, high);
-        };
-        return {place(periods_.x, box_.x, unit_number(words[0])),
-                place(periods_.y, box_.y, unit_number(words[1]))};
-    }
-
-    /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its
-    /// images.
-    template <class Visit> void visit_concerned(double x, const Visit& visit) const {
-        const std::size_t first = owner(x - margin()), last = owner(x + margin());
-        for (std::size_t k = first; k <= last; ++k) visit(k);
-        if (periods_.x == 0) return;
-        if (x < margin())
-            for (std::size_t k = std::max(last + 1, owner(x + periods_.x - margin()));
-                 k < n_ranks(); ++k)
-                visit(k);
-        if (x > periods_.x - margin())
-            for (std::size_t k = 0; k < first && k <= owner(x - periods_.x + margin()); ++k)
-                visit(k);
-    }
-    std::size_t n_ranks() const { return static_cast<std::size_t>(communicator_.size()); }
-
-    /// Sends the round's proposals, together with the last round's updates, to the
-    /// ranks that they concern. **Collective.**
-    void exchange(std::uint64_t round) {
-        std::vector<std::vector<Notice>> out(static_cast<std::size_t>(communicator_.size()));
-        const auto me = static_cast<std::size_t>(communicator_.rank());
-        if (out.size() == 1) out[0].reserve(unplaced_.size());
-        for (const Notice& updates : updates_)
-            visit_concerned(updates.x, [&](std::size_t k) {
-                if (k != me) out[k].push_back(updates);
-            });
+    /// Sends proposals, together with the last round's updates, to the ranks that they concern.
+    /// **Collective.**
+    void exchange() {
+        box_.deliver(proposals_, updates_, n_threads_);
         updates_.clear();
-        for (const std::uint32_t id : unplaced_) {
-            const Point place = proposal(id, round);
-            visit_concerned(place.x,
-                            [&](std::size_t k) { out[k].push_back({place.x, place.y, id, 0}); });
-        }
-        proposals_ = out.size() == 1 ? std::move(out[0]) : send_to_owners(communicator_, out).items;
-        unplaced_.clear();
+        const auto first_update = std::partition(proposals_.begin(), proposals_.end(),
+                                                 [](const Notice& n) { return !n.is_placed(); });
+        placed_.add({first_update, proposals_.end()});
+        proposals_.erase(first_update, proposals_.end());
     }
 
+    /// Judges a round. Each thread takes a share of the proposals. It sorts them first, so that
+    /// columns of cells that are near in x are near in memory, which does not affect the verdicts.
     void judge() {
-        const auto first_proposal = std::partition(proposals_.begin(), proposals_.end(),
-                                                   [](const Notice& n) { return n.is_placed; });
-        for (auto updates = proposals_.begin(); updates != first_proposal; ++updates)
-            place({copy_mark | updates->id, updates->x, updates->y, 0, 0});
-        proposals_.erase(proposals_.begin(), first_proposal);
-        // The verdicts do not depend on the order. It serves memory: columns of cells
-        // that are near in x are near in memory.
-        std::sort(proposals_.begin(), proposals_.end(),
-                  [](const Notice& a, const Notice& b) { return a.x < b.x; });
-        for (const Notice& notice : proposals_) proposal_grid_.add({notice.x, notice.y});
-        for (const Notice& notice : proposals_) {
-            if (owner(notice.x) != static_cast<std::size_t>(communicator_.rank())) continue;
-            if (is_refused(notice)) {
-                unplaced_.push_back(notice.id);
-            } else {
-                place({notice.id, notice.x, notice.y, 0, 0});
-                if (communicator_.size() > 1) note_updates(notice);
+        const auto n_shares = static_cast<std::size_t>(n_threads_);
+        std::vector<std::vector<Notice>> accepted(n_shares);
+        std::vector<std::vector<std::uint32_t>> refused(n_shares);
+        const auto share_of = [&](std::size_t k) {
+            const auto [first, last] = slab_of_rank(static_cast<int>(k), proposals_.size(),
+                                                    n_threads_);
+            return std::span(proposals_).subspan(first, last - first);
+        };
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+        for (std::size_t k = 0; k < n_shares; ++k) std::ranges::sort(share_of(k), {}, &Notice::x);
+        proposal_grid_->add_rest(proposals_, n_threads_);
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+        for (std::size_t k = 0; k < n_shares; ++k) {
+            for (const Notice& notice : share_of(k)) {
+                if (!box_.is_mine(notice)) continue;
+                if (placed_.overlaps(notice) || overlaps_earlier(notice))
+                    refused[k].push_back(notice.id);
+                else
+                    accepted[k].push_back(notice);
             }
         }
-        proposal_grid_.clear(proposals_);
-    }
-
-    /// Whether discs accepted earlier in this round are seen here makes no difference: they have
-    /// lower ids and overlap, or they do not overlap.
-    bool is_refused(const Notice& notice) const {
-        const auto [x, y] = turned(axis_, notice.x, notice.y);
-        if (obstacles_ &&
-            obstacles_->deepest_overlap(x, y, species_.of(notice.id).radius, 0).body !=
-                ObstacleContact::no_body)
-            return true;
-        if (is_refused_at({notice.x, notice.y}, notice)) return true;
-        if (!periods_.are_any()) return false;
-        // Discs across a seam are near its images. A grid files places beyond its ends
-        // in its last cells.
-        for (const double dx : {-periods_.x, 0.0, periods_.x}) {
-            for (const double dy : {-periods_.y, 0.0, periods_.y}) {
-                const Point image{notice.x + dx, notice.y + dy};
-                const bool is_near = image.x > -margin() && image.x < box_.x + margin() &&
-                                     image.y > -margin() && image.y < box_.y + margin();
-                if ((dx != 0 || dy != 0) && is_near && is_refused_at(image, notice)) return true;
-            }
+        proposal_grid_->clear(proposals_, n_threads_);
+        unplaced_.clear();
+        for (std::size_t k = 0; k < n_shares; ++k) {
+            unplaced_.insert(unplaced_.end(), refused[k].begin(), refused[k].end());
+            placed_.add(accepted[k]);
+            if (communicator_.size() > 1) note_updates(accepted[k]);
         }
-        return false;
     }
 
-    bool is_refused_at(Point at, Notice notice) const {
-        notice.x = at.x;
-        notice.y = at.y;
-        return placed_grid_.any_near(at, [&](std::uint32_t k) {
-            return overlaps(notice, placed_[k].id & ~copy_mark, placed_[k].x, placed_[k].y);
-        }) || proposal_grid_.any_near(at, [&](std::uint32_t k) {
-            return proposals_[k].id < notice.id &&
-                   overlaps(notice, proposals_[k].id, proposals_[k].x, proposals_[k].y);
+    /// Whether another proposal of the round overlaps this one and has a lower id.
+    bool overlaps_earlier(const Notice& notice) const {
+        return box_.for_images(notice, [&](Point at) {
+            return proposal_grid_->any_near(at, [&](std::uint32_t k) {
+                return proposals_[k].id < notice.id && box_.overlaps(notice.id, at, proposals_[k]);
+            });
         });
     }
 
-    bool overlaps(const Notice& a, DiscId other, double x, double y) const {
-        const double dx = x - a.x, dy = y - a.y,
-                     distance = species_.of(a.id).radius + species_.of(other).radius;
-        return dx * dx + dy * dy < distance * distance;
-    }
-
-    void place(const InputDisc& disc) {
-        placed_grid_.add({disc.x, disc.y});
-        placed_.push_back(disc);
-    }
-
-    void note_updates(Notice notice) {
-        std::size_t n_concerned = 0;
-        visit_concerned(notice.x, [&n_concerned](std::size_t) { ++n_concerned; });
-        if (n_concerned == 1) return;
-        notice.is_placed = 1;
-        updates_.push_back(notice);
+    /// Lists the places that also concern other ranks.
+    void note_updates(const std::vector<Notice>& found) {
+        for (Notice notice : found) {
+            std::size_t n_concerned = 0;
+            box_.visit_concerned(notice.x, [&n_concerned](std::size_t) { ++n_concerned; });
+            notice.round = Notice::placed;
+            if (n_concerned > 1) updates_.push_back(notice);
+        }
     }
 
     const SceneParameters& scene_;
-    std::optional<Obstacles> obstacles_;
     const Communicator& communicator_;
-    std::uint64_t start_;
-    double diameter_; ///< the largest discs'
-    SpeciesTable species_;
-    Axis axis_;
-    Box box_;
-    Periods periods_;
-    PointGrid placed_grid_, proposal_grid_;
-    std::vector<InputDisc>
-        placed_; ///< own discs and, with the mark, those within a diameter of the strip
-    std::vector<std::uint32_t> unplaced_; ///< discs whose last proposal was rejected here
-    std::vector<Notice> proposals_, updates_;
+    int n_threads_;
+    InsertionBox box_;
+    PlacedDiscs placed_;
+    std::optional<PointGrid> proposal_grid_; ///< while rounds are judged one by one
+    std::vector<std::uint32_t> unplaced_;    ///< other discs on each rank
+    RawVector<Notice> proposals_;
+    std::vector<Notice> updates_; ///< places found in the last round that concern other ranks, too
 };
 
 } // namespace
 
 std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
-                                        const Communicator& communicator) {
+                                        const Communicator& communicator, int n_threads) {
     for (std::uint64_t start = 0; start < most_starts; ++start)
-        if (auto discs = Insertion(scene, communicator, start).run()) return std::move(*discs);
+        if (auto discs = Insertion(scene, communicator, start, n_threads).run())
+            return std::move(*discs);
     const std::string remedy = scene.effects.obstacles.are_any()
                                    ? "leave more room beside the obstacles"
                                    : "set discs.generator to \"lattice\"";

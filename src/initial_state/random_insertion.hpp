@@ -4,9 +4,11 @@
 // In round k every disc without a place proposes one, a pure function of (seed, id, k), uniform in
 // [r, L-r]^2. It is rejected if it overlaps a disc that has its place, or a proposal of the same
 // round with a lower id; otherwise it is the disc's place. Proposals are judged by the rank whose
-// strip of x holds them, which also hears of everything within a diameter of its strip: one
-// exchange a round. At a packing of 0.3 some 150 rounds and 3 proposals a disc; the cost explodes
-// towards 0.54, where random insertion jams. About 80 bytes a disc, shared out over the ranks.
+// strip of x holds them, which also hears of everything within a diameter of its strip. At a
+// packing of 0.3 some 150 rounds and 3 proposals a disc are needed, at 0.5 10,000 rounds and 66
+// proposals. The cost explodes towards 0.54, where random insertion jams. So rounds are judged in
+// batches once places are rare (insertion_batch.hpp), and all threads judge. About 80 bytes a disc,
+// shared out over the ranks.
 #pragma once
 
 #include <vector>
@@ -19,6 +21,6 @@ namespace carrom {
 /// Returns the scene's discs with places and without velocities, each on the rank whose
 /// strip holds it. InputError on every rank if no arrangement is found. **Collective.**
 std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
-                                        const Communicator& communicator);
+                                        const Communicator& communicator, int n_threads = 1);
 
 } // namespace carrom

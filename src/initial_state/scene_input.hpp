@@ -25,6 +25,6 @@ DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
 /// text after its header, or null if no discs follow. Opens a file of discs itself.
 /// Throws InputError on every rank. **Collective.**
 std::vector<InputDisc> load_discs(const SceneParameters& scene, std::istream* following,
-                                  const Communicator& ranks);
+                                  const Communicator& ranks, int n_threads = 1);
 
 } // namespace carrom

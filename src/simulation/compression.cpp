@@ -38,7 +38,7 @@ public:
 
     /// Returns places; the velocities have no meaning.
     std::vector<InputDisc> run() {
-        discs_ = insert_at_random(stretch(), communicator_);
+        discs_ = insert_at_random(stretch(), communicator_, tuning_.threads);
         if (size_ == 1) return std::move(discs_);
         for (InputDisc& disc : discs_) {
             const Velocity velocity = drawn_velocity(scene_, disc.id);
@@ -133,7 +133,7 @@ std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* f
                                    const Communicator& communicator, const Tuning& tuning) {
     if (scene.generator == Generator::compressed)
         return compressed_discs(scene, communicator, tuning);
-    return load_discs(scene, following, communicator);
+    return load_discs(scene, following, communicator, tuning.threads);
 }
 
 } // namespace carrom

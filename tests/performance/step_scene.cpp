@@ -3,8 +3,9 @@
 // else: no output, no progress that depends on the clock. So the same scene is the same
 // instructions every time, to count (instructions.py), and this program needs no HDF5.
 //
-//   step_scene SCENE
+//   step_scene SCENE [THREADS]
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 #include "core/errors.hpp"
@@ -21,12 +22,16 @@ using namespace carrom;
 int main(int argc, char** argv) {
     Mpi mpi(argc, argv);
     return run_on_all(Communicator::world(), [&](const Communicator& world) {
-        if (argc != 2)
-            throw InputError(
-                {{"step_scene", 0, "needs one argument: a scene that generates its discs"}});
+        if (argc != 2 && argc != 3)
+            throw InputError({{"step_scene", 0,
+                               "needs a scene that generates its discs, and optionally the number "
+                               "of threads of a rank"}});
+        Tuning tuning;
+        if (argc == 3) tuning.threads = std::atoi(argv[2]);
         std::ifstream file = open_input(argv[1]); // every rank reads
         const SceneParameters scene = read_scene(read_scene_text(file, argv[1]));
-        DiscSystem system(scene, initial_state(scene, nullptr, world), world, Tuning{});
+        DiscSystem system(scene, initial_state(scene, nullptr, world, tuning.threads), world,
+                          tuning);
         Sampler sampler(scene, system, world);
         sampler.sample_if_due();
         StepAction* const actions[] = {&sampler};

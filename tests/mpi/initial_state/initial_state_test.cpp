@@ -19,6 +19,7 @@
 #include "core/state_hash.hpp"
 #include "initial_state/initial_state.hpp"
 #include "initial_state/velocities.hpp"
+#include "insertion_rule.hpp"
 #include "lattices/lattice.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/exchange.hpp"
@@ -142,48 +143,8 @@ void check_arrangement(const Discs& mine, const SceneParameters& scene) {
     CHECK(nearest >= 2 * scene.radius * (1 - 1e-15));
 }
 
-/// The rule of random insertion, word for word: all pairs, round after round. Where sides are
-/// periodic, with all images.
 Discs inserted_by_the_rule(const SceneParameters& scene) {
-    const double r = scene.radius, l = scene.box.x;
-    const double lx = scene.effects.is_periodic_x() ? l : 0,
-                 ly = scene.effects.is_periodic_y() ? l : 0;
-    const auto place = [r, l](double period, double number) {
-        return period > 0 ? l * number : r + ((l - r) - r) * number;
-    };
-    const auto overlap = [r, lx, ly](Point a, Point b) {
-        double nearest = INFINITY;
-        for (const double dx : {-lx, 0.0, lx})
-            for (const double dy : {-ly, 0.0, ly})
-                nearest = std::min(nearest, (a.x + dx - b.x) * (a.x + dx - b.x) +
-                                                (a.y + dy - b.y) * (a.y + dy - b.y));
-        return nearest < (2 * r) * (2 * r);
-    };
-    std::vector<Point> places(scene.n_discs), proposals(scene.n_discs);
-    std::vector<int> placed_in(scene.n_discs, -1);
-    std::uint64_t n_placed = 0;
-    for (int round = 0; n_placed < scene.n_discs; ++round) {
-        for (DiscId id = 0; id < scene.n_discs; ++id) {
-            const auto words = random_words(scene.seed, Purpose::position, id,
-                                            static_cast<std::uint64_t>(round));
-            proposals[id] = {place(lx, unit_number(words[0])), place(ly, unit_number(words[1]))};
-        }
-        for (DiscId id = 0; id < scene.n_discs; ++id) {
-            if (placed_in[id] >= 0) continue;
-            bool is_refused = false;
-            for (DiscId other = 0; other < scene.n_discs; ++other) {
-                const bool was_placed = placed_in[other] >= 0 && placed_in[other] < round;
-                if (was_placed)
-                    is_refused = is_refused || overlap(proposals[id], places[other]);
-                else if (other < id)
-                    is_refused = is_refused || overlap(proposals[id], proposals[other]);
-            }
-            if (is_refused) continue;
-            placed_in[id] = round;
-            places[id] = proposals[id];
-            ++n_placed;
-        }
-    }
+    const std::vector<Point> places = places_by_the_rule(scene, 0);
     Discs discs;
     for (DiscId id = 0; id < scene.n_discs; ++id)
         discs.push_back({id, places[id].x, places[id].y, 0, 0});
@@ -244,14 +205,29 @@ TEST_CASE("Random insertion follows its rule on any number of ranks") {
           Texts{"discs.packing=0.1", "discs.count=1"},
           Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"},
           Texts{"discs.packing=0.45", "box.left.kind=periodic", "box.right.kind=periodic"},
+          Texts{"discs.packing=0.49", "box.left.kind=periodic", "box.right.kind=periodic",
+                "box.bottom.kind=periodic", "box.top.kind=periodic"},
+          Texts{"discs.packing=0.45", "discs.count=25", "discs.seed=2"},
           Texts{"discs.packing=0.4", "discs.count=9", "box.bottom.kind=periodic",
                 "box.top.kind=periodic"},
           Texts{"discs.packing=0.4", "discs.count=600", "box.left.kind=periodic",
                 "box.right.kind=periodic", "box.bottom.kind=periodic", "box.top.kind=periodic"}}) {
         CAPTURE(overrides);
         const SceneParameters scene = scene_of(overrides);
-        check_generated(initial_state(scene, nullptr, ranks()), inserted_by_the_rule(scene));
+        const Discs by_the_rule = inserted_by_the_rule(scene);
+        for (const int n_threads : {1, 3})
+            check_generated(initial_state(scene, nullptr, ranks(), n_threads), by_the_rule);
     }
+}
+
+TEST_CASE("Random insertion of several sizes follows its rule") {
+    const SceneParameters scene = read_scene(
+        "[box]\nsize = 10\n[discs]\nspeed = 0.25\nspecies = [{count = 30, radius = 0.5}, "
+        "{count = 150, radius = 0.12}, {count = 50, radius = 0.3}]\n[time]\nsteps = 1\n",
+        "s.toml");
+    const Discs by_the_rule = inserted_by_the_rule(scene);
+    for (const int n_threads : {1, 3})
+        check_generated(initial_state(scene, nullptr, ranks(), n_threads), by_the_rule);
 }
 
 TEST_CASE("Many random discs: all there, inside, apart, and always the same") {

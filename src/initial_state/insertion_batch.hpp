@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Many rounds of random insertion at once, with the places that they would find one by one.
+//
+// Once few places are left, nearly all proposals overlap a disc that had its place before. The few
+// others, and what they overlap in their round, go to all ranks, which decide alike, in the order
+// of rounds and ids. So thousands of rounds take one exchange, and threads share their proposals.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "initial_state/insertion_box.hpp"
+#include "initial_state/placed_discs.hpp"
+
+namespace carrom {
+
+class InsertionBatch {
+public:
+    InsertionBatch(const InsertionBox& box, const Communicator& communicator, int n_threads,
+                   PlacedDiscs& placed)
+        : box_(box), communicator_(communicator), n_threads_(n_threads), placed_(placed) {}
+
+    /// Gives places to discs of `unplaced`, which are other discs on each rank, and takes them out
+    /// of the list. Returns the last round in which a place was found, counted from the first one.
+    /// **Collective.**
+    std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced,
+                                       std::uint64_t first_round, std::uint64_t n_rounds);
+
+    /// How many rounds the next batch has, if the last one had `n_rounds` and gave places to
+    /// `n_placed` discs, and `n_left` have none. The numbers are those of all ranks.
+    std::uint64_t choose_rounds(std::uint64_t n_placed, std::uint64_t n_rounds,
+                                std::uint64_t n_left) const;
+
+private:
+    /// A proposal that overlaps a later one of the same round. The later one is refused then,
+    /// unless the disc of the earlier one has found a place in a round before.
+    struct Rival {
+        std::uint32_t round = 0, id = 0, earlier = 0;
+
+        auto operator<=>(const Rival&) const = default;
+    };
+
+    static void take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced);
+    void find_free();
+    void find_rivals();
+    std::vector<Notice> decide();
+    template <class Counts> bool has_rival(const Notice& notice, const Counts& counts) const;
+    template <class Item> void gather_on_all(std::vector<Item>& items) const;
+
+    const InsertionBox& box_;
+    const Communicator& communicator_;
+    int n_threads_;
+    PlacedDiscs& placed_;
+    RawVector<Notice> proposals_;
+    std::vector<Notice> free_;  ///< proposals that overlap no disc placed before the batch
+    std::vector<Rival> rivals_; ///< of these
+};
+
+} // namespace carrom

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The box of random insertion: what is proposed where, which discs overlap, and which ranks hear of
+// a place. The box lies down: x is along the longer side, which strips cut.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <tuple>
+
+#include "core/axis.hpp"
+#include "core/random_numbers.hpp"
+#include "core/raw_vector.hpp"
+#include "dynamics/obstacles.hpp"
+#include "dynamics/species.hpp"
+#include "initial_state/point_grid.hpp"
+#include "lattices/lattice.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene_parameters.hpp"
+
+namespace carrom {
+
+/// A proposal, or a place that has been found.
+struct Notice {
+    static constexpr std::uint32_t placed = 0xffffffff;
+
+    double x = 0, y = 0;
+    std::uint32_t id = 0;
+    std::uint32_t round = 0; ///< counted from the first one that is judged, or `placed`
+
+    bool is_placed() const { return round == placed; }
+};
+
+class InsertionBox {
+public:
+    InsertionBox(const SceneParameters& scene, const Communicator& communicator,
+                 std::uint64_t start)
+        : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
+          species_(scene.effects.species, scene.radius), axis_(longer_axis(scene.box)),
+          box_(scene.box.longest(), scene.box.shortest()),
+          periods_(lying(scene.effects.periods(scene.box))) {
+        if (scene.effects.obstacles.are_any())
+            obstacles_.emplace(scene.box, scene.radius, scene.effects);
+    }
+
+    double diameter() const { return diameter_; } ///< the largest discs'
+    std::uint64_t n_discs() const { return scene_.n_discs; }
+    double radius_of(DiscId id) const { return species_.of(id).radius; }
+    const Box& box() const { return box_; }
+    Axis axis() const { return axis_; }
+    /// Discs of a rank on average.
+    double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
+
+    double strip_low() const {
+        return box_.x / communicator_.size() * communicator_.rank() - margin();
+    }
+    double strip_high() const {
+        return box_.x / communicator_.size() * (communicator_.rank() + 1) + margin();
+    }
+
+    /// A grid for points of the strip, and within the margin of it.
+    PointGrid grid(double n_points) const {
+        return {strip_low(), strip_high(), box_.y, diameter_, n_points};
+    }
+    /// So far from a place no disc that has a place there matters.
+    double margin() const { return diameter_ * (1 + 1e-9); }
+
+    std::size_t owner(double x) const {
+        const double strip = x / box_.x * communicator_.size();
+        return static_cast<std::size_t>(
+            std::clamp(static_cast<int>(strip), 0, communicator_.size() - 1));
+    }
+
+    Point proposal(DiscId id, std::uint64_t round) const {
+        const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
+        const double radius = species_.of(id).radius;
+        const auto place = [radius](double period, double length, double number) {
+            const double low = period == 0 ? radius : 0,
+                         high = period == 0 ? length - radius : period;
+            return std::min(low + (high - low) * number, high);
+        };
+        return {place(periods_.x, box_.x, unit_number(words[0])),
+                place(periods_.y, box_.y, unit_number(words[1]))};
+    }
+
+    /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its
+    /// images.
+    template <class Visit> void visit_concerned(double x, const Visit& visit) const {
+        const std::size_t first = owner(x - margin()), last = owner(x + margin());
+        for (std::size_t k = first; k <= last; ++k) visit(k);
+        if (periods_.x == 0) return;
+        if (x < margin())
+            for (std::size_t k = std::max(last + 1, owner(x + periods_.x - margin()));
+                 k < n_ranks(); ++k)
+                visit(k);
+        if (x > periods_.x - margin())
+            for (std::size_t k = 0; k < first && k <= owner(x - periods_.x + margin()); ++k)
+                visit(k);
+    }
+    std::size_t n_ranks() const { return static_cast<std::size_t>(communicator_.size()); }
+
+    bool is_mine(const Notice& notice) const { return is_me(owner(notice.x)); }
+    bool concerns_me(double x) const {
+        bool does = false;
+        visit_concerned(x, [&](std::size_t k) { does = does || is_me(k); });
+        return does;
+    }
+    bool is_me(std::size_t rank) const {
+        return rank == static_cast<std::size_t>(communicator_.rank());
+    }
+
+    bool overlaps_obstacle(const Notice& notice) const {
+        if (!obstacles_) return false;
+        const auto [x, y] = turned(axis_, notice.x, notice.y);
+        return obstacles_->deepest_overlap(x, y, radius_of(notice.id), 0).body !=
+               ObstacleContact::no_body;
+    }
+
+    /// Makes the proposals of `ids` in rounds, by all threads.
+    void propose(std::span<const std::uint32_t> ids, std::uint64_t first_round,
+                 std::uint64_t n_rounds, int n_threads, RawVector<Notice>& made) const;
+    /// Replaces the notices of all ranks by those that concern this rank. What others have found,
+    /// `updates`, comes with them. **Collective.**
+    void deliver(RawVector<Notice>& notices, std::span<const Notice> updates, int n_threads) const;
+
+    /// Calls `visit(place)` for a notice and those of its images that discs across a seam are near,
+    /// until it returns true. A grid files places beyond its ends in its last cells.
+    template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
+        if (visit(Point{notice.x, notice.y})) return true;
+        if (!periods_.are_any()) return false;
+        for (const double dx : {-periods_.x, 0.0, periods_.x}) {
+            for (const double dy : {-periods_.y, 0.0, periods_.y}) {
+                const Point image{notice.x + dx, notice.y + dy};
+                const bool is_near = image.x > -margin() && image.x < box_.x + margin() &&
+                                     image.y > -margin() && image.y < box_.y + margin();
+                if ((dx != 0 || dy != 0) && is_near && visit(image)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Whether disc `id` overlaps another one, if its centre is there.
+    bool overlaps(DiscId id, Point at, const Notice& other) const {
+        const double dx = other.x - at.x, dy = other.y - at.y,
+                     distance = species_.of(id).radius + species_.of(other.id).radius;
+        return dx * dx + dy * dy < distance * distance;
+    }
+
+private:
+    Periods lying(const Periods& periods) const {
+        const auto [x, y] = turned(axis_, periods.x, periods.y);
+        return {x, y};
+    }
+
+    const SceneParameters& scene_;
+    const Communicator& communicator_;
+    std::uint64_t start_;
+    std::optional<Obstacles> obstacles_;
+    double diameter_;
+    SpeciesTable species_;
+    Axis axis_;
+    Box box_;
+    Periods periods_;
+};
+
+} // namespace carrom

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The discs of random insertion that have places in a rank's strip or within the margin of it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "initial_state/insertion_box.hpp"
+#include "initial_state/point_grid.hpp"
+#include "initial_state/refused_places.hpp"
+
+namespace carrom {
+
+class PlacedDiscs {
+public:
+    PlacedDiscs(const InsertionBox& box, int n_threads)
+        : box_(box), n_threads_(n_threads), grid_(box.grid(box.share())) {
+        discs_.reserve(static_cast<std::size_t>(1.1 * box.share()) + 100);
+    }
+
+    void add(std::span<const Notice> found) {
+        const std::size_t first = discs_.size();
+        discs_.resize(first + found.size());
+#pragma omp parallel for num_threads(n_threads_) schedule(static) if (found.size() > 1000)
+        for (std::size_t k = 0; k < found.size(); ++k) discs_[first + k] = found[k];
+        grid_.add_rest(discs_, n_threads_);
+        if (refused_places_) map(first);
+    }
+
+    /// Makes a map that rejects most proposals of discs of at least this radius at once.
+    void map_refused(double smallest_radius) {
+        refused_places_.emplace(box_.strip_low(), box_.strip_high(), box_.box().y, smallest_radius,
+                                box_.share());
+        map(0);
+    }
+
+    /// Before smaller discs are placed, to which other squares are open.
+    void forget_map() { refused_places_.reset(); }
+
+    /// Whether a disc there would overlap one of these discs, or an obstacle.
+    bool overlaps(const Notice& notice) const {
+        if (refused_places_ && refused_places_->holds({notice.x, notice.y})) return true;
+        if (box_.overlaps_obstacle(notice)) return true;
+        return box_.for_images(notice, [&](Point at) {
+            return grid_.any_near(
+                at, [&](std::uint32_t k) { return box_.overlaps(notice.id, at, discs_[k]); });
+        });
+    }
+
+    [[gnu::always_inline]] void prefetch(const Notice& notice) const {
+        if (refused_places_) refused_places_->prefetch({notice.x, notice.y});
+    }
+
+    /// The discs in the own strip. They are not kept.
+    std::vector<InputDisc> take_own() {
+        refused_places_.reset();
+        std::vector<InputDisc> own;
+        own.reserve(discs_.size());
+        for (const Notice& disc : discs_) {
+            if (!box_.is_mine(disc)) continue;
+            const auto [x, y] = turned(box_.axis(), disc.x, disc.y);
+            own.push_back({disc.id, x, y, 0, 0});
+        }
+        RawVector<Notice>().swap(discs_);
+        return own;
+    }
+
+private:
+    void map(std::size_t first) {
+#pragma omp parallel for num_threads(n_threads_) schedule(static)
+        for (std::size_t k = first; k < discs_.size(); ++k)
+            refused_places_->add({discs_[k].x, discs_[k].y}, box_.radius_of(discs_[k].id));
+    }
+
+    const InsertionBox& box_;
+    int n_threads_;
+    RawVector<Notice> discs_;
+    PointGrid grid_;
+    std::optional<RefusedPlaces> refused_places_; ///< once most proposals are refused
+};
+
+} // namespace carrom

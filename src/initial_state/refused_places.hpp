@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two maps of small squares, a bit each, that reject most proposals of random insertion at the
+// price of one read. Where few places are left, nearly all proposals lie well inside of a disc that
+// has its place.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lattices/lattice.hpp"
+
+namespace carrom {
+
+/// Squares in which every centre is nearer to a placed disc than it may be.
+class RefusedPlaces {
+public:
+    /// Covers [x_low, x_high] x [0, height] for discs of at least this radius. Squares are an
+    /// eighth of their diameter wide, or wider, so that there are at most 256 for each of
+    /// `n_discs`: 32 bytes a disc.
+    RefusedPlaces(double x_low, double x_high, double height, double smallest_radius,
+                  double n_discs)
+        : x_low_(x_low), smallest_radius_(smallest_radius) {
+        const double width = std::max(x_high - x_low, smallest_radius);
+        const double side = std::max(smallest_radius / 4,
+                                     std::sqrt(width * height / (256 * n_discs + 1)));
+        per_length_ = 1 / side;
+        n_columns_ = static_cast<std::int64_t>(width * per_length_) + 1;
+        n_rows_ = static_cast<std::int64_t>(height * per_length_) + 1;
+        words_per_column_ = static_cast<std::size_t>(n_rows_ / 64 + 1);
+        words_.assign(static_cast<std::size_t>(n_columns_) * words_per_column_, 0);
+    }
+
+    /// Marks the squares that lie inside of the circle in which no centre may lie. Threads may add
+    /// at once.
+    void add(Point place, double radius) {
+        const double reach = (radius + smallest_radius_) * per_length_ * (1 - margin);
+        const double x = (place.x - x_low_) * per_length_, y = place.y * per_length_;
+        const auto first = static_cast<std::int64_t>(std::floor(x - reach)),
+                   last = static_cast<std::int64_t>(std::floor(x + reach));
+        for (std::int64_t column = std::max<std::int64_t>(first, 0);
+             column <= std::min(last, n_columns_ - 1); ++column) {
+            const auto left = static_cast<double>(column) - margin,
+                       right = static_cast<double>(column + 1) + margin;
+            const double dx = std::max(std::abs(left - x), std::abs(right - x));
+            if (dx >= reach) continue;
+            const double dy = std::sqrt(reach * reach - dx * dx);
+            mark(column, static_cast<std::int64_t>(std::ceil(y - dy + margin)),
+                 static_cast<std::int64_t>(std::floor(y + dy - margin)));
+        }
+    }
+
+    /// Whether a disc of at least the smallest radius overlaps a placed disc there. False says
+    /// nothing.
+    bool holds(Point place) const {
+        const std::uint64_t* const word = word_of(place);
+        return word && (*word >> (row_of(place) % 64) & 1) != 0;
+    }
+    /// Asks for the memory that `holds` reads, because places lie at random. GCC drops a call that
+    /// only prefetches, unless it is inlined before.
+    [[gnu::always_inline]] void prefetch(Point place) const {
+        if (const std::uint64_t* const word = word_of(place)) __builtin_prefetch(word);
+    }
+
+private:
+    /// Outweighs the rounding of places in squares, as boxes have less than 10^7 of them.
+    static constexpr double margin = 1e-7;
+
+    // Not by std::floor, which is a call on processors of the baseline.
+    std::int64_t row_of(Point place) const {
+        return static_cast<std::int64_t>(place.y * per_length_);
+    }
+    const std::uint64_t* word_of(Point place) const {
+        const double along = (place.x - x_low_) * per_length_;
+        const auto column = static_cast<std::int64_t>(along);
+        const std::int64_t row = row_of(place);
+        if (!(along >= 0 && place.y >= 0) || column >= n_columns_ || row >= n_rows_) return nullptr;
+        return words_.data() + static_cast<std::size_t>(column) * words_per_column_ +
+               static_cast<std::size_t>(row / 64);
+    }
+
+    void mark(std::int64_t column, std::int64_t first_row, std::int64_t end_row) {
+        first_row = std::max<std::int64_t>(first_row, 0);
+        end_row = std::min(end_row, n_rows_);
+        std::uint64_t* const words = words_.data() +
+                                     static_cast<std::size_t>(column) * words_per_column_;
+        for (std::int64_t row = first_row; row < end_row;) {
+            const std::int64_t end = std::min(end_row, (row / 64 + 1) * 64); // in one word
+            const std::uint64_t bits = ~std::uint64_t{0} >> (64 - (end - row)) << (row % 64);
+            std::atomic_ref word(words[row / 64]);
+            if ((word.load(std::memory_order_relaxed) & bits) != bits)
+                word.fetch_or(bits, std::memory_order_relaxed);
+            row = end;
+        }
+    }
+
+    double x_low_, smallest_radius_, per_length_ = 1;
+    std::int64_t n_columns_ = 0, n_rows_ = 0;
+    std::size_t words_per_column_ = 0;
+    std::vector<std::uint64_t> words_;
+};
+
+/// The surroundings of a few points, by a hash: a place that is near one of them is near for sure,
+/// and few others are.
+class NearFew {
+public:
+    NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {
+        n_bits_ = static_cast<int>(std::bit_width(64 * n_points + 64));
+        words_.assign((std::size_t{1} << n_bits_) / 64 + 1, 0);
+    }
+    void add(Point place) {
+        const std::int64_t column = cell(place.x), row = cell(place.y);
+        for (std::int64_t dx = -1; dx <= 1; ++dx)
+            for (std::int64_t dy = -1; dy <= 1; ++dy) {
+                const std::size_t bit = bit_of(column + dx, row + dy);
+                words_[bit / 64] |= std::uint64_t{1} << (bit % 64);
+            }
+    }
+    bool may_be_near(Point place) const {
+        const std::size_t bit = bit_of(cell(place.x), cell(place.y));
+        return (words_[bit / 64] >> (bit % 64) & 1) != 0;
+    }
+
+private:
+    /// Points are at most one reach outside of the box, where std::floor would be a call.
+    std::int64_t cell(double length) const {
+        return static_cast<std::int64_t>(length * per_length_ + 2);
+    }
+    std::size_t bit_of(std::int64_t column, std::int64_t row) const {
+        const std::uint64_t mixed = (static_cast<std::uint64_t>(column) * 0x9e3779b97f4a7c15 +
+                                     static_cast<std::uint64_t>(row)) *
+                                    0xbf58476d1ce4e5b9;
+        return static_cast<std::size_t>(mixed >> (64 - n_bits_));
+    }
+
+    double per_length_;
+    int n_bits_ = 0;
+    std::vector<std::uint64_t> words_;
+};
+
+} // namespace carrom
