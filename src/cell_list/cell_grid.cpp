@@ -31,6 +31,13 @@ template <class Numbers> void resize_close(Numbers& numbers, std::size_t size) {
     numbers.resize(size);
 }
 
+/// Writes zeros behind the flights, where vectors read past the last one.
+void pad(RawVector<float>& lanes, std::size_t length) {
+    for (std::size_t lane = 1; lane <= 4; ++lane)
+        std::fill_n(lanes.begin() + static_cast<std::ptrdiff_t>(lane * length - filter_padding),
+                    filter_padding, 0.0f);
+}
+
 int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
@@ -125,11 +132,7 @@ void CellGrid::sort(std::span<DiscState> own, const GridGeometry& geometry, doub
     duration_ = duration;
     has_flights_ = true;
     sort(own, n_threads, companions);
-    for (std::size_t lane = 1; lane <= 4; ++lane) {
-        std::fill_n(lanes_.begin() +
-                        static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding),
-                    filter_padding, 0.0f);
-    }
+    pad(lanes_, lane_length_);
 }
 
 void CellGrid::sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
@@ -147,7 +150,7 @@ void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& c
            "what goes with the own discs is as many");
     apart_.clear();
     longest_flight_ = 0;
-    halo_order_.clear();
+    halo_.begin(0, 0);
     n_own_ = own.size();
     lane_length_ = n_own_ + filter_padding;
     resize_close(cell_start_, static_cast<std::size_t>(geometry_.n_columns) * rows() + 1);
@@ -202,43 +205,31 @@ void CellGrid::sort(const Places& places, std::span<DiscState> own, int n_thread
     sorter_.carry(own, memory, place_flight);
 }
 
-void CellGrid::add_halo(std::span<const DiscState> halo) {
-    with_places(periods_, [&](const auto& places) { add_halo(places, halo); });
+void CellGrid::add_halo(std::span<const DiscState> halo, int n_threads) {
+    constexpr std::size_t least_for_threads = 4096;
+    with_places(periods_, [&](const auto& places) {
+        add_halo(places, halo, halo.size() < least_for_threads ? 1 : n_threads);
+    });
 }
 
-/// A counting sort over the cells of those columns that hold any of them.
 template <class Places>
-void CellGrid::add_halo(const Places& places, std::span<const DiscState> halo) {
-    halo_order_.resize(halo.size());
-    halo_slot_.resize(halo.size());
+void CellGrid::add_halo(const Places& places, std::span<const DiscState> halo, int n_threads) {
+    halo_.begin(halo.size(), geometry_.n_columns);
     if (halo.empty()) return;
-    halo_column_.assign(static_cast<std::size_t>(geometry_.n_columns), no_halo);
+#pragma omp parallel for num_threads(n_threads) schedule(static)
     for (std::size_t i = 0; i < halo.size(); ++i) {
         const Cell cell = cell_at(places, halo[i]);
-        halo_order_[i] = static_cast<LocalIndex>(cell.column); // temporarily the cell
-        halo_slot_[i] = static_cast<std::uint32_t>(cell.row);
-        halo_column_[halo_order_[i]] = 0;
+        halo_.set_cell(i, cell.column, cell.row);
     }
-    std::uint32_t n_cells = 0;
-    for (std::uint32_t& column : halo_column_) {
-        if (column != no_halo) column = std::exchange(n_cells, n_cells + rows());
-    }
-    halo_start_.assign(std::size_t{n_cells} + 1, 0);
-    std::uint32_t* next = halo_start_.data() + 1;
-    for (std::size_t i = 0; i < halo.size(); ++i) {
-        halo_slot_[i] += halo_column_[halo_order_[i]];
-        ++next[halo_slot_[i]];
-    }
-    std::uint32_t start = 0;
-    for (std::size_t cell = 0; cell < n_cells; ++cell) start += std::exchange(next[cell], start);
+    halo_.sort(rows(), n_threads);
+    if (!has_flights_) return;
     const std::size_t length = halo.size() + filter_padding;
-    if (has_flights_) halo_lanes_.assign(4 * length, 0.0f);
-    for (std::size_t i = 0; i < halo.size(); ++i) {
-        const std::uint32_t slot = next[halo_slot_[i]]++;
-        halo_order_[slot] = static_cast<LocalIndex>(i);
-        halo_slot_[i] = slot;
-        if (has_flights_) place(places, halo_lanes_.data() + slot, length, halo[i]);
-    }
+    halo_lanes_.resize(4 * length);
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+    for (std::size_t slot = 0; slot < halo.size(); ++slot)
+        place(places, halo_lanes_.data() + slot, length,
+              halo[halo_.disc_in(static_cast<std::uint32_t>(slot))]);
+    pad(halo_lanes_, length);
 }
 
 template <class Places>
@@ -246,8 +237,7 @@ void CellGrid::update(const Places& places, LocalIndex index, const DiscState& d
     if (index < n_own_)
         place(places, lanes_.data() + index, lane_length_, disc);
     else
-        place(places, halo_lanes_.data() + halo_slot(index), halo_order_.size() + filter_padding,
-              disc);
+        place(places, halo_lanes_.data() + halo_slot(index), halo_.size() + filter_padding, disc);
 }
 
 void CellGrid::update_flight(LocalIndex index, const DiscState& disc) {
@@ -280,7 +270,7 @@ void CellGrid::set_apart(double speed) {
         }
     };
     take_apart(lanes_, lane_length_, n_own_, [](std::uint32_t slot) { return LocalIndex{slot}; });
-    take_apart(halo_lanes_, halo_order_.size() + filter_padding, halo_order_.size(),
+    take_apart(halo_lanes_, halo_.size() + filter_padding, halo_.size(),
                [this](std::uint32_t slot) { return halo_index(slot); });
     longest_flight_ = std::sqrt(static_cast<double>(longest_squared));
     const std::size_t apart_length = apart_.size() + filter_padding;
@@ -362,11 +352,8 @@ float CellGrid::cells_of(double length) const {
 }
 
 bool CellGrid::is_valid(std::size_t n_discs) const {
-    if (cell_start_.back() != n_own_ || n_own_ + halo_order_.size() != n_discs) return false;
-    for (std::size_t slot = 0; slot < halo_order_.size(); ++slot)
-        if (halo_slot_[halo_order_[slot]] != slot) return false;
-    return std::is_sorted(cell_start_.begin(), cell_start_.end()) &&
-           (!has_halo() || std::is_sorted(halo_start_.begin(), halo_start_.end()));
+    if (cell_start_.back() != n_own_ || n_own_ + halo_.size() != n_discs) return false;
+    return std::is_sorted(cell_start_.begin(), cell_start_.end()) && halo_.is_valid();
 }
 
 } // namespace carrom

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cell_list/disc_sorter.hpp"
+#include "cell_list/halo_cells.hpp"
 #include "core/axis.hpp"
 #include "core/disc_state.hpp"
 #include "core/extent.hpp"
@@ -104,7 +105,7 @@ public:
     void sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
                     int n_threads, const Periods& periods = {}, const Companions& companions = {});
     /// Puts the discs that follow the own ones in memory into cells of the halo.
-    void add_halo(std::span<const DiscState> halo);
+    void add_halo(std::span<const DiscState> halo, int n_threads = 1);
 
     /// Takes the flights of discs faster than `speed`, in lengths per unit of time,
     /// out of the lanes, so that no search finds them. They are listed in `apart()`
@@ -121,17 +122,17 @@ public:
 
     const GridGeometry& geometry() const { return geometry_; }
     std::size_t n_own() const { return n_own_; }
-    bool has_halo() const { return !halo_order_.empty(); }
+    bool has_halo() const { return !halo_.is_empty(); }
 
     /// Indexed by own disc; for the halo by slot.
     FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
-    FlightLanes halo_lanes() const {
-        return lanes_of(halo_lanes_, halo_order_.size() + filter_padding);
-    }
+    FlightLanes halo_lanes() const { return lanes_of(halo_lanes_, halo_.size() + filter_padding); }
     LocalIndex halo_index(std::uint32_t slot) const {
-        return static_cast<LocalIndex>(n_own_) + halo_order_[slot];
+        return static_cast<LocalIndex>(n_own_) + halo_.disc_in(slot);
     }
-    std::uint32_t halo_slot(LocalIndex index) const { return halo_slot_[index - n_own_]; }
+    std::uint32_t halo_slot(LocalIndex index) const {
+        return halo_.slot_of(index - static_cast<LocalIndex>(n_own_));
+    }
 
     /// The column or row of a position in cells, cut at the grid's ends.
     int clamped_column(float x) const {
@@ -153,12 +154,9 @@ public:
     /// The slots of the halo's discs in these cells.
     SlotRange halo_run(int column, int first_row, int last_row) const {
         if (!has_halo_in(column)) return {};
-        return run_from(halo_start_, halo_column_[static_cast<std::size_t>(column)], first_row,
-                        last_row);
+        return run_from(halo_.starts(), halo_.first_cell(column), first_row, last_row);
     }
-    bool has_halo_in(int column) const {
-        return has_halo() && halo_column_[static_cast<std::size_t>(column)] != no_halo;
-    }
+    bool has_halo_in(int column) const { return halo_.has_column(column); }
 
     /// Finds the cell of an own disc by a search. Loops over discs go over the cells instead.
     struct Cell {
@@ -202,8 +200,6 @@ public:
     bool is_valid(std::size_t n_discs) const;
 
 private:
-    static constexpr std::uint32_t no_halo = ~std::uint32_t{0};
-
     template <class Lanes> static FlightLanes lanes_of(const Lanes& lanes, std::size_t length) {
         const float* x = lanes.data();
         return {x, x + length, x + 2 * length, x + 3 * length};
@@ -233,7 +229,8 @@ private:
               const Companions& companions);
     void sort_columns(SideColumns& columns, Lent order, int n_threads) const;
     template <class Places> Cell cell_at(const Places& places, const DiscState& disc) const;
-    template <class Places> void add_halo(const Places& places, std::span<const DiscState> halo);
+    template <class Places>
+    void add_halo(const Places& places, std::span<const DiscState> halo, int n_threads);
     template <class Places>
     void place(const Places& places, float* flight, std::size_t length,
                const DiscState& disc) const;
@@ -251,12 +248,8 @@ private:
         lanes_; ///< x, y, vx, vy by own disc, one array after the other; the sorter borrows it
     DiscSorter sorter_;
 
-    std::vector<std::uint32_t>
-        halo_column_; ///< by column: the start of its cells in the next array, or no_halo
-    std::vector<std::uint32_t> halo_start_; ///< by cell of the columns with a halo, with an end
-    std::vector<LocalIndex> halo_order_;    ///< by slot: places in the halo
-    std::vector<std::uint32_t> halo_slot_;  ///< by place in the halo
-    std::vector<float> halo_lanes_;         ///< x, y, vx, vy by slot
+    HaloCells halo_;
+    RawVector<float> halo_lanes_; ///< x, y, vx, vy by slot
 
     std::vector<LocalIndex> apart_;
     std::vector<float> apart_lanes_; ///< x, y, vx, vy by place in `apart_`

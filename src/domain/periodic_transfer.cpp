@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "domain/transfer.hpp"
+#include "domain/transfer_in_parts.hpp"
 
 namespace carrom {
 
@@ -61,6 +61,11 @@ struct Shifts {
     }
 };
 
+DiscState as_image(DiscState disc, Image image) {
+    set_image(disc, image);
+    return disc;
+}
+
 std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks) {
     std::vector<std::size_t> places(static_cast<std::size_t>(n_ranks), partners.size());
     for (std::size_t k = 0; k < partners.size(); ++k)
@@ -72,7 +77,7 @@ std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks
 
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
-                                     const Periods& periods) {
+                                     const Periods& periods, int n_threads) {
     TransferPlan plan;
     const Axis axis = strips.axis();
     const double period = periods.along(axis);
@@ -87,13 +92,18 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
     }
     plan.leaving.resize(plan.partners.size());
     const std::vector<std::size_t> places = places_of(plan.partners, strips.size());
-    for (std::size_t i = 0; i < own.size() && strips.size() > 1; ++i) {
-        const int owner = strips.owner(periods.place_of(own[i], axis, time));
-        if (owner == rank) continue;
+    if (strips.size() == 1) return plan;
+    const double low = strips.low(rank), high = strips.high(rank);
+    const PlaceRange all[] = {{0, own.size()}};
+    plan_in_parts(plan, all, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
+        const double x = periods.place_of(own[i], axis, time);
+        if (x >= low && x < high) return;
+        const int owner = strips.owner(x);
+        if (owner == rank) return;
         const std::size_t place = places[static_cast<std::size_t>(owner)];
         ensure(place < plan.partners.size(), "a disc goes to a rank that does not expect it");
-        plan.leaving[place].push_back(static_cast<LocalIndex>(i));
-    }
+        part.leaving[place].push_back(i);
+    });
     return plan;
 }
 
@@ -108,7 +118,7 @@ Inside interior(const Strips& strips, int rank, double reach, const Periods& per
 
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> ranges, double time, double reach,
-                                const Periods& periods) {
+                                const Periods& periods, int n_threads) {
     TransferPlan plan;
     const Axis axis = strips.axis();
     const double longest = std::max(periods.x, periods.y), period = periods.along(axis);
@@ -128,7 +138,7 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     const Inside box = periods.inside();
     const double across_low = axis == Axis::x ? box.y_low : box.x_low;
     const double across_high = axis == Axis::x ? box.y_high : box.x_high;
-    const auto list_images = [&](LocalIndex i) {
+    plan_in_parts(plan, ranges, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
         const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
         const Image home = image_of(own[i]);
         const Shifts at_rest(v, reach, across_low, across_high, period_across);
@@ -146,41 +156,32 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
                     if (image_v + reach < across_low || image_v - reach > across_high) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
                     const auto [by_x, by_y] = turned(axis, n, m);
-                    plan.leaving[k].push_back(i);
-                    plan.images[k].push_back({home.x + by_x, home.y + by_y});
+                    part.leaving[k].push_back(i);
+                    part.images[k].push_back({home.x + by_x, home.y + by_y});
                 }
             }
         }
-    };
-    for (const PlaceRange range : ranges) {
-        for (std::size_t i = range.begin; i < range.end; ++i)
-            list_images(static_cast<LocalIndex>(i));
-    }
+    });
     return plan;
 }
 
-void append_images(const TransferPlan& plan, std::vector<DiscState>& values) {
+void append_images(const TransferPlan& plan, std::vector<DiscState>& values, int n_threads) {
     for (std::size_t k = 0; k < plan.partners.size(); ++k) {
-        std::size_t next = values.size();
-        values.resize(next + plan.leaving[k].size());
-        for (std::size_t i = 0; i < plan.leaving[k].size(); ++i, ++next) {
-            values[next] = values[plan.leaving[k][i]];
-            set_image(values[next], plan.images[k][i]);
-        }
+        const std::size_t first = values.size(), n = plan.leaving[k].size();
+        values.resize(first + n);
+#pragma omp parallel for num_threads(n_threads) schedule(static) if (n >= least_for_threads)
+        for (std::size_t i = 0; i < n; ++i)
+            values[first + i] = as_image(values[plan.leaving[k][i]], plan.images[k][i]);
     }
 }
 
-void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
-                     std::span<const DiscState> values, Received<DiscState>& in) {
-    std::vector<std::vector<DiscState>> out(plan.partners.size());
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        out[k].reserve(plan.leaving[k].size());
-        for (std::size_t i = 0; i < plan.leaving[k].size(); ++i) {
-            out[k].push_back(values[plan.leaving[k][i]]);
-            set_image(out[k].back(), plan.images[k][i]);
-        }
-    }
-    exchange.exchange(std::span<const int>(plan.partners), out, in);
+std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
+                                         const std::vector<DiscState>& values,
+                                         std::vector<DiscState>& arrived, int n_threads) {
+    return transfer_packed(exchange, plan, values, arrived, n_threads,
+                           [&plan](const DiscState& disc, std::size_t k, std::size_t i) {
+                               return as_image(disc, plan.images[k][i]);
+                           });
 }
 
 } // namespace carrom

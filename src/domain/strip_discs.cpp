@@ -6,19 +6,14 @@
 #include <limits>
 
 #include "core/errors.hpp"
-#include "parallel/exchange.hpp"
+#include "domain/hand_to_owners.hpp"
+#include "domain/transfer_in_parts.hpp"
 
 namespace carrom {
 
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-/// A disc's new state, and its place in the neighbour's halo.
-struct Update {
-    DiscState disc;
-    std::uint64_t place;
-};
 
 /// Moving rows of boxes slide along x. Strips are rows then, so that only the first
 /// and the last one have images that move.
@@ -50,43 +45,13 @@ double place_in_box(const Strips& strips, const Periods& periods, const DiscStat
     return strips.place_of(in_box, in_box.tau);
 }
 
-/// Moves each value to the rank `owner_of(place)`, which may read the value: it still stands in its
-/// place then. Values go in rounds, and what comes takes the places of what has left. With all at
-/// once, every rank would need the memory of its discs two or three times. **Collective.**
-template <Message T, class Owner>
-void hand_to_owners(const Communicator& communicator, std::vector<T>& values,
-                    const Owner& owner_of) {
-    constexpr std::size_t n_rounds = 32;
-    const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
-    std::vector<T> waiting; // for a place: where more has come than left
-    std::size_t n_kept = 0;
-    for (std::size_t round = 0; round < n_rounds; ++round) {
-        std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
-        const std::size_t end = n * (round + 1) / n_rounds;
-        for (std::size_t i = n * round / n_rounds; i < end; ++i) {
-            const std::size_t owner = owner_of(i);
-            if (owner == rank)
-                values[n_kept++] = values[i];
-            else
-                out[owner].push_back(values[i]);
-        }
-        const std::vector<T> arrived = send_to_owners(communicator, out).items;
-        waiting.insert(waiting.end(), arrived.begin(), arrived.end());
-        const std::size_t n_placed = std::min(waiting.size(), end - n_kept);
-        std::copy(waiting.end() - static_cast<std::ptrdiff_t>(n_placed), waiting.end(),
-                  values.begin() + static_cast<std::ptrdiff_t>(n_kept));
-        n_kept += n_placed;
-        waiting.resize(waiting.size() - n_placed);
-    }
-    values.resize(n_kept);
-    values.insert(values.end(), waiting.begin(), waiting.end());
-}
-
 } // namespace
 
 StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
-                       std::vector<DiscState> discs, const Periods& periods, SideColumns columns)
-    : communicator_(communicator), length_(along(cut_axis(box, periods), box)), periods_(periods),
+                       std::vector<DiscState> discs, const Periods& periods, SideColumns columns,
+                       int n_threads)
+    : communicator_(communicator), n_threads_(n_threads),
+      length_(along(cut_axis(box, periods), box)), periods_(periods),
       strips_(equal_strips(box, periods, communicator.size())), redistributed_strips_(strips_),
       exchange_(communicator) {
     columns_ = std::move(columns);
@@ -145,10 +110,10 @@ void StripDiscs::migrate(double time, double farthest, std::vector<DiscState>* c
 
 /// Sends the values of the discs that leave, and appends those of the discs that come.
 template <Message T> void StripDiscs::move_along(const TransferPlan& plan, std::vector<T>& values) {
-    Received<T> arrived;
-    transfer(exchange_, plan, std::span<const T>(values), arrived);
+    std::vector<T> arrived;
+    transfer(exchange_, plan, values, arrived, n_threads_);
     remove_leaving(plan, values);
-    values.insert(values.end(), arrived.items.begin(), arrived.items.end());
+    values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
 /// Discs far from both ends of the strip when they were sorted cannot have left it.
@@ -156,9 +121,10 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
         return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest,
-                                       periods_);
+                                       periods_, n_threads_);
     const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, farthest));
-    return plan_migration(redistributed_strips_, strips_, rank, own(), searched, time, farthest);
+    return plan_migration(redistributed_strips_, strips_, rank, own(), searched, time, farthest,
+                          n_threads_);
 }
 
 /// Ascending ranges that hold all own discs outside of `inner` at the time of sorting.
@@ -178,15 +144,15 @@ Companions StripDiscs::companions(std::vector<DiscState>* states) {
 }
 
 void StripDiscs::sort(const GridGeometry& geometry, double anchor, double time, double duration,
-                      int n_threads, std::vector<DiscState>* companion) {
+                      std::vector<DiscState>* companion) {
     const Companions with = companions(companion);
-    grid_.sort(own(), geometry, anchor, time, duration, n_threads, periods_, with);
+    grid_.sort(own(), geometry, anchor, time, duration, n_threads_, periods_, with);
     is_sorted_ = true;
 }
 
-void StripDiscs::sort_cells(const GridGeometry& geometry, double time, int n_threads) {
+void StripDiscs::sort_cells(const GridGeometry& geometry, double time) {
     const Companions with = companions(nullptr);
-    grid_.sort_cells(own(), geometry, time, n_threads, periods_, with);
+    grid_.sort_cells(own(), geometry, time, n_threads_, periods_, with);
     is_sorted_ = true;
 }
 
@@ -205,6 +171,8 @@ void StripDiscs::set_home_images(double time, double farthest, std::vector<DiscS
     const bool are_all = companion || !has_images_;
     for (const PlaceRange range :
          are_all ? std::vector<PlaceRange>{{0, n_own_}} : places_outside(inner)) {
+#pragma omp parallel for num_threads(n_threads_)                                                   \
+    schedule(static) if (range.end - range.begin >= least_for_threads)
         for (std::size_t i = range.begin; i < range.end; ++i) {
             DiscState& disc = discs_[i];
             const Image image = image_of(disc);
@@ -240,7 +208,8 @@ Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
 
 void StripDiscs::forget_images() {
     if (!periods_.are_any()) return;
-    for (DiscState& disc : own()) set_image(disc, {});
+#pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_own_ >= least_for_threads)
+    for (std::size_t i = 0; i < n_own_; ++i) set_image(discs_[i], {});
     has_images_ = false;
 }
 
@@ -253,79 +222,102 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
         const std::vector<PlaceRange> searched = places_outside(
             interior(strips_, communicator_.rank(), reach, periods_));
         halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), searched, time, reach,
-                                        periods_);
+                                        periods_, n_threads_);
         other_partners_ = halo_plan_.partners;
         std::erase(other_partners_, communicator_.rank());
     } else {
         const int rank = communicator_.rank();
         const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, reach));
-        halo_plan_ = plan_halo(strips_, rank, own(), searched, time, reach);
+        halo_plan_ = plan_halo(strips_, rank, own(), searched, time, reach, n_threads_);
     }
-    Received<DiscState> halo;
-    halo.offsets = {0};
     for (std::vector<DiscState>* values : {&discs_, companion}) {
         if (!values) continue;
         if (communicator_.size() == 1) {
-            append_images(halo_plan_, *values);
-            halo.offsets = {0, values->size() - n_own_};
-            continue;
+            append_images(halo_plan_, *values, n_threads_);
+            halo_offsets_ = {0, values->size() - n_own_};
+        } else if (periods_.are_any()) {
+            halo_offsets_ = transfer_images(exchange_, halo_plan_, *values, *values, n_threads_);
+        } else {
+            halo_offsets_ = transfer(exchange_, halo_plan_, *values, *values, n_threads_);
         }
-        if (periods_.are_any())
-            transfer_images(exchange_, halo_plan_, std::span<const DiscState>(*values), halo);
-        else
-            transfer(exchange_, halo_plan_, std::span<const DiscState>(*values), halo);
-        values->insert(values->end(), halo.items.begin(), halo.items.end());
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
-    halo_offsets_.clear();
-    for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
+    for (std::size_t& offset : halo_offsets_) offset += n_own_;
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 1;
     }
-    grid_.add_halo(std::span<const DiscState>(discs_).subspan(n_own_));
+    grid_.add_halo(std::span<const DiscState>(discs_).subspan(n_own_), n_threads_);
 }
 
 void StripDiscs::send_updates(std::span<const LocalIndex> changed,
                               std::vector<LocalIndex>& updates) {
     if (has_no_halo()) return;
-    std::vector<std::vector<Update>> out(halo_plan_.partners.size());
-    for (const LocalIndex index : changed) {
-        if (index >= n_own_ || is_shown_[index] == 0) continue;
-        for (std::size_t k = 0; k < out.size(); ++k) {
-            const std::vector<LocalIndex>& shown = halo_plan_.leaving[k];
-            for (auto place = std::lower_bound(shown.begin(), shown.end(), index);
-                 place != shown.end() && *place == index; ++place) {
-                out[k].push_back(
-                    {discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
-            }
-        }
+    const TransferPlan plan = plan_updates(changed);
+    const std::size_t n_partners = plan.partners.size();
+    std::vector<RawVector<Update>> out(n_partners);
+    for (std::size_t k = 0; k < n_partners; ++k) {
+        const std::vector<LocalIndex>& places = plan.leaving[k];
+        out[k].resize(places.size());
+#pragma omp parallel for num_threads(n_threads_)                                                   \
+    schedule(static) if (places.size() >= least_for_threads)
+        for (std::size_t i = 0; i < places.size(); ++i)
+            out[k][i] = {discs_[halo_plan_.leaving[k][places[i]]], places[i]};
     }
     const std::size_t n_before = updates.size();
     Received<Update> in;
-    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
-    for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const Update& item : in.from(k)) {
-            const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
-            ensure(discs_[index].id == item.disc.id,
-                   "a neighbour's update is of another disc than the halo has there");
-            const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
-            discs_[index] = item.disc;
-            if (periods_.are_any()) set_image(discs_[index], image);
-            updates.push_back(index);
-        }
-    }
+    in.offsets = exchange_.append(std::span<const int>(plan.partners), out, in.items);
+    updates.resize(n_before + in.items.size());
+    for (std::size_t k = 0; k < in.n_senders(); ++k)
+        take_updates(in.from(k), halo_offsets_[k],
+                     std::span(updates).subspan(n_before + in.offsets[k]));
     columns_.for_each([&](SideColumn column) {
         std::vector<double>& values = columns_[column];
-        std::vector<std::vector<double>> values_out(out.size());
-        for (std::size_t k = 0; k < out.size(); ++k)
-            for (const Update& item : out[k])
-                values_out[k].push_back(values[halo_plan_.leaving[k][item.place]]);
+        std::vector<std::vector<double>> values_out(n_partners);
+        for (std::size_t k = 0; k < n_partners; ++k)
+            for (const LocalIndex place : plan.leaving[k])
+                values_out[k].push_back(values[halo_plan_.leaving[k][place]]);
         Received<double> values_in;
-        exchange_.exchange(std::span<const int>(halo_plan_.partners), values_out, values_in);
+        exchange_.exchange(std::span<const int>(plan.partners), values_out, values_in);
         for (std::size_t i = 0; i < values_in.items.size(); ++i)
             values[updates[n_before + i]] = values_in.items[i];
     });
+}
+
+/// Lists by partner where in its halo the own discs among `changed` are.
+TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const {
+    TransferPlan plan;
+    plan.partners = halo_plan_.partners;
+    plan.leaving.resize(plan.partners.size());
+    const PlaceRange all[] = {{0, changed.size()}};
+    plan_in_parts(plan, all, n_threads_, [&](LocalIndex k, LeavingDiscs& part) {
+        const LocalIndex index = changed[k];
+        if (index >= n_own_ || is_shown_[index] == 0) return;
+        for (std::size_t partner = 0; partner < part.leaving.size(); ++partner) {
+            const std::vector<LocalIndex>& shown = halo_plan_.leaving[partner];
+            for (auto place = std::lower_bound(shown.begin(), shown.end(), index);
+                 place != shown.end() && *place == index; ++place)
+                part.leaving[partner].push_back(static_cast<LocalIndex>(place - shown.begin()));
+        }
+    });
+    return plan;
+}
+
+/// Takes over the states that a partner has sent, whose discs begin at `offset` in the halo. Writes
+/// their places to `updated`.
+void StripDiscs::take_updates(std::span<const Update> items, std::size_t offset,
+                              std::span<LocalIndex> updated) {
+#pragma omp parallel for num_threads(n_threads_)                                                   \
+    schedule(static) if (items.size() >= least_for_threads)
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const auto index = static_cast<LocalIndex>(offset + items[i].place);
+        ensure(discs_[index].id == items[i].disc.id,
+               "a neighbour's update is of another disc than the halo has there");
+        const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
+        discs_[index] = items[i].disc;
+        if (periods_.are_any()) set_image(discs_[index], image);
+        updated[i] = index;
+    }
 }
 
 void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,

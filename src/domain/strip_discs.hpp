@@ -30,7 +30,7 @@ public:
     /// the halo has images of own discs, too. `columns` run along the discs; missing
     /// numbers are 0. **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, std::vector<DiscState> discs,
-               const Periods& periods = {}, SideColumns columns = {});
+               const Periods& periods, SideColumns columns, int n_threads);
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
     /// has moved by more than `farthest` since the last migration. `companion` runs along the own
@@ -40,9 +40,9 @@ public:
     /// Brings the own discs, and all arrays along them, into the order of their cells
     /// at `anchor` (CellGrid::sort), without a halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
-              int n_threads, std::vector<DiscState>* companion);
+              std::vector<DiscState>* companion);
     /// Sorts into cells without flights.
-    void sort_cells(const GridGeometry& geometry, double time, int n_threads);
+    void sort_cells(const GridGeometry& geometry, double time);
 
     /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
     /// puts them into cells. The own discs have migrated and been sorted for the same time.
@@ -59,9 +59,7 @@ public:
     template <Message T> void show(std::vector<T>& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
-        Received<T> in;
-        transfer(exchange_, halo_plan_, std::span<const T>(values), in);
-        values.insert(values.end(), in.items.begin(), in.items.end());
+        transfer(exchange_, halo_plan_, values, values, n_threads_);
     }
 
     /// Reports discs of the halo to their owners. Appends to `reported` the own discs that others
@@ -133,7 +131,17 @@ private:
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
     Companions companions(std::vector<DiscState>* states);
 
+    /// A disc's new state, and its place in the neighbour's halo.
+    struct Update {
+        DiscState disc;
+        std::uint64_t place;
+    };
+    TransferPlan plan_updates(std::span<const LocalIndex> changed) const;
+    void take_updates(std::span<const Update> items, std::size_t offset,
+                      std::span<LocalIndex> updated);
+
     Communicator communicator_;
+    int n_threads_;
     double length_; ///< length of the box along the strips' axis
     Periods periods_;
     std::vector<DiscState> discs_; ///< own, then halo

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "domain/transfer_in_parts.hpp"
 
 namespace carrom {
 
@@ -35,40 +36,52 @@ private:
 
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
-                            double time, double farthest) {
+                            double time, double farthest, int n_threads) {
     TransferPlan plan;
     plan.partners = movers_between(old_strips, strips, rank, farthest);
     plan.leaving.resize(plan.partners.size());
     if (strips.size() == 1) return plan;
     const PartnerPlaces places(plan.partners);
     const double low = strips.low(rank), high = strips.high(rank);
-    for (const PlaceRange range : searched) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            const double x = strips.place_of(own[i], time);
-            if (x >= low && x < high) continue;
-            const int owner = strips.owner(x);
-            if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
-        }
-    }
+    plan_in_parts(plan, searched, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
+        const double x = strips.place_of(own[i], time);
+        if (x >= low && x < high) return;
+        const int owner = strips.owner(x);
+        if (owner != rank) part.leaving[places[owner]].push_back(i);
+    });
     return plan;
 }
 
 TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
-                       std::span<const PlaceRange> searched, double time, double reach) {
+                       std::span<const PlaceRange> searched, double time, double reach,
+                       int n_threads) {
     TransferPlan plan;
     plan.partners = strips.neighbours_within(rank, reach);
     plan.leaving.resize(plan.partners.size());
-    for (std::size_t k = 0; k < plan.partners.size(); ++k) {
-        const Strip theirs = strips.of(plan.partners[k]);
-        for (const PlaceRange range : searched) {
-            for (std::size_t i = range.begin; i < range.end; ++i) {
-                const double x = strips.place_of(own[i], time);
-                if (theirs.meets(x - reach, x + reach))
-                    plan.leaving[k].push_back(static_cast<LocalIndex>(i));
-            }
-        }
-    }
+    std::vector<Strip> theirs;
+    for (const int partner : plan.partners) theirs.push_back(strips.of(partner));
+    plan_in_parts(plan, searched, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
+        const double x = strips.place_of(own[i], time);
+        for (std::size_t k = 0; k < theirs.size(); ++k)
+            if (theirs[k].meets(x - reach, x + reach)) part.leaving[k].push_back(i);
+    });
     return plan;
 }
+
+template <Message T>
+std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
+                                  const std::vector<T>& values, std::vector<T>& arrived,
+                                  int n_threads) {
+    return transfer_packed(exchange, plan, values, arrived, n_threads,
+                           [](const T& value, std::size_t, std::size_t) { return value; });
+}
+
+#define CARROM_DEFINE(T)                                                                           \
+    template std::vector<std::size_t> transfer(NeighbourExchange&, const TransferPlan&,            \
+                                               const std::vector<T>&, std::vector<T>&, int);
+CARROM_DEFINE(DiscState)
+CARROM_DEFINE(double)
+CARROM_DEFINE(std::uint64_t)
+#undef CARROM_DEFINE
 
 } // namespace carrom

@@ -24,11 +24,21 @@ struct PlaceRange {
     std::size_t begin = 0, end = 0;
 };
 
-struct TransferPlan {
-    std::vector<int> partners;                    ///< ranks, each of them once
-    std::vector<std::vector<LocalIndex>> leaving; ///< by partner, ascending
+/// Which discs leave, by partner.
+struct LeavingDiscs {
+    std::vector<std::vector<LocalIndex>> leaving; ///< ascending
     std::vector<std::vector<Image>>
         images; ///< along `leaving`: the images that go there; only for halos of periodic boxes
+
+    std::size_t n_sent() const {
+        std::size_t n = 0;
+        for (const std::vector<LocalIndex>& to_one : leaving) n += to_one.size();
+        return n;
+    }
+};
+
+struct TransferPlan : LeavingDiscs {
+    std::vector<int> partners; ///< ranks, each of them once
 };
 
 /// The discs whose place at `time` lies in another rank's strip. They were in this
@@ -36,49 +46,45 @@ struct TransferPlan {
 /// ranges of own discs that hold all discs outside of the strip.
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
-                            double time, double farthest);
+                            double time, double farthest, int n_threads);
 
 /// The discs within `reach` of another rank's strip at `time`. Empty strips get none.
 /// `searched` are ascending ranges of own discs that hold all discs not further than
 /// `reach` inside the strip.
 TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
-                       std::span<const PlaceRange> searched, double time, double reach);
+                       std::span<const PlaceRange> searched, double time, double reach,
+                       int n_threads);
 
 /// Plans by the places of the discs' images in a box with periodic sides. After a
 /// migration these are the images in the box. In a halo a disc also goes to its own
 /// rank, as other images, and may go to a rank several times.
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
-                                     const Periods& periods);
+                                     const Periods& periods, int n_threads);
 /// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> searched, double time, double reach,
-                                const Periods& periods);
+                                const Periods& periods, int n_threads);
 
 /// The places in the rank's strip that are further than `reach` from its ends, and
 /// from the sides of the box that are periodic along y.
 Inside interior(const Strips& strips, int rank, double reach, const Periods& periods);
 
-/// Sends the values that `plan` names of an array along the own
-/// discs. Returns the values that came, grouped by partner.
-/// **Collective.**
+/// Sends the values that `plan` names of an array along the own discs, and appends those that come
+/// to `arrived`, which may be the same array. Returns where each partner's values begin in what has
+/// come, and their number. For discs, numbers and hashes. **Collective.**
 template <Message T>
-void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const T> values,
-              Received<T>& in) {
-    std::vector<std::vector<T>> out(plan.partners.size());
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        out[k].reserve(plan.leaving[k].size());
-        for (const LocalIndex index : plan.leaving[k]) out[k].push_back(values[index]);
-    }
-    exchange.exchange(std::span<const int>(plan.partners), out, in);
-}
+std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
+                                  const std::vector<T>& values, std::vector<T>& arrived,
+                                  int n_threads);
 
 /// Sends discs as the images that the plan names. **Collective.**
-void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
-                     std::span<const DiscState> values, Received<DiscState>& in);
+std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
+                                         const std::vector<DiscState>& values,
+                                         std::vector<DiscState>& arrived, int n_threads);
 
 /// Appends the images that a rank without others sends to itself.
-void append_images(const TransferPlan& plan, std::vector<DiscState>& values);
+void append_images(const TransferPlan& plan, std::vector<DiscState>& values, int n_threads);
 
 /// Removes the discs that have left, and fills the gaps from the end.
 template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {

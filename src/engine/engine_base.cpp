@@ -56,7 +56,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
-             stored_columns<Dynamics>(scene, state)),
+             stored_columns<Dynamics>(scene, state), tuning.threads),
       n_micro_done_(state.micro_steps_done), species_(species_of(dynamics_)),
       sync_action_(scene, species_, communicator, tuning.threads), flight_length_(flight_length()),
       last_micro_step_(scene.steps * scene.micro_steps) {
@@ -68,9 +68,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
         for (DiscState& disc : discs_.all()) Dynamics::round(disc);
     }
     if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
-    for (const DiscState& disc : own())
-        largest_speed_ = std::max(largest_speed_,
-                                  std::sqrt(dynamics_.squared_speed_at(disc, time_)));
+    largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
 /// Where a sync changes velocities flights end there, and so they do in a flow, which they do not
@@ -102,7 +100,7 @@ template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double lea
     const Extent seen = discs_.extent_seen(extent(), reach);
     const GridGeometry geometry = make_sparse_geometry(seen, discs_.strips().axis(), reach,
                                                        discs_.n_own());
-    discs_.sort_cells(geometry, time_, tuning_.threads);
+    discs_.sort_cells(geometry, time_);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
     discs_.fetch_halo(time_, reach, nullptr);
 }
@@ -195,10 +193,21 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         sync_action_.act(discs_, n_micro_done_ / sync_every_,
                          {&this->wall_followers_, this->stress_});
         fastest = 0;
-        for (const DiscState& disc : own())
-            fastest = std::max(fastest, dynamics_.squared_speed(disc));
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
+        for (std::int64_t i = 0; i < n; ++i)
+            fastest = std::max(fastest,
+                               dynamics_.squared_speed(discs[static_cast<std::size_t>(i)]));
     }
     return std::sqrt(fastest);
+}
+
+template <class Dynamics> double EngineBase<Dynamics>::squared_speed_of_own(double time) const {
+    const std::span<const DiscState> discs = own();
+    double fastest = 0;
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        fastest = std::max(fastest, dynamics_.squared_speed_at(discs[i], time));
+    return fastest;
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {

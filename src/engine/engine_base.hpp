@@ -73,6 +73,8 @@ protected:
     /// **Collective.**
     void refuse_long_flights(double speed) const;
 
+    /// The square of the largest speed of own discs at `time`.
+    double squared_speed_of_own(double time) const;
     Population population() const { return discs_.population(); }
     /// The present walls in the coordinates of states.
     Extent extent() const;

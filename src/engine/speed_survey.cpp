@@ -7,12 +7,19 @@
 namespace carrom {
 
 SpeedSpread survey_speeds(std::span<const DiscState> own, double largest_speed,
-                          const Communicator& communicator) {
+                          const Communicator& communicator, int n_threads) {
     SpeedSpread::Counts counts{};
-    for (const DiscState& disc : own) {
-        const double speed = std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy);
-        const double part = speed / largest_speed * SpeedSpread::n_parts;
-        counts[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;
+#pragma omp parallel num_threads(n_threads)
+    {
+        SpeedSpread::Counts mine{};
+#pragma omp for schedule(static) nowait
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const double speed = std::sqrt(own[i].vx * own[i].vx + own[i].vy * own[i].vy);
+            const double part = speed / largest_speed * SpeedSpread::n_parts;
+            mine[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;
+        }
+#pragma omp critical(speeds)
+        for (std::size_t part = 0; part < counts.size(); ++part) counts[part] += mine[part];
     }
     communicator.sum(counts);
     return SpeedSpread(counts, largest_speed);

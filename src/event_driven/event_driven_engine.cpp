@@ -174,7 +174,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
                           (std::max(n, 1.0) * last_duration_);
     else if (const double largest = communicator_.max(largest_speed_); largest > 0)
         collision_rate_ = guessed_collision_rate(
-            needs, survey_speeds(discs_.own(), largest, communicator_).mean());
+            needs, survey_speeds(discs_.own(), largest, communicator_, tuning_.threads).mean());
     needs.collision_rate = collision_rate_;
     needs.n_threads = n_threads_of_all_;
     needs.rounds = rounds_lately_;
@@ -214,7 +214,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         blocks_.front().is_marked = 1;
         return;
     }
-    discs_.sort_cells(lay_cells(reach()), time_, tuning_.threads);
+    discs_.sort_cells(lay_cells(reach()), time_);
     {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -38,19 +39,30 @@ public:
     template <Message T>
     void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,
                   Received<T>& in) {
+        in.items.clear();
+        in.offsets = append(neighbours, out, in.items);
+    }
+
+    /// As exchange, but appends what comes to `values`, so that it need not be copied. Returns
+    /// where each neighbour's items begin in what was appended, and their number. **Collective.**
+    template <class Items, Message T>
+    std::vector<std::size_t> append(std::span<const int> neighbours, const std::vector<Items>& out,
+                                    std::vector<T>& values) {
+        static_assert(std::is_same_v<typename Items::value_type, T>);
         ensure(out.size() == neighbours.size(),
                "a neighbour exchange needs one list of items per neighbour");
         clear_parcels();
-        for (const std::vector<T>& items : out) add_parcel(std::as_bytes(std::span(items)));
+        for (const Items& items : out) add_parcel(std::as_bytes(std::span(items)));
         begin_parcels(neighbours);
-        const std::span<const std::size_t> byte_offsets = receive_sizes();
-        in.offsets.clear();
-        for (const std::size_t offset : byte_offsets) {
+        std::vector<std::size_t> offsets;
+        for (const std::size_t offset : receive_sizes()) {
             ensure(offset % sizeof(T) == 0, "neighbours disagree on what they exchange");
-            in.offsets.push_back(offset / sizeof(T));
+            offsets.push_back(offset / sizeof(T));
         }
-        in.items.resize(in.offsets.back());
-        receive_parcels(std::as_writable_bytes(std::span(in.items)));
+        const std::size_t n_before = values.size();
+        values.resize(n_before + offsets.back());
+        receive_parcels(std::as_writable_bytes(std::span(values).subspan(n_before)));
+        return offsets;
     }
 
 private:

@@ -80,7 +80,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
         survey_images();
         agree_on_speed();
         if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks have agreed on it
-            spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_);
+            spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_, tuning_.threads);
         if (n_windows_ == 0) hits_per_micro_step_ = guess_of_hits(window_needs());
     }
     const Window window = choose(n_left);
@@ -94,7 +94,9 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     }
     search_.list_large(population(), discs_.grid());
     if (usual_speed_ < window_speed_) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
-    states_.assign(discs_.all().size(), 0);
+    states_.resize(discs_.all().size());
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static)
+    for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = 0;
     return window;
 }
 
@@ -111,7 +113,7 @@ void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, doubl
     const GridGeometry geometry = make_geometry(seen, discs_.strips().axis(), usual_reach,
                                                 discs_.n_own(), tuning_.cell_width.value_or(0));
     discs_.sort(geometry, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
-                tuning_.threads, companion());
+                companion());
 }
 
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left) {
@@ -169,9 +171,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
 /// without a collision. It may come there before the window's anchor.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_images() {
     if constexpr (Dynamics::has_moving_images) {
-        double fastest = 0;
-        for (const DiscState& disc : discs_.own())
-            fastest = std::max(fastest, dynamics_.squared_speed_at(disc, time_));
+        const double fastest = this->squared_speed_of_own(time_);
         largest_speed_ = std::max(largest_speed_,
                                   std::sqrt(fastest) + std::fabs(dynamics_.periods().speed));
         if (refreshed_speed_ > 0) refreshed_speed_ += std::fabs(dynamics_.periods().speed);
@@ -232,14 +232,6 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     n_kept_ += count_ours(verdicts_.kept);
     apply(window, m);
     return true;
-}
-
-/// Two ranks may know of a candidate. It is counted by the owner of its first disc.
-template <class Dynamics>
-std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
-    if (discs_.has_no_halo()) return candidates.size();
-    const auto is_ours = [this](const Candidate& c) { return c.p < discs_.n_own(); };
-    return static_cast<std::uint64_t>(std::ranges::count_if(candidates, is_ours));
 }
 
 /// Removes the candidates with a disc that an earlier part of this micro-step has
@@ -357,23 +349,6 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
         if (this->stress_) *this->stress_ += stress;
     }
     return std::sqrt(fastest);
-}
-
-/// Exchanges new states with the neighbours. Appends to `hits_` the halo's discs that
-/// this rank has not hit itself.
-template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
-    if (discs_.has_no_halo()) return;
-    const PhaseClock::Scope scope(phases_, Phase::exchange);
-    std::erase(hits_, wall_index);
-    updates_.clear();
-    discs_.send_updates(hits_, updates_);
-    for (const LocalIndex index : updates_) {
-        if (states_[index] == window.state_after(m)) continue;
-        states_[index] = window.state_after(m);
-        update_flight(index, discs_.all()[index]);
-        hits_.push_back(index);
-    }
 }
 
 /// The next migration still allows for the largest speed before the sync.

@@ -18,6 +18,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/raw_vector.hpp"
 #include "engine/engine_base.hpp"
 #include "engine/window_choice.hpp"
 #include "time_stepped/boundary_resolution.hpp"
@@ -102,7 +103,7 @@ private:
     std::vector<DiscState>
         unhit_; ///< for the log: the first disc of each kept candidate, before it
     std::vector<DiscState> unhit_partners_; ///< second discs before it, if pairs are noted
-    std::vector<WindowState> states_;       ///< by disc
+    RawVector<WindowState> states_;         ///< by disc
 
     // Candidates whose first disc is own.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;

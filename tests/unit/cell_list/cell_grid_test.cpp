@@ -168,7 +168,7 @@ TEST_CASE(
     "a halo's discs have cells of their own where there are any, and flights that can be changed") {
     std::mt19937 random(12);
     const double time = 2, duration = 4;
-    for (const std::size_t n : {0u, 1u, 40u, 2000u}) {
+    for (const std::size_t n : {0u, 1u, 40u, 2000u, 9000u}) {
         for (const double reach : {2.0, 30.0}) {
             std::vector<DiscState> discs = gas(random, 1000);
             const std::vector<DiscState> halo = gas(random, n);
@@ -181,7 +181,15 @@ TEST_CASE(
                 discs.back().x *= 0.3; // most columns have none
                 discs.back().id = discs.size() - 1;
             }
+            CellGrid by_threads = grid;
             grid.add_halo(std::span<const DiscState>(discs).subspan(1000));
+            by_threads.add_halo(std::span<const DiscState>(discs).subspan(1000), 3);
+            bool are_same = true; // slots, so that what a search finds does not depend on threads
+            for (std::uint32_t slot = 0; slot < n; ++slot)
+                are_same = are_same && by_threads.halo_index(slot) == grid.halo_index(slot) &&
+                           by_threads.halo_lanes().vy[slot] == grid.halo_lanes().vy[slot];
+            CHECK(are_same);
+            CHECK(by_threads.is_valid(discs.size()));
             std::vector<DiscState> before(discs.size());
             for (const DiscState& disc : discs) before[disc.id] = disc;
             check_cells(grid, discs, time, before);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The discs of a halo by cells. Only columns that hold any of them have cells, because a halo is
+// near the ends of a strip. All threads of a rank sort together.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disc_state.hpp"
+#include "core/raw_vector.hpp"
+
+namespace carrom {
+
+class HaloCells {
+public:
+    /// Makes room for `n_discs`, whose cells are set next, by several threads at once.
+    void begin(std::size_t n_discs, int n_columns);
+    void set_cell(std::size_t disc, int column, int row);
+    /// Gives each disc a slot. Discs of a cell are in the order of the halo.
+    void sort(std::uint32_t n_rows, int n_threads);
+
+    std::size_t size() const { return order_.size(); }
+    bool is_empty() const { return order_.empty(); }
+    bool has_column(int column) const {
+        return !is_empty() && column_[static_cast<std::size_t>(column)] != no_discs;
+    }
+    /// The place of the column's first cell in `starts`.
+    std::uint32_t first_cell(int column) const { return column_[static_cast<std::size_t>(column)]; }
+    /// The first slots of cells, and the end.
+    const RawVector<std::uint32_t>& starts() const { return start_; }
+    LocalIndex disc_in(std::uint32_t slot) const { return order_[slot]; }
+    std::uint32_t slot_of(LocalIndex disc) const { return slot_[disc]; }
+    bool is_valid() const;
+
+private:
+    static constexpr std::uint32_t no_discs = ~std::uint32_t{0};
+
+    std::uint32_t number_columns(std::uint32_t n_rows);
+    void turn_counts_into_starts(int n_threads);
+
+    std::vector<std::uint32_t> column_; ///< by column: its first cell in `start_`, or `no_discs`
+    RawVector<std::uint32_t> start_;    ///< by cell, with an end
+    RawVector<LocalIndex> order_;       ///< discs by slot; columns by disc before discs are sorted
+    RawVector<std::uint32_t> slot_;     ///< by disc; rows, then cells before discs are sorted
+};
+
+} // namespace carrom

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hands discs to their ranks at the start of a run, in little memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "parallel/exchange.hpp"
+
+namespace carrom {
+
+/// Moves each value to the rank `owner_of(place)`, which may read the value: it still stands in its
+/// place then. Values go in rounds, and what comes takes the places of what has left. With all at
+/// once, every rank would need the memory of its discs two or three times. **Collective.**
+template <Message T, class Owner>
+void hand_to_owners(const Communicator& communicator, std::vector<T>& values,
+                    const Owner& owner_of) {
+    constexpr std::size_t n_rounds = 32;
+    const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
+    std::vector<T> waiting; // for a place: where more has come than left
+    std::size_t n_kept = 0;
+    for (std::size_t round = 0; round < n_rounds; ++round) {
+        std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
+        const std::size_t end = n * (round + 1) / n_rounds;
+        for (std::size_t i = n * round / n_rounds; i < end; ++i) {
+            const std::size_t owner = owner_of(i);
+            if (owner == rank)
+                values[n_kept++] = values[i];
+            else
+                out[owner].push_back(values[i]);
+        }
+        const std::vector<T> arrived = send_to_owners(communicator, out).items;
+        waiting.insert(waiting.end(), arrived.begin(), arrived.end());
+        const std::size_t n_placed = std::min(waiting.size(), end - n_kept);
+        std::copy(waiting.end() - static_cast<std::ptrdiff_t>(n_placed), waiting.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(n_kept));
+        n_kept += n_placed;
+        waiting.resize(waiting.size() - n_placed);
+    }
+    values.resize(n_kept);
+    values.insert(values.end(), waiting.begin(), waiting.end());
+}
+
+} // namespace carrom

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Planning and packing by all threads of a rank, for the sources of this folder. The other threads
+// would wait for one that plans alone, once or twice a window.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cell_list/shared_work.hpp"
+#include "core/raw_vector.hpp"
+#include "domain/transfer.hpp"
+
+namespace carrom {
+
+/// With fewer discs, threads cost more than they save.
+inline constexpr std::size_t least_for_threads = 4096;
+
+/// Calls visit(place) for the places first .. last - 1 of those that the ranges hold together.
+template <class Visit>
+void visit_places(std::span<const PlaceRange> ranges, std::size_t first, std::size_t last,
+                  const Visit& visit) {
+    std::size_t n_before = 0; // in earlier ranges
+    for (const PlaceRange range : ranges) {
+        const std::size_t end = n_before + (range.end - range.begin);
+        for (std::size_t k = std::max(first, n_before); k < std::min(last, end); ++k)
+            visit(static_cast<LocalIndex>(range.begin + (k - n_before)));
+        n_before = end;
+    }
+}
+
+/// Each thread searches a part of the places that the ranges hold. `visit(place, leaving)` appends
+/// to the lists of its part, which are appended to those of `plan` in the order of places.
+template <class Visit>
+void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int n_threads,
+                   const Visit& visit) {
+    std::size_t n_searched = 0;
+    for (const PlaceRange range : searched) n_searched += range.end - range.begin;
+    if (n_threads == 1 || n_searched < least_for_threads) {
+        visit_places(searched, 0, n_searched, [&](LocalIndex place) { visit(place, plan); });
+        return;
+    }
+    const auto n_parts = static_cast<std::size_t>(n_threads);
+    std::vector<LeavingDiscs> parts(n_parts);
+#pragma omp parallel for num_threads(n_threads) schedule(static, 1)
+    for (std::size_t k = 0; k < n_parts; ++k) {
+        LeavingDiscs part = plan; // empty lists; not in `parts`, where they would share cache lines
+        visit_places(searched, share(n_searched, k, n_parts), share(n_searched, k + 1, n_parts),
+                     [&](LocalIndex place) { visit(place, part); });
+        parts[k] = std::move(part);
+    }
+    const auto append = [](auto& lists, const auto& more) {
+        for (std::size_t k = 0; k < lists.size(); ++k)
+            lists[k].insert(lists[k].end(), more[k].begin(), more[k].end());
+    };
+    for (const LeavingDiscs& part : parts) {
+        append(plan.leaving, part.leaving);
+        append(plan.images, part.images);
+    }
+}
+
+/// As `transfer`, but sends pack(value, k, i) for the i-th disc that goes to partner k.
+template <Message T, class Pack>
+std::vector<std::size_t> transfer_packed(NeighbourExchange& exchange, const TransferPlan& plan,
+                                         const std::vector<T>& values, std::vector<T>& arrived,
+                                         int n_threads, const Pack& pack) {
+    std::vector<RawVector<T>> out(plan.partners.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        const std::vector<LocalIndex>& leaving = plan.leaving[k];
+        out[k].resize(leaving.size());
+#pragma omp parallel for num_threads(n_threads)                                                    \
+    schedule(static) if (leaving.size() >= least_for_threads)
+        for (std::size_t i = 0; i < leaving.size(); ++i) out[k][i] = pack(values[leaving[i]], k, i);
+    }
+    return exchange.append(std::span<const int>(plan.partners), out, arrived);
+}
+
+} // namespace carrom
