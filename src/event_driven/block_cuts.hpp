@@ -35,12 +35,24 @@ struct CellBlock {
     }
 };
 
+/// The work of a cell, in whole units.
+struct CellWork {
+    std::uint32_t per_disc = 1, per_pair = 0; ///< each pair counts twice
+
+    std::uint32_t of(std::uint32_t n_discs) const {
+        return n_discs * (per_disc + (n_discs - 1) * per_pair);
+    }
+};
+
 /// Sums the work of the cells in any rectangle by four reads.
 class CellSums {
 public:
-    /// `work_of(column, row)` is a whole number; those of all `cells` add up to less than 2^32.
-    /// Defined in cell_sums_fill.hpp.
-    template <class WorkOf> void fill(const CellBlock& cells, int n_threads, const WorkOf& work_of);
+    /// `discs_before(column, row)` is the number of discs of a column before `row`, or more by the
+    /// same number for all rows. The work of all `cells` adds up to less than 2^32. Defined in
+    /// cell_sums_fill.hpp.
+    template <class DiscsBefore>
+    void fill(const CellBlock& cells, int n_threads, const CellWork& work,
+              const DiscsBefore& discs_before);
     std::uint64_t in(const CellBlock& part) const;
     /// The smallest rectangle that holds all work of `part`.
     CellBlock occupied(CellBlock part) const;

@@ -23,15 +23,22 @@ constexpr double most_units = 0x1p31; ///< so that sums of whole units fit 32 bi
 /// Cells and windows by the mean density cost as little while discs are hardly denser than that.
 constexpr double least_crowding = 2, most_crowding = 400;
 
+/// The place of the first own disc of a cell. The row after the last one is allowed.
+std::uint32_t discs_before(const CellGrid& grid, int column, int row) {
+    return grid.run(column, row, row).begin;
+}
+
 /// The number of pairs of discs in one cell, each counted twice.
 double pairs_in_cells(const CellGrid& grid, const CellBlock& cells, int n_threads) {
     std::uint64_t n_pairs = 0;
 #pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : n_pairs)
     for (int column = cells.first_column; column < cells.end_column; ++column) {
+        std::uint32_t before = discs_before(grid, column, cells.first_row);
         for (int row = cells.first_row; row < cells.end_row; ++row) {
-            const SlotRange cell = grid.run(column, row, row);
-            const std::uint64_t n = cell.end - cell.begin;
+            const std::uint32_t end = discs_before(grid, column, row + 1);
+            const std::uint64_t n = end - before;
             n_pairs += n * n - n;
+            before = end;
         }
     }
     return static_cast<double>(n_pairs);
@@ -145,13 +152,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_by_work(double n
     needs.n_blocks = static_cast<std::size_t>(std::max(1.0, n_blocks) * tuning_.threads);
     const double events = collision_rate_ * window_.duration() * n_own;
     const double unit = most_units / (work_of_disc * n_own + events + 1);
-    const double per_disc = unit * work_of_disc, per_pair = unit * events / std::max(n_pairs, 1.0);
+    const CellWork work{static_cast<std::uint32_t>(unit * work_of_disc),
+                        static_cast<std::uint32_t>(unit * events / std::max(n_pairs, 1.0))};
     CellSums sums;
-    sums.fill(own_cells_, tuning_.threads, [&](int column, int row) {
-        const SlotRange cell = grid.run(column, row, row);
-        const auto n = static_cast<double>(cell.end - cell.begin);
-        return static_cast<std::uint32_t>(n * (per_disc + (n - 1) * per_pair));
-    });
+    sums.fill(own_cells_, tuning_.threads, work,
+              [&grid](int column, int row) { return discs_before(grid, column, row); });
     cuts_.cut_by_work(own_cells_, needs, sums);
 }
 

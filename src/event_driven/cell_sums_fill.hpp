@@ -7,8 +7,9 @@
 
 namespace carrom {
 
-template <class WorkOf>
-void CellSums::fill(const CellBlock& cells, int n_threads, const WorkOf& work_of) {
+template <class DiscsBefore>
+void CellSums::fill(const CellBlock& cells, int n_threads, const CellWork& work,
+                    const DiscsBefore& discs_before) {
     cells_ = cells;
     sums_.resize(place(cells.end_column, cells.end_row) + 1);
     constexpr int rows_each = 64; // of a stretch that a thread takes through all columns
@@ -19,8 +20,12 @@ void CellSums::fill(const CellBlock& cells, int n_threads, const WorkOf& work_of
         for (int column = cells.first_column; column < cells.end_column; ++column) {
             std::uint32_t* next = &sums_[place(column + 1, cells.first_row)];
             *next = 0;
-            for (int row = cells.first_row; row < cells.end_row; ++row, ++next)
-                next[1] = next[0] + work_of(column, row);
+            std::uint32_t before = discs_before(column, cells.first_row);
+            for (int row = cells.first_row; row < cells.end_row; ++row, ++next) {
+                const std::uint32_t end = discs_before(column, row + 1);
+                next[1] = next[0] + work.of(end - before);
+                before = end;
+            }
         }
 #pragma omp for schedule(static)
         for (int k = 0; k < n_stretches; ++k) {

@@ -30,8 +30,9 @@ struct Counts {
     }
     CellSums sums() {
         CellSums filled;
-        filled.fill(all(), 2, [this](int column, int row) {
-            return static_cast<std::uint32_t>(at(column, row));
+        filled.fill(all(), 2, {1, 0}, [this](int column, int row) {
+            const std::uint64_t more = 1000; // the discs of columns before
+            return static_cast<std::uint32_t>(more + in({column, column + 1, 0, row}));
         });
         return filled;
     }
@@ -132,6 +133,8 @@ TEST_CASE("block cuts: sums hold the work of any rectangle, and where in it ther
     for (const CellBlock& part : {counts.all(), CellBlock{4, 5, 3, 4}, CellBlock{10, 60, 63, 68},
                                   CellBlock{87, 88, 3, 149}, CellBlock{20, 20, 3, 149}})
         CHECK(sums.in(part) == counts.in(part));
+    CHECK(CellWork{3, 2}.of(0) == 0);
+    CHECK(CellWork{3, 2}.of(5) == 5 * 3 + 5 * 4 * 2);
     Counts lone{30, 80, std::vector<std::uint64_t>(30 * 80, 0)};
     lone.at(7, 70) = lone.at(9, 66) = 1;
     const CellBlock found = lone.sums().occupied({2, 29, 1, 80});
