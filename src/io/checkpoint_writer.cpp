@@ -3,10 +3,12 @@
 // changes HDF5's metadata. A rank's pieces begin at pages of their own, so that nodes whose caches
 // know nothing of each other do not share any.
 //
-// For independent transfers each rank has a handle of its own (of_this_rank). So no call on the
-// file waits for another rank: each rank sees its own failure, and then all agree. With one handle
-// for all, HDF5 1.10 waits for ever where rank 0 cannot write the mark of an open file when all
-// close it. Each handle writes that mark, the same bytes, when it is opened and when it is closed.
+// For independent transfers rank 0 alone opens the file by HDF5, when it makes and completes it. It
+// says where the numbers are, and ranks write them there. So HDF5's mark of an open file is written
+// by one rank, and no call on the file waits for another rank: each sees its own failure, and then
+// all agree. With one handle for all, HDF5 1.10 waits for ever where rank 0 cannot write that mark
+// when all close the file. On many ranks some of them write for all (most_writers): a rank sends
+// discs to each writer.
 //
 // Collective transfers need one handle for all ranks. A rank that fails leaves the others waiting
 // inside HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
@@ -35,6 +37,7 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t bytes_of_structure = 1 << 20;
+constexpr int most_writers = 64;
 static_assert(Pieces::least_rows % rows_per_block == 0, "pieces are made of whole blocks");
 
 /// Ends all ranks where HDF5 does not come back from closing a file that ranks share.
@@ -70,13 +73,16 @@ struct Batch {
 /// This rank's view of the file. It remembers the first failure and writes nothing after it.
 class RankWriter {
 public:
-    /// **Collective.**
+    /// A rank that is no writer opens nothing. **Collective.**
     RankWriter(const std::string& path, const std::vector<DiscTarget>& targets, bool is_collective,
-               const Communicator& communicator)
+               bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
-          writers_(is_collective ? communicator : Communicator::of_this_rank()) {
-        on_all_ranks([&] { bytes_.emplace(path_, O_WRONLY); }); // a failure is known from here on
-        on_all_ranks([&] { file_ = h5::SharedFile(path_, h5::Access::write, writers_); });
+          places_(is_collective ? std::vector<std::uint64_t>() : find_places()) {
+        on_all_ranks([&] { // a failure is known from here on
+            if (is_writer || is_collective) bytes_.emplace(path_, O_WRONLY);
+        });
+        if (!is_collective) return;
+        on_all_ranks([&] { file_ = h5::SharedFile(path_, h5::Access::write, communicator_); });
         on_all_ranks([&] {
             for (const DiscTarget& target : targets_)
                 datasets_.push_back(h5::open_dataset(file_.id(), target.path));
@@ -88,7 +94,8 @@ public:
         if (!failure_.empty()) return;
         try {
             for (std::size_t k = 0; k < targets_.size(); ++k)
-                write(k, batch, h5::Transfer::independent);
+                bytes_->write(batch.buffers[k],
+                              places_[k] + batch.first * targets_[k].bytes_per_row);
             if (++n_batches_ % batches_between_syncs == 0) bytes_->start_sync();
         } catch (const FileError& error) {
             failure_ = error.what();
@@ -99,7 +106,10 @@ public:
     /// before the others, which then wait in vain; `agree` ends the run. **Collective.**
     void write_together(const Batch& batch) {
         for (std::size_t k = 0; k < targets_.size(); ++k)
-            on_all_ranks([&] { write(k, batch, h5::Transfer::collective); });
+            on_all_ranks([&] {
+                h5::write_rows(datasets_[k].id(), {batch.first, batch.first + batch.n_rows},
+                               targets_[k].type, batch.buffers[k].data(), h5::Transfer::collective);
+            });
     }
 
     /// Brings this rank's bytes to disk, because each node has its own cache. Then
@@ -107,12 +117,13 @@ public:
     void finish() {
         on_all_ranks([&] {
             if (!failure_.empty()) throw FileError(failure_);
-            bytes_->sync();
+            if (bytes_) bytes_->sync();
         });
+        if (datasets_.empty()) return;
         datasets_.clear();
         on_all_ranks([&] {
             std::optional<Deadline> deadline;
-            if (writers_.size() > 1) deadline.emplace();
+            if (communicator_.size() > 1) deadline.emplace();
             file_.close();
         });
     }
@@ -123,17 +134,29 @@ private:
     template <class Act> void on_all_ranks(const Act& act) {
         on_all(communicator_, path_, ExitCode::output_failure, act);
     }
-    void write(std::size_t k, const Batch& batch, h5::Transfer transfer) {
-        h5::write_rows(datasets_[k].id(), {batch.first, batch.first + batch.n_rows},
-                       targets_[k].type, batch.buffers[k].data(), transfer);
+    /// Where the bytes of each target begin in the file. **Collective.**
+    std::vector<std::uint64_t> find_places() const {
+        std::vector<std::uint64_t> places;
+        on_root(communicator_, path_, ExitCode::output_failure, [&] {
+            const h5::File file = h5::open_file(path_, h5::Access::read);
+            for (const DiscTarget& target : targets_) {
+                const h5::Dataset dataset = h5::open_dataset(file.id(), target.path);
+                const haddr_t place = H5Dget_offset(dataset.id());
+                if (place == HADDR_UNDEF && H5Dget_storage_size(dataset.id()) > 0)
+                    throw FileError("has no place for " + target.path);
+                places.push_back(place);
+            }
+        });
+        communicator_.broadcast(places);
+        return places;
     }
 
     std::string path_;
     const std::vector<DiscTarget>& targets_;
     const Communicator& communicator_;
-    Communicator writers_; ///< ranks that share a handle of the file
+    std::vector<std::uint64_t> places_; ///< by target
     std::optional<Descriptor> bytes_;
-    h5::SharedFile file_;
+    h5::SharedFile file_; ///< for collective transfers, and its data sets
     std::vector<h5::Dataset> datasets_;
     std::string failure_;
     std::uint64_t n_batches_ = 0;
@@ -223,10 +246,14 @@ SideOfPieces in_pieces(std::span<const DiscState> discs, const SideColumnSet& wa
 /// collective transfers come at the end instead, one for each data set. **Collective.**
 StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
                       std::span<const DiscState> discs, const SideOfPieces& side,
-                      std::uint64_t n_discs, const WriteSettings& settings,
+                      std::uint64_t n_discs, const WriteSettings& settings, int n_writers,
                       const Communicator& communicator) {
-    RankWriter writer(path, targets, settings.is_collective, communicator);
-    PieceStream stream(communicator, discs, n_discs, [](const DiscState& disc) { return disc.id; });
+    const Pieces pieces(n_discs, communicator.size(), n_writers);
+    const int rank = communicator.rank();
+    const bool is_writer = pieces.first_of(rank) < pieces.first_of(rank + 1);
+    RankWriter writer(path, targets, settings.is_collective, is_writer, communicator);
+    PieceStream stream(communicator, discs, pieces, n_discs,
+                       [](const DiscState& disc) { return disc.id; });
     StateSums sums(first_checksum + targets.size());
     Batch next, last;
     next.buffers.resize(targets.size());
@@ -271,8 +298,14 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
+    // Numbers beside the discs lie on all ranks, each with those of its own piece of the ids.
+    const bool have_numbers = header.columns != SideColumnSet{} || samples.have_first_places ||
+                              samples.have_lengths || samples.have_velocities ||
+                              samples.have_images;
+    const int n_writers = have_numbers ? communicator.size()
+                                       : std::min(communicator.size(), most_writers);
     const StateSums sums = write_discs(partial.path(), targets, discs, side, header.n_discs,
-                                       settings, communicator);
+                                       settings, n_writers, communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
         complete(partial.path(), sums);
         rename_durably(partial.path(), path);

@@ -20,7 +20,12 @@ namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t discs_at_a_time = std::uint64_t{1} << 16;
+/// Discs that rank 0 collects at a time. More of them on many ranks, because each rank sends a
+/// message each time: so a frame takes as many messages on 256 ranks as on 16.
+std::uint64_t discs_at_a_time(int n_ranks) {
+    constexpr std::uint64_t least = std::uint64_t{1} << 16, most = std::uint64_t{1} << 20;
+    return std::clamp(least / 16 * static_cast<std::uint64_t>(n_ranks), least, most);
+}
 
 /// Where a disc's numbers are among its words. A vector's third component is 0.
 enum Place : std::size_t {
@@ -34,16 +39,8 @@ enum Place : std::size_t {
     n_words = side_columns + n_side_columns
 };
 
-/// A disc in a message to rank 0: its numbers at the time of the frame, in words. Real
-/// numbers are sent by their bits.
-struct ShownDisc {
-    DiscId id = 0;
-    std::array<std::uint64_t, n_words> words{};
-
-    void set(std::size_t place, double number) {
-        words[place] = std::bit_cast<std::uint64_t>(number);
-    }
-};
+/// A disc's numbers at the time of the frame, in words. Real numbers are sent by their bits.
+using DiscWords = std::array<std::uint64_t, n_words>;
 
 /// A field of a frame: `width` words of each disc from `place` on.
 struct Field {
@@ -103,30 +100,65 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     }
 }
 
+/// Which words of a disc are collected: those of the layout's fields that are not always 0.
+class CollectedWords {
+public:
+    explicit CollectedWords(const std::vector<Field>& fields) {
+        slots_.fill(none);
+        for (const Field& field : fields)
+            for (std::size_t k = 0; k < std::min<std::size_t>(field.width, 2); ++k) {
+                slots_[field.place + k] = places_.size();
+                places_.push_back(field.place + k);
+            }
+    }
+
+    std::size_t n() const { return places_.size(); }
+    /// Appends the words that are collected.
+    void append(const DiscWords& words, std::vector<std::uint64_t>& to) const {
+        for (const std::size_t place : places_) to.push_back(words[place]);
+    }
+    /// The word of a disc at `collected`; 0 if it is not collected.
+    std::uint64_t word(const std::uint64_t* collected, std::size_t place) const {
+        return slots_[place] == none ? 0 : collected[slots_[place]];
+    }
+    std::size_t slot_of(std::size_t place) const { return slots_[place]; }
+
+private:
+    static constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> places_;
+    std::array<std::size_t, n_words> slots_{};
+};
+
 /// Collects the discs of all ranks on rank 0, slab after slab of ids.
 class SlabStream {
 public:
     SlabStream(std::span<const DiscState> discs, const SideSpans& columns,
                std::span<const BondOrder> orders, std::span<const DiscImage> images, double clock,
-               const TrajectoryLayout& layout, const Communicator& communicator)
+               const TrajectoryLayout& layout, const CollectedWords& collected,
+               const Communicator& communicator)
         : discs_(discs), columns_(columns), orders_(orders), images_(images), clock_(clock),
-          layout_(layout), communicator_(communicator), order_(discs.size()) {
+          layout_(layout), collected_(collected), communicator_(communicator),
+          order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
         std::sort(order_.begin(), order_.end(),
                   [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     }
 
-    /// Returns the ids [begin, end), which follow those of the last call; nothing on
-    /// other ranks. **Collective.**
-    std::span<const ShownDisc> next(std::uint64_t begin, std::uint64_t end) {
-        std::vector<ShownDisc> mine;
-        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_)
-            mine.push_back(shown(order_[next_]));
-        slab_.resize(communicator_.is_root() ? end - begin : 0);
-        const auto place = [&](std::span<const ShownDisc> some) {
-            for (const ShownDisc& disc : some) slab_[disc.id - begin] = disc;
+    /// Returns the collected words of the ids [begin, end), which follow those of the last call;
+    /// nothing on other ranks. **Collective.**
+    std::span<const std::uint64_t> next(std::uint64_t begin, std::uint64_t end) {
+        const std::size_t width = collected_.n();
+        std::vector<std::uint64_t> mine; // of each disc the id, and then its words
+        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) {
+            mine.push_back(discs_[order_[next_]].id);
+            collected_.append(shown(order_[next_]), mine);
+        }
+        slab_.assign(communicator_.is_root() ? (end - begin) * width : 0, 0);
+        const auto place = [&](std::span<const std::uint64_t> some) {
+            for (std::size_t k = 0; k < some.size(); k += width + 1)
+                std::copy_n(some.data() + k + 1, width, slab_.data() + (some[k] - begin) * width);
         };
-        stream_to_root(communicator_, mine, place, end - begin);
+        stream_to_root(communicator_, mine, place, (end - begin) * (width + 1));
         if (layout_.has_image) add_images(begin, end);
         return slab_;
     }
@@ -137,36 +169,38 @@ private:
         while (n < images_.size() && images_[n].id < end) ++n;
         const auto place = [&](std::span<const DiscImage> some) {
             for (const DiscImage& one : some) {
-                ShownDisc& shown = slab_[one.id - begin];
-                shown.words[image] = static_cast<std::uint64_t>(one.x);
-                shown.words[image + 1] = static_cast<std::uint64_t>(one.y);
+                std::uint64_t* const words = slab_.data() + (one.id - begin) * collected_.n();
+                words[collected_.slot_of(image)] = static_cast<std::uint64_t>(one.x);
+                words[collected_.slot_of(image + 1)] = static_cast<std::uint64_t>(one.y);
             }
         };
         stream_to_root(communicator_, images_.first(n), place, end - begin);
         images_ = images_.subspan(n);
     }
 
-    ShownDisc shown(LocalIndex i) const {
+    DiscWords shown(LocalIndex i) const {
         const DiscState& disc = discs_[i];
         const double unit = layout_.velocity_unit;
-        ShownDisc shown;
-        shown.id = disc.id;
-        shown.set(position, disc.x_at(clock_));
-        shown.set(position + 1, disc.y_at(clock_));
-        shown.set(velocity, disc.vx * unit);
-        shown.set(velocity + 1, disc.vy * unit);
-        shown.words[collisions] = disc.wall_collisions;
-        shown.words[collisions + 1] = disc.pair_collisions;
+        DiscWords words{};
+        const auto set = [&words](std::size_t place, double number) {
+            words[place] = std::bit_cast<std::uint64_t>(number);
+        };
+        set(position, disc.x_at(clock_));
+        set(position + 1, disc.y_at(clock_));
+        set(velocity, disc.vx * unit);
+        set(velocity + 1, disc.vy * unit);
+        words[collisions] = disc.wall_collisions;
+        words[collisions + 1] = disc.pair_collisions;
         layout_.columns.for_each([&](SideColumn column) {
-            shown.set(side_columns + static_cast<std::size_t>(column),
-                      columns_[column][i] * (info_of(column).is_rate ? unit : 1));
+            set(side_columns + static_cast<std::size_t>(column),
+                columns_[column][i] * (info_of(column).is_rate ? unit : 1));
         });
         if (!orders_.empty() && orders_[i].has_cell()) {
-            shown.set(psi6, orders_[i].real);
-            shown.set(psi6 + 1, orders_[i].imaginary);
-            shown.words[neighbours] = static_cast<std::uint64_t>(orders_[i].n_neighbours);
+            set(psi6, orders_[i].real);
+            set(psi6 + 1, orders_[i].imaginary);
+            words[neighbours] = static_cast<std::uint64_t>(orders_[i].n_neighbours);
         }
-        return shown;
+        return words;
     }
 
     std::span<const DiscState> discs_;
@@ -175,21 +209,23 @@ private:
     std::span<const DiscImage> images_; ///< those with ids to come
     double clock_;
     const TrajectoryLayout& layout_;
+    const CollectedWords& collected_;
     const Communicator& communicator_;
     std::vector<LocalIndex> order_;
     std::size_t next_ = 0;
-    std::vector<ShownDisc> slab_;
+    std::vector<std::uint64_t> slab_; ///< the collected words of each disc
 };
 
 /// A field of some discs in the file's types.
-std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> slab) {
+std::vector<std::byte> bytes_of(const Field& field, const CollectedWords& collected,
+                                std::span<const std::uint64_t> slab) {
     const bool is_single = H5Tequal(field.type, H5T_IEEE_F32LE) > 0;
     const std::size_t size = H5Tget_size(field.type);
     std::vector<std::byte> bytes;
-    bytes.reserve(slab.size() * field.width * sizeof(double));
-    for (const ShownDisc& disc : slab)
+    bytes.reserve(slab.size() / collected.n() * field.width * size);
+    for (std::size_t disc = 0; disc < slab.size(); disc += collected.n())
         for (std::size_t k = 0; k < field.width; ++k) {
-            const std::uint64_t bits = disc.words[field.place + k];
+            const std::uint64_t bits = collected.word(slab.data() + disc, field.place + k);
             const auto single = static_cast<float>(std::bit_cast<double>(bits));
             const auto number = is_single ? std::as_bytes(std::span(&single, 1))
                                           : std::as_bytes(std::span(&bits, 1)).first(size);
@@ -237,15 +273,17 @@ void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, dou
     });
     SegmentedFile& file = *file_;
     file.attempt([&] { static_cast<void>(file.room()); });
-    SlabStream stream(discs, columns, orders, images, clock, layout_, communicator_);
     const std::vector<Field> fields = fields_of(layout_);
-    const std::uint64_t n = layout_.system.n_discs;
-    for (std::uint64_t begin = 0; begin < n; begin += discs_at_a_time) {
-        const std::span<const ShownDisc> slab = stream.next(begin,
-                                                            std::min(begin + discs_at_a_time, n));
+    const CollectedWords collected(fields);
+    SlabStream stream(discs, columns, orders, images, clock, layout_, collected, communicator_);
+    const std::uint64_t n = layout_.system.n_discs,
+                        at_a_time = discs_at_a_time(communicator_.size());
+    for (std::uint64_t begin = 0; begin < n; begin += at_a_time) {
+        const std::span<const std::uint64_t> slab = stream.next(begin,
+                                                                std::min(begin + at_a_time, n));
         file.attempt([&] {
             for (std::size_t k = 0; k < fields.size(); ++k)
-                file.write(k, bytes_of(fields[k], slab));
+                file.write(k, bytes_of(fields[k], collected, slab));
         });
     }
     file.attempt([&] {

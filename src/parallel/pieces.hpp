@@ -25,14 +25,16 @@
 namespace carrom {
 
 /// Cuts the ids into pieces, and gives each rank a run of pieces. Runs are as equal as
-/// pieces allow, longer ones first.
+/// pieces allow, longer ones first. With fewer owners than ranks, every so-many-th rank has a run:
+/// each rank sends records to all owners, so that their number bounds the number of messages.
 class Pieces {
 public:
     static constexpr std::uint64_t least_rows = 1 << 10, most_rows = 1 << 15;
 
-    Pieces(std::uint64_t n, int n_ranks)
-        : n_(n), n_ranks_(n_ranks),
-          rows_(std::clamp(std::bit_floor(n / (8 * static_cast<std::uint64_t>(n_ranks)) + 1),
+    Pieces(std::uint64_t n, int n_ranks) : Pieces(n, n_ranks, n_ranks) {}
+    Pieces(std::uint64_t n, int n_ranks, int n_owners)
+        : n_(n), n_ranks_(n_ranks), n_owners_(n_owners),
+          rows_(std::clamp(std::bit_floor(n / (8 * static_cast<std::uint64_t>(n_owners)) + 1),
                            least_rows, most_rows)) {}
 
     std::uint64_t count() const { return (n_ + rows_ - 1) / rows_; }
@@ -41,13 +43,16 @@ public:
     /// The first id of a piece. Piece count() begins at n.
     std::uint64_t begin(std::uint64_t piece) const { return std::min(piece * rows_, n_); }
     /// The first piece of a rank. Rank `n_ranks` begins at count().
-    std::uint64_t first_of(int rank) const { return slab_begin(rank, count(), n_ranks_); }
+    std::uint64_t first_of(int rank) const {
+        const auto n_before = (std::int64_t{rank} * n_owners_ + n_ranks_ - 1) / n_ranks_;
+        return slab_begin(static_cast<int>(n_before), count(), n_owners_);
+    }
     /// The largest number of pieces of a rank.
     std::uint64_t n_rounds() const { return first_of(1); }
 
 private:
     std::uint64_t n_;
-    int n_ranks_;
+    int n_ranks_, n_owners_;
     std::uint64_t rows_;
 };
 
@@ -58,8 +63,11 @@ public:
     /// pieces come). `records` must stay as they are as long as this is used.
     PieceStream(const Communicator& communicator, std::span<const T> records, std::uint64_t n,
                 const IdOf& id_of)
-        : communicator_(communicator), records_(records), id_of_(id_of), n_(n),
-          pieces_(n, communicator.size()), out_(static_cast<std::size_t>(communicator.size())) {
+        : PieceStream(communicator, records, Pieces(n, communicator.size()), n, id_of) {}
+    PieceStream(const Communicator& communicator, std::span<const T> records, const Pieces& pieces,
+                std::uint64_t n, const IdOf& id_of)
+        : communicator_(communicator), records_(records), id_of_(id_of), n_(n), pieces_(pieces),
+          out_(static_cast<std::size_t>(communicator.size())) {
         ensure(records.size() < std::numeric_limits<std::uint32_t>::max(),
                "too many records on a rank");
         sort_by_piece();
