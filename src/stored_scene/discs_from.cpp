@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <stdexcept>
+#include <streambuf>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -38,11 +41,83 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
     return static_cast<std::size_t>(found - summary.steps.begin());
 }
 
+/// Makes the lines of a block of discs when they are asked for.
+class LinesOfDiscs : public std::streambuf {
+public:
+    LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places)
+        : file_(std::move(file)), frame_(frame), places_(std::move(places)) {}
+
+protected:
+    int_type underflow() override {
+        const std::uint64_t begin = next_, end = std::min(begin + block, file_.summary().n_rows);
+        if (begin == end) return traits_type::eof();
+        n_before_ += lines_.size();
+        lines_.clear();
+        read(begin, end);
+        auto out = std::back_inserter(lines_);
+        for (std::uint64_t id = begin; id < end; ++id) {
+            fmt::format_to(out, "{}", id);
+            for (const std::size_t place : places_)
+                fmt::format_to(out, " {}", rows_[place][id - begin]);
+            lines_ += '\n';
+        }
+        next_ = end;
+        setg(lines_.data(), lines_.data(), lines_.data() + lines_.size());
+        return traits_type::to_int_type(*gptr());
+    }
+
+    /// For `tellg`, and to begin anew.
+    pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
+        if (from == std::ios::beg && offset == 0) return begin_anew();
+        if (from != std::ios::cur || offset != 0) return pos_type(off_type(-1));
+        return pos_type(static_cast<off_type>(n_before_) + (gptr() - eback()));
+    }
+    pos_type seekpos(pos_type place, std::ios::openmode) override {
+        return place == pos_type(0) ? begin_anew() : pos_type(off_type(-1));
+    }
+
+private:
+    pos_type begin_anew() {
+        next_ = n_before_ = 0;
+        lines_.clear();
+        setg(nullptr, nullptr, nullptr);
+        return pos_type(0);
+    }
+    /// The file has been checked, so what is damaged now has been changed since. Other ranks do not
+    /// know of it, so this must not look like an error of all ranks.
+    void read(std::uint64_t begin, std::uint64_t end) {
+        try {
+            file_.read(frame_, begin, end, rows_);
+        } catch (const InputError& error) {
+            throw std::runtime_error(std::string("discs.from: ") + error.what());
+        }
+    }
+
+    FrameFile file_;
+    std::size_t frame_;
+    std::vector<std::size_t> places_; ///< columns of the file
+    std::uint64_t next_ = 0, n_before_ = 0;
+    std::string lines_;
+    Rows rows_;
+};
+
+/// A stream that owns what it reads from, and throws what that throws.
+class StreamOfDiscs : public std::istream {
+public:
+    explicit StreamOfDiscs(std::unique_ptr<LinesOfDiscs> lines)
+        : std::istream(lines.get()), lines_(std::move(lines)) {
+        exceptions(std::ios::badbit);
+    }
+
+private:
+    std::unique_ptr<LinesOfDiscs> lines_;
+};
+
 } // namespace
 
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
                             const SideColumnSet& wanted) {
-    const FrameFile file(path);
+    FrameFile file(path);
     file.check_numbers();
     const std::size_t frame = frame_of(path, file.summary(), step);
     FileOfDiscs discs;
@@ -56,18 +131,8 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
         names.push_back(fmt::format("\"{}\"", info_of(column).name));
     });
     if (!names.empty()) discs.columns = fmt::format("[{}]", fmt::join(names, ", "));
-    auto out = std::back_inserter(discs.lines);
-    Rows rows;
-    for (std::uint64_t begin = 0; begin < discs.n_discs; begin += block) {
-        const std::uint64_t end = std::min(begin + block, discs.n_discs);
-        file.read(frame, begin, end, rows);
-        for (std::uint64_t id = begin; id < end; ++id) {
-            fmt::format_to(out, "{}", id);
-            for (const std::size_t place : places)
-                fmt::format_to(out, " {}", rows[place][id - begin]);
-            discs.lines += '\n';
-        }
-    }
+    discs.lines = std::make_unique<StreamOfDiscs>(
+        std::make_unique<LinesOfDiscs>(std::move(file), frame, std::move(places)));
     return discs;
 }
 

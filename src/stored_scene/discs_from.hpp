@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `discs.from`: the discs of another run's checkpoint or frame, as the lines that a
 // file of discs would have. So they are checked, and sent to their ranks, like all
-// listed discs. Takes some 100 bytes a disc on one rank while a run begins.
+// listed discs. The lines are made as they are read, some thousands at a time, so that one rank
+// never holds those of all discs.
 #pragma once
 
 #include <cstdint>
+#include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,10 +18,12 @@ namespace carrom {
 struct FileOfDiscs {
     std::uint64_t n_discs = 0;
     std::string columns; ///< `discs.columns` of the lines, or empty
-    std::string lines;   ///< `id x y vx vy`, per step, by id
+    /// `id x y vx vy`, per step, by id. Can be read again from its beginning. A file that can no
+    /// longer be read makes it throw.
+    std::unique_ptr<std::istream> lines;
 };
 
-/// Reads the frame of `step`, or the last one. `wanted` are columns beside the states,
+/// Finds the frame of `step`, or the last one. `wanted` are columns beside the states,
 /// read if the file has them. Call check_damage before. Throws InputError naming the
 /// file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,

@@ -49,7 +49,8 @@ std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
                                           fmt::format("has {} discs, and the scene is of {}",
                                                       file.n_discs, scene.n_discs)}});
                }));
-        stream = std::make_unique<std::istringstream>(std::move(file.lines));
+        stream = std::move(file.lines);
+        if (!stream) stream = std::make_unique<std::istringstream>();
     }
     ranks.broadcast(file.n_discs);
     ranks.broadcast(file.columns);
