@@ -6,13 +6,12 @@
 
 column     a column beside a wall collapses on a floor, with friction 0, 0.3 and 0.8
 heap       a block collapses on a floor of fixed discs into a heap, with the same frictions
-silo       discs run out through an opening: the rates of both programs, and Beverloo's law
 
-Each study prints a row of CSV for each friction or opening. Both programs begin from the same five
+Each study prints a row of CSV for each friction. Both programs begin from the same five
 starts. LAMMPS (lmp, gran/hooke/history) has linear springs, so stiff that discs overlap by less
 than 4 % of a radius, and the same restitution and friction. Two sizes of discs do not crystallize.
-A number fails if the means of the programs differ by more than the scatter of the starts. Without
-lmp the code is 77.
+The code is 1 if means of the programs differ by more than the scatter of the starts, and 77 without
+lmp. Not part of ctest: some slopes differ by 1.6 of it (docs/log/performance.md).
 """
 import argparse
 import json
@@ -29,19 +28,11 @@ G = 0.01
 RADII = (0.9, 1.1)
 RESTITUTION = 0.5
 STIFFNESS = 500
-FLOOR = 20  # the height of the silo's bottom
 
 COLUMN = {"box": (300, 80), "corner": (1.2, 1.2), "columns": 9, "rows": 26, "steps": 800,
-          "fixed": [], "bottom": "wall"}
+          "fixed": []}
 HEAP = {"box": (160, 60), "corner": (62, 2.2), "columns": 16, "rows": 16, "steps": 800,
-        "fixed": [(x, 0, 1) for x in range(1, 160, 2)], "bottom": "wall"}
-
-
-def silo(width):
-    fixed = [(20 + sign * (width / 2 + 0.5 + k), FLOOR, 0.5)
-             for sign in (-1, 1) for k in range(math.ceil(20 - width / 2))]
-    return {"box": (40, 130), "corner": (1.5, FLOOR + 2), "columns": 16, "rows": 40, "steps": 700,
-            "fixed": [body for body in fixed if 0 <= body[0] <= 40], "bottom": "open"}
+        "fixed": [(x, 0, 1) for x in range(1, 160, 2)]}
 
 
 def start_of(case, seed):
@@ -60,15 +51,14 @@ def start_of(case, seed):
 
 def scene_of(case, friction, count, steps, speed):
     rubs = f"tangential_restitution = 0\nfriction = {friction}\n"
-    bottom = 'kind = "open"\n' if case["bottom"] == "open" else \
-        f"restitution = {RESTITUTION}\n{rubs}"
     obstacles = (f"[effects.obstacles]\nrestitution = {RESTITUTION}\n{rubs}"
                  f"discs = {[list(map(float, body)) for body in case['fixed']]}\n"
                  if case["fixed"] else "")
     return f"""[box]
 size = [{case["box"][0]}, {case["box"][1]}]
 [box.bottom]
-{bottom}
+restitution = {RESTITUTION}
+{rubs}
 [discs]
 count = {count}
 generator = "file"
@@ -90,13 +80,12 @@ speed = {speed}
 {obstacles}"""
 
 
-def carrom(options, case, friction, discs, steps=None):
-    """The places at the end of the discs in the box."""
+def carrom(options, case, friction, discs):
+    """The places at the end, and the report."""
     with tempfile.TemporaryDirectory() as folder:
         scene = os.path.join(folder, "scene.toml")
         with open(scene, "w", encoding="utf-8") as file:
-            file.write(scene_of(case, friction, len(discs), steps or case["steps"],
-                                options.speed))
+            file.write(scene_of(case, friction, len(discs), case["steps"], options.speed))
         with open(os.path.join(folder, "discs.txt"), "w", encoding="utf-8") as file:
             for k, (x, y, radius) in enumerate(discs):
                 file.write(f"{k} {x:.17g} {y:.17g} 0 0 {radius} {radius ** 2:.17g}\n")
@@ -116,7 +105,7 @@ atom_style sphere
 comm_modify vel yes
 boundary f f p
 newton off
-region all block 0 {width} -400 {height} -0.5 0.5
+region all block 0 {width} -2 {height} -0.5 0.5
 create_box 3 all
 {atoms}
 set type 1 diameter {d1} mass {m1}
@@ -130,18 +119,17 @@ neigh_modify delay 0 every 10 check yes exclude type 3 3
 fix gravity moving gravity {g} vector 0 -1 0
 fix motion moving nve/sphere disc
 fix plane all enforce2d
-{floor}
+fix floor moving wall/gran hooke/history {kn} {kt} {gn} {gt} {mu} 1 yplane 0 NULL
 fix sides moving wall/gran hooke/history {kn} {kt} {gn} 0 0 1 xplane 0 {width}
 timestep {dt}
-thermo_modify lost ignore
 thermo 100000
 run {steps}
 write_dump all custom {dump} id type x y modify sort id
 """
 
 
-def lammps(case, friction, discs, steps=None):
-    """The places of the discs that are left at the end."""
+def lammps(case, friction, discs):
+    """The places at the end."""
     frequency = math.sqrt(2 * STIFFNESS)
     decay = -math.log(RESTITUTION)
     damping = 2 * frequency * decay / math.hypot(math.pi, decay)
@@ -151,9 +139,6 @@ def lammps(case, friction, discs, steps=None):
     atoms += [f"create_atoms 3 single {x} {y} 0" for x, y, _ in case["fixed"]]
     springs = {"kn": STIFFNESS, "kt": STIFFNESS * 2 / 7, "gn": damping, "gt": damping / 2,
                "mu": friction}
-    floor = "" if case["bottom"] == "open" else (
-        "fix floor moving wall/gran hooke/history {kn} {kt} {gn} {gt} {mu} 1 yplane 0 NULL"
-        .format(**springs))
     with tempfile.TemporaryDirectory() as folder:
         dump = os.path.join(folder, "last")
         script = os.path.join(folder, "in.heap")
@@ -161,8 +146,8 @@ def lammps(case, friction, discs, steps=None):
             file.write(LAMMPS.format(
                 width=case["box"][0], height=case["box"][1], atoms="\n".join(atoms),
                 d1=2 * RADII[0], d2=2 * RADII[1], m1=RADII[0] ** 2, m2=RADII[1] ** 2,
-                d3=2 * (case["fixed"][0][2] if case["fixed"] else 1), g=G, dt=dt, floor=floor,
-                steps=round((steps or case["steps"]) / dt), dump=dump, **springs))
+                d3=2 * (case["fixed"][0][2] if case["fixed"] else 1), g=G, dt=dt,
+                steps=round(case["steps"] / dt), dump=dump, **springs))
         subprocess.run(["lmp", "-in", script, "-log", "none", "-screen", "none"], check=True)
         with open(dump, encoding="utf-8") as file:
             rows = [line.split() for line in file.read().splitlines()[9:]]
@@ -208,48 +193,11 @@ def row_of(name, value, found):
     return row
 
 
-def run_out(options):
-    """Discs that pass the opening in a step, between two times."""
-    early, late = 250, 700
-    for width in (10,) if options.short else (8, 10, 12, 14):
-        case = silo(width)
-        found = {"carrom": [], "lammps": []}
-        for seed in range(1, 3 if options.short else 4):
-            discs = start_of(case, seed)
-            left = {"carrom": [], "lammps": []}
-            for steps in (early, late):
-                left["carrom"].append(sum(
-                    y > FLOOR for _, y in carrom(options, case, 0.5, discs, steps)[0]))
-                left["lammps"].append(sum(
-                    y > FLOOR for _, y in lammps(case, 0.5, discs, steps)))
-            for who, (before, after) in left.items():
-                found[who].append({"rate": (before - after) / (late - early)})
-        yield row_of("opening", width, found)
-
-
-def check_beverloo(rows):
-    """The rate to the power 2/3 is linear in the opening and vanishes at k mean diameters.
-
-    In two dimensions W = C b sqrt(g) (D - k d)^1.5, where b is the number of discs in a unit of
-    area, C is 0.5 to 0.8, and k is 0.5 to 2 (Beverloo 1961; Mankoc et al. 2007).
-    """
-    x = [row["opening"] for row in rows]
-    y = [row["rate_carrom"] ** (2 / 3) for row in rows]
-    mean_x, mean_y = statistics.fmean(x), statistics.fmean(y)
-    slope = (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) /
-             sum((a - mean_x) ** 2 for a in x))
-    k = (mean_x - mean_y / slope) / 2
-    worst = max(abs(mean_y + slope * (a - mean_x) - b) / b for a, b in zip(x, y))
-    constant = slope ** 1.5 / (0.8 / math.pi * math.sqrt(G))
-    print(f"# Beverloo: C = {constant:.3f}, k = {k:.2f}, off by {worst:.3f} at most")
-    return 0 if 0.5 < k < 2 and 0.5 < constant < 0.8 and worst < 0.05 else 1
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", metavar="CARROM")
-    parser.add_argument("study", choices=("column", "heap", "silo"))
+    parser.add_argument("study", choices=("column", "heap"))
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--speed", type=float, default=0.05)
     options = parser.parse_args()
@@ -257,8 +205,7 @@ def main():
         print("left out: there is no LAMMPS (lmp)", file=sys.stderr)
         return 77
     code, rows = 0, []
-    for row in (run_out(options) if options.study == "silo" else
-                collapse(options, COLUMN if options.study == "column" else HEAP)):
+    for row in collapse(options, COLUMN if options.study == "column" else HEAP):
         if not rows:
             print(",".join(row))
         rows.append(row)
@@ -270,8 +217,6 @@ def main():
                 print(f"{next(iter(row.values()))}: {name} differs by {away / scatter:.2f} "
                       "scatters", file=sys.stderr)
                 code = 1
-    if options.study == "silo" and not options.short:
-        code = max(code, check_beverloo(rows))
     return code
 
 
