@@ -11,6 +11,8 @@ namespace {
 
 double friction_of(const Surface& surface) { return surface.rubs() ? surface.friction : 0; }
 
+} // namespace
+
 /// Numbers of the cells from `low` to `high` along one axis. Around a periodic box each cell is
 /// named once.
 class CellLine {
@@ -39,6 +41,8 @@ private:
     double per_length_;
     bool is_periodic_;
 };
+
+namespace {
 
 /// The point of a segment that is nearest to (x, y).
 std::array<double, 2> nearest_point(const Segment& line, double x, double y) {
