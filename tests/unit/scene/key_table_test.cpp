@@ -135,13 +135,18 @@ Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
         texts.insert(texts.end(),
                      {"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
                       "effects.thermostat.temperature=0.01"});
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(),
+                     {"effects.gravity.y=-0.01", "effects.contact.kind=restitution",
+                      "effects.contact.restitution=0.9", "effects.lasting_contacts.speed=0.05"});
     if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");
     if (draw.below(8) == 0) // with keys that need these quantities, and periodic sides
         texts.insert(texts.end(), {"box.left.kind=periodic", "box.right.kind=periodic",
                                    "box.bottom.kind=periodic", "box.top.kind=periodic",
                                    "output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"structure_factor\", "
-                                   "\"diffusion\"]"});
+                                   "\"diffusion\", \"correlations\"]",
+                                   "output.measurements.correlation_points=8"});
     if (draw.below(8) == 0) // without quantities that few scenes may have
         texts.insert(texts.end(), {"output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"profiles\"]"});
