@@ -257,7 +257,6 @@ void SegmentedFile::refuse_other_file() const {
 
 void SegmentedFile::commit_here() {
     sync_segment();
-    refuse_other_file();
     replace_file(path_, [this](const std::string& beside) {
         h5::create_file(beside, [this](hid_t file) {
             build_(file);
@@ -265,7 +264,9 @@ void SegmentedFile::commit_here() {
             write_index(file, index_);
         });
         seal_index(beside);
-        seal_ = seal_of(beside);
+        const auto seal = seal_of(beside);
+        refuse_other_file(); // at the last moment, because another file may come meanwhile
+        seal_ = seal;
     });
     is_cut_ = false;
     // Segments that the small file does not name belong to no recording.
