@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The discs of one rank: its own, in the order of their cells, and behind them the halo that its
-// neighbours have sent. Moves them between ranks: migrate, sort, fetch the halo.
+// neighbours have sent. The rank owns a strip, or a part of one (domains.hpp). Moves them between
+// ranks: migrate, sort, fetch the halo.
 //
 // Who may send to whom follows from cuts and bounds that all ranks share, so
 // `farthest` and `reach` must be the same on all ranks. Price: two passes over the own
@@ -8,14 +9,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
 #include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
-#include "domain/strips.hpp"
+#include "domain/domains.hpp"
 #include "domain/transfer.hpp"
 #include "dynamics/effects.hpp"
 #include "parallel/communicator.hpp"
@@ -23,18 +26,25 @@
 
 namespace carrom {
 
+/// How many ranks share a strip. It affects the cost only.
+struct GroupChoice {
+    double halo_spacings = 0;        ///< the usual depth of halos, in mean distances of discs
+    std::optional<int> ranks_across; ///< unset: by that depth, the box and the number of ranks
+};
+
 class StripDiscs {
 public:
-    /// Takes discs in any distribution and gives them to the owners of equal strips.
+    /// Takes discs in any distribution and gives them to the owners of equal domains.
     /// In a periodic box own discs get the images in the box when they migrate, and
     /// the halo has images of own discs, too. `columns` run along the discs; missing
     /// numbers are 0. **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, std::vector<DiscState> discs,
-               const Periods& periods = {}, SideColumns columns = {});
+               const Periods& periods = {}, SideColumns columns = {},
+               const GroupChoice& choice = {});
 
-    /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
-    /// has moved by more than `farthest` since the last migration. `companion` runs along the own
-    /// discs, or is null. **Collective.**
+    /// Forgets the halo and sends each own disc to the rank whose domain holds it at `time`. No
+    /// disc has moved by more than `farthest` since the last migration. `companion` runs along the
+    /// own discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<DiscState>* companion);
 
     /// Brings the own discs, and all arrays along them, into the order of their cells
@@ -44,8 +54,8 @@ public:
     /// Sorts into cells without flights.
     void sort_cells(const GridGeometry& geometry, double time, int n_threads);
 
-    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
-    /// puts them into cells. The own discs have migrated and been sorted for the same time.
+    /// Appends to the own discs those of other ranks within `reach` of the own domain at `time`,
+    /// and puts them into cells. The own discs have migrated and been sorted for the same time.
     /// **Collective.**
     void fetch_halo(double time, double reach, std::vector<DiscState>* companion);
 
@@ -91,7 +101,7 @@ public:
     }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
-    const Strips& strips() const { return strips_; }
+    const Domains& domains() const { return domains_; }
     /// The other ranks that had own discs in their halo when it was fetched.
     std::span<const int> neighbours() const {
         return periods_.are_any() ? other_partners_ : halo_plan_.partners;
@@ -122,7 +132,7 @@ public:
         columns_.resize(n_own_);
     }
 
-    /// Whether each own disc lies in its strip at `time`, and all ranks together have
+    /// Whether each own disc lies in its domain at `time`, and all ranks together have
     /// each of 0 .. n-1 once, departed ones included. **Collective.**
     bool is_valid(double time) const;
 
@@ -130,20 +140,23 @@ private:
     template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
     void set_home_images(double time, double farthest, std::vector<DiscState>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
+    Domains cut_across(Strips strips, double time) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
+    std::pair<double, double> place_in_box(const DiscState& disc, double time) const;
     Companions companions(std::vector<DiscState>* states);
 
     Communicator communicator_;
-    double length_; ///< length of the box along the strips' axis
+    Box box_;
     Periods periods_;
     std::vector<DiscState> discs_; ///< own, then halo
     SideColumns columns_;          ///< along `discs_`
     std::size_t n_own_ = 0;
-    std::uint64_t n_total_ = 0, n_with_departed_ = 0;
+    std::uint64_t n_total_, n_with_departed_;
     std::vector<DiscState> departed_; ///< discs at the places where they have left
     SideColumns departed_columns_;    ///< along `departed_`
-    Strips strips_,
-        redistributed_strips_; ///< the cuts now, and those of the last migration
+    std::vector<int> group_sizes_;    ///< by strip
+    Domains domains_,
+        redistributed_domains_; ///< the cuts now, and those of the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
     bool is_sorted_ = false;  ///< the grid has the own discs' places

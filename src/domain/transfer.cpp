@@ -33,37 +33,37 @@ private:
 
 } // namespace
 
-TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
+TransferPlan plan_migration(const Domains& before, const Domains& domains, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest) {
     TransferPlan plan;
-    plan.partners = movers_between(old_strips, strips, rank, farthest);
+    plan.partners = movers_between(before, domains, rank, farthest);
     plan.leaving.resize(plan.partners.size());
-    if (strips.size() == 1) return plan;
+    if (domains.size() == 1) return plan;
     const PartnerPlaces places(plan.partners);
-    const double low = strips.low(rank), high = strips.high(rank);
+    const Domain mine = domains.of(rank);
     for (const PlaceRange range : searched) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            const double x = strips.place_of(own[i], time);
-            if (x >= low && x < high) continue;
-            const int owner = strips.owner(x);
+            const auto [along, across] = domains.place_of(own[i], time);
+            if (mine.holds(along, across)) continue;
+            const int owner = domains.owner(along, across);
             if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
         }
     }
     return plan;
 }
 
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
+TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                        std::span<const PlaceRange> searched, double time, double reach) {
     TransferPlan plan;
-    plan.partners = strips.neighbours_within(rank, reach);
+    plan.partners = domains.neighbours_within(rank, reach);
     plan.leaving.resize(plan.partners.size());
     for (std::size_t k = 0; k < plan.partners.size(); ++k) {
-        const Strip theirs = strips.of(plan.partners[k]);
+        const Domain theirs = domains.of(plan.partners[k]);
         for (const PlaceRange range : searched) {
             for (std::size_t i = range.begin; i < range.end; ++i) {
-                const double x = strips.place_of(own[i], time);
-                if (theirs.meets(x - reach, x + reach))
+                const auto [along, across] = domains.place_of(own[i], time);
+                if (theirs.is_within(reach, along, across))
                     plan.leaving[k].push_back(static_cast<LocalIndex>(i));
             }
         }

@@ -14,7 +14,7 @@
 
 #include "core/disc_state.hpp"
 #include "core/image.hpp"
-#include "domain/strips.hpp"
+#include "domain/domains.hpp"
 #include "parallel/neighbour_exchange.hpp"
 
 namespace carrom {
@@ -31,33 +31,33 @@ struct TransferPlan {
         images; ///< along `leaving`: the images that go there; only for halos of periodic boxes
 };
 
-/// The discs whose place at `time` lies in another rank's strip. They were in this
-/// rank's strip of `old_strips`, or at most `farthest` away. `searched` are ascending
-/// ranges of own discs that hold all discs outside of the strip.
-TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
+/// The discs whose place at `time` lies in another rank's domain. They were in this rank's domain
+/// of `before`, or at most `farthest` away along each axis. `searched` are ascending ranges of own
+/// discs that hold all discs outside of the domain.
+TransferPlan plan_migration(const Domains& before, const Domains& domains, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest);
 
-/// The discs within `reach` of another rank's strip at `time`. Empty strips get none.
-/// `searched` are ascending ranges of own discs that hold all discs not further than
-/// `reach` inside the strip.
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
+/// The discs within `reach` of another rank's domain at `time`, along each axis. Empty domains get
+/// none. `searched` are ascending ranges of own discs that hold all discs not further than `reach`
+/// inside the domain.
+TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                        std::span<const PlaceRange> searched, double time, double reach);
 
 /// Plans by the places of the discs' images in a box with periodic sides. After a
 /// migration these are the images in the box. In a halo a disc also goes to its own
 /// rank, as other images, and may go to a rank several times.
-TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
+TransferPlan plan_periodic_migration(const Domains& before, const Domains& domains, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods);
 /// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
+TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> searched, double time, double reach,
                                 const Periods& periods);
 
-/// The places in the rank's strip that are further than `reach` from its ends, and
-/// from the sides of the box that are periodic along y.
-Inside interior(const Strips& strips, int rank, double reach, const Periods& periods);
+/// The places in the rank's domain that are further than `reach` from its sides, where it ends, or
+/// the box does and is periodic.
+Inside interior(const Domains& domains, int rank, double reach, const Periods& periods);
 
 /// Sends the values that `plan` names of an array along the own
 /// discs. Returns the values that came, grouped by partner.

@@ -51,7 +51,7 @@ protected:
     /// Runs windows until `n_micro_done_` is `target`, which is not beyond the next
     /// sync. **Collective.**
     virtual void advance_to(std::int64_t target) = 0;
-    /// Sends each own disc to the rank whose strip holds it now. **Collective.**
+    /// Sends each own disc to the rank whose domain holds it now. **Collective.**
     virtual void migrate() = 0;
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**

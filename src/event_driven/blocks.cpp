@@ -63,40 +63,50 @@ int cells_along(double length, double width) {
 
 } // namespace
 
-/// Own columns end where the strip does: a block's halo counts from its last column, the rank's
-/// from the strip.
+/// Own columns end where the domain does: a block's halo counts from its last column, the rank's
+/// from the domain. The last own row may end beyond the domain, by less than a reach.
 template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
-    const Axis axis = discs_.strips().axis();
+    const Domains& domains = discs_.domains();
+    const Axis axis = domains.axis();
+    const Domain mine = domains.of(communicator_.rank());
     const auto [low, across_low] = turned(axis, box.x_low, box.y_low);
     const auto [high, across_high] = turned(axis, box.x_high, box.y_high);
-    const double from = std::max(low, discs_.strips().low(communicator_.rank()));
-    const double to = std::min(high, discs_.strips().high(communicator_.rank()));
+    const double from = std::max(low, mine.along.low), to = std::min(high, mine.along.high);
+    const double across_from = std::max(across_low, mine.across.low),
+                 across_to = std::min(across_high, mine.across.high);
     const auto n_for_cells = static_cast<std::uint64_t>(static_cast<double>(discs_.n_own()) *
                                                         std::min(mean_crowding_, most_cells));
-    const double least_width = least_cell_width(reach, dynamics_.box().shortest(),
-                                                std::max(to - from, 0.0), n_for_cells);
+    const double height = domains.are_cut_across() ? std::max(across_to - across_from, 0.0)
+                                                   : dynamics_.box().shortest();
+    const double least_width = least_cell_width(reach, height, std::max(to - from, 0.0),
+                                                n_for_cells);
     const double n_whole = std::max(1.0, std::floor((to - from) / least_width));
     GridGeometry geometry;
     geometry.axis = axis;
     geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
     geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
     const int n_halo = halo_depth_ * geometry.n_reach;
-    const bool goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
-    const auto n_beside = [&](double beside) { // columns of other strips, or of images
-        if (discs_.periods().along(axis) != 0) return n_halo;
-        return communicator_.size() > 1 ? std::min(n_halo, cells_along(beside, geometry.cell_width))
-                                        : 0;
+    // The number of columns or rows of other domains, or of images.
+    const auto n_beside = [&](double beside, Axis of, bool is_cut) {
+        if (discs_.periods().along(of) != 0) return n_halo;
+        return is_cut ? std::min(n_halo, cells_along(beside, geometry.cell_width)) : 0;
     };
-    own_cells_.first_column = n_beside(from - low);
+    const auto n_along = [&](double beside) {
+        return n_beside(beside, axis, domains.n_strips() > 1);
+    };
+    const auto n_across = [&](double beside) {
+        return n_beside(beside, other_axis(axis), domains.are_cut_across());
+    };
+    own_cells_.first_column = n_along(from - low);
     own_cells_.end_column = own_cells_.first_column + cells_along(to - from, geometry.cell_width);
-    geometry.n_columns = own_cells_.end_column + n_beside(high - to);
-    own_cells_.first_row = goes_round_across ? n_halo : 0;
+    geometry.n_columns = own_cells_.end_column + n_along(high - to);
+    own_cells_.first_row = n_across(across_from - across_low);
     own_cells_.end_row = own_cells_.first_row +
-                         cells_along(across_high - across_low, geometry.cell_width);
-    geometry.n_rows = own_cells_.end_row + own_cells_.first_row;
+                         cells_along(across_to - across_from, geometry.cell_width);
+    geometry.n_rows = own_cells_.end_row + n_across(across_high - across_to);
     geometry.low = from - own_cells_.first_column * geometry.cell_width;
-    geometry.across_low = across_low - own_cells_.first_row * geometry.cell_width;
+    geometry.across_low = across_from - own_cells_.first_row * geometry.cell_width;
     return geometry;
 }
 

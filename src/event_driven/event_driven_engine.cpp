@@ -296,7 +296,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
     is_largest_known_ = false; // noise and thermostats change speeds
-    jumped_ += dynamics_.jump_at(discs_.strips().axis(), time_);
+    const Axis axis = discs_.domains().axis();
+    const double across = discs_.domains().are_cut_across()
+                              ? dynamics_.jump_at(other_axis(axis), time_)
+                              : 0;
+    jumped_ += std::max(dynamics_.jump_at(axis, time_), across);
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 

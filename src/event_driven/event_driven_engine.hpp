@@ -2,7 +2,7 @@
 // Event-driven molecular dynamics on ranks and threads, by speculative runs of blocks of cells
 // (docs/understanding/method.md, section 8). A window of time goes through these phases:
 //
-//   redistribute  discs go to the strips that own them, the halo comes from the neighbours, and
+//   redistribute  discs go to the ranks that own them, the halo comes from the neighbours, and
 //                 all are sorted into cells; the own cells are cut into blocks
 //   run           a free thread runs each block with its halo, without the other blocks
 //   validate      the histories of each block's ring are compared with those that the owners
@@ -120,7 +120,7 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< the frame's motion along the strips' axis since the last migration
+    double jumped_ = 0; ///< the frame's motion since the last migration, in directions of cuts
     double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
     double last_duration_ = 1;  ///< duration of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all

@@ -108,7 +108,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridGeometry geometry = make_geometry(seen, discs_.strips().axis(), usual_reach,
+    const GridGeometry geometry = make_geometry(seen, discs_.domains().axis(), usual_reach,
                                                 discs_.n_own(), tuning_.cell_width.value_or(0));
     discs_.sort(geometry, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
                 tuning_.threads, companion());
