@@ -12,15 +12,18 @@ namespace {
 
 /// Up to this many discs seen for each own one, strips stay whole. Beyond it, groups must see less
 /// than this share of what strips do.
-constexpr double seen_by_strips = 1.25, worth_a_group = 0.9;
+constexpr double seen_by_strips = 1.3, worth_a_group = 0.9;
 
-/// The area that a rank sees divided by what it owns.
+/// The area that ranks see divided by what they own, in the mean. At a wall they see nothing
+/// beyond.
 double share_seen(const GroupNeeds& needs, int n_strips) {
     const double n_across = static_cast<double>(needs.n_ranks) / n_strips;
-    const auto seen = [&](double length, double parts, bool has_images) {
-        return parts > 1 || has_images ? 1 + 2 * needs.halo * parts / length : 1;
+    const auto seen = [&](double length, double parts, bool is_periodic) {
+        const double sides = is_periodic ? parts : parts - 1;
+        const double share = 1 + 2 * needs.halo * sides / length;
+        return is_periodic ? share : std::min(share, parts);
     };
-    return seen(needs.length, n_strips, false) *
+    return seen(needs.length, n_strips, needs.is_periodic) *
            seen(needs.width, n_across, needs.is_periodic_across);
 }
 
@@ -44,6 +47,12 @@ Domains::Domains(Strips strips, std::vector<Strips> groups)
     ensure(groups_.size() == static_cast<std::size_t>(strips_.size()),
            "each strip needs one group of ranks");
     for (const Strips& group : groups_) first_ranks_.push_back(first_ranks_.back() + group.size());
+}
+
+int Domains::largest_group() const {
+    int most = 0;
+    for (const Strips& group : groups_) most = std::max(most, group.size());
+    return most;
 }
 
 int Domains::strip_of(int rank) const {

@@ -50,6 +50,7 @@ public:
     Axis axis() const { return strips_.axis(); }
     int size() const { return first_ranks_.back(); } ///< number of ranks
     int n_strips() const { return strips_.size(); }
+    int largest_group() const;
     bool are_cut_across() const { return size() > n_strips(); }
     const Strips& strips() const { return strips_; }
     const Strips& group(int strip) const { return groups_[static_cast<std::size_t>(strip)]; }
@@ -90,9 +91,9 @@ std::vector<int> movers_between(const Domains& before, const Domains& after, int
 /// What the choice of groups depends on. Lengths are in any unit.
 struct GroupNeeds {
     int n_ranks = 1;
-    double length = 1, width = 1;    ///< of the box along the strips' axis, and across it
-    double halo = 0;                 ///< depth of a rank's halo
-    bool is_periodic_across = false; ///< a strip has images of its own discs in its halo
+    double length = 1, width = 1; ///< of the box along the strips' axis, and across it
+    double halo = 0;              ///< depth of a rank's halo
+    bool is_periodic = false, is_periodic_across = false; ///< the box, in these directions
 };
 
 /// How many ranks share each strip. They differ by at most one. Strips stay whole unless groups

@@ -123,18 +123,27 @@ Inside interior(const Domains& domains, int rank, double reach, const Periods& p
     return {x.low + reach, x.high - reach, y.low + reach, y.high - reach};
 }
 
-TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
-                                std::span<const PlaceRange> ranges, double time, double reach,
-                                const Periods& periods) {
-    TransferPlan plan;
-    const Axis axis = domains.axis();
-    const double period = periods.along(axis), period_across = periods.along(other_axis(axis)),
-                 distance = reach + margin * std::max(periods.x, periods.y);
+std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
+                               const Periods& periods) {
+    if (!periods.are_any()) return domains.neighbours_within(rank, reach);
+    const double distance = reach + margin * std::max(periods.x, periods.y);
+    std::vector<int> partners;
     for (int other = 0; other < domains.size(); ++other) {
         if (are_near(domains, std::min(rank, other), domains, std::max(rank, other), distance,
                      distance, periods))
-            plan.partners.push_back(other);
+            partners.push_back(other);
     }
+    return partners;
+}
+
+TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
+                                std::span<const PlaceRange> ranges, double time,
+                                const HaloDepth& depth, const Periods& periods) {
+    TransferPlan plan;
+    const Axis axis = domains.axis();
+    const double period = periods.along(axis), period_across = periods.along(other_axis(axis)),
+                 reach = depth.reach;
+    plan.partners = halo_partners(domains, rank, reach, periods);
     plan.leaving.resize(plan.partners.size());
     plan.images.resize(plan.partners.size());
     std::vector<Domain> theirs;
@@ -142,8 +151,8 @@ TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<cons
     // Moving rows of boxes slide along x, so strips are cut along y then.
     ensure(axis == Axis::y || !periods.are_moving(), "strips are cut along the rows of boxes");
     const double slide = axis == Axis::y ? periods.offset_at(time) : 0;
-    const auto is_far = [reach](const Strip& strip, double place) {
-        return place + reach < strip.low || place - reach > strip.high;
+    const auto is_far = [](const Strip& strip, double place, double distance) {
+        return place + distance < strip.low || place - distance > strip.high;
     };
     const auto list_images = [&](LocalIndex i) {
         const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
@@ -152,12 +161,16 @@ TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<cons
             const Strip &strip = theirs[k].along, &strip_across = theirs[k].across;
             const Shifts along(u, reach, strip.low, strip.high, period);
             for (int n = along.first; n <= along.last; ++n) {
-                if (is_far(strip, u + n * period)) continue;
+                const double image_u = u + n * period;
+                if (is_far(strip, image_u, reach)) continue;
+                const bool is_deep = depth.beyond < 0 || is_far(strip, image_u, depth.beyond);
                 const double beside = v + n * slide;
                 const Shifts across(beside, reach, strip_across.low, strip_across.high,
                                     period_across);
                 for (int m = across.first; m <= across.last; ++m) {
-                    if (is_far(strip_across, beside + m * period_across)) continue;
+                    const double image_v = beside + m * period_across;
+                    if (is_far(strip_across, image_v, reach)) continue;
+                    if (!is_deep && !is_far(strip_across, image_v, depth.beyond)) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
                     const auto [by_x, by_y] = turned(axis, n, m);
                     plan.leaving[k].push_back(i);

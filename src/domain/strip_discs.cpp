@@ -36,6 +36,7 @@ std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks
     needs.width = along(other_axis(axis), box);
     needs.halo = choice.halo_spacings * std::sqrt(needs.length / static_cast<double>(n_discs + 1)) *
                  std::sqrt(needs.width);
+    needs.is_periodic = periods.along(axis) != 0;
     needs.is_periodic_across = periods.along(other_axis(axis)) != 0;
     return choose_groups(needs);
 }
@@ -245,16 +246,10 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 0;
     }
-    const int rank = communicator_.rank();
-    const std::vector<PlaceRange> searched = places_outside(
-        interior(domains_, rank, reach, periods_));
-    if (periods_.are_any()) {
-        halo_plan_ = plan_periodic_halo(domains_, rank, own(), searched, time, reach, periods_);
-        other_partners_ = halo_plan_.partners;
-        std::erase(other_partners_, rank);
-    } else {
-        halo_plan_ = plan_halo(domains_, rank, own(), searched, time, reach);
-    }
+    more_halo_.clear();
+    halo_plan_ = plan_of_halo(time, {reach});
+    other_partners_ = halo_plan_.partners;
+    std::erase(other_partners_, communicator_.rank());
     Received<DiscState> halo;
     halo.offsets = {0};
     for (std::vector<DiscState>* values : {&discs_, companion}) {
@@ -283,6 +278,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
 void StripDiscs::send_updates(std::span<const LocalIndex> changed,
                               std::vector<LocalIndex>& updates) {
     if (has_no_halo()) return;
+    ensure(more_halo_.empty(), "a halo that has grown gets no updates");
     std::vector<std::vector<Update>> out(halo_plan_.partners.size());
     for (const LocalIndex index : changed) {
         if (index >= n_own_ || is_shown_[index] == 0) continue;
@@ -320,24 +316,6 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
         for (std::size_t i = 0; i < values_in.items.size(); ++i)
             values[updates[n_before + i]] = values_in.items[i];
     });
-}
-
-void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
-                                  std::vector<LocalIndex>& reported) {
-    if (has_no_halo()) return;
-    std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
-    for (const LocalIndex index : of_halo) {
-        const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(),
-                                             std::size_t{index});
-        const auto k = static_cast<std::size_t>(behind - halo_offsets_.begin()) - 1;
-        out[k].push_back(index - halo_offsets_[k]);
-    }
-    Received<std::uint64_t> in;
-    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
-    for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const std::uint64_t place : in.from(k))
-            reported.push_back(halo_plan_.leaving[k][place]);
-    }
 }
 
 bool StripDiscs::is_valid(double time) const {

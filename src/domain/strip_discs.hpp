@@ -32,6 +32,14 @@ struct GroupChoice {
     std::optional<int> ranks_across; ///< unset: by that depth, the box and the number of ranks
 };
 
+/// What a rank has done, in any unit that all ranks share. Work for pairs of near discs, such as
+/// collisions, is counted apart, because it grows with the density around a disc.
+struct RankWork {
+    std::uint64_t of_discs = 0, of_pairs = 0;
+
+    std::uint64_t all() const { return of_discs + of_pairs; }
+};
+
 class StripDiscs {
 public:
     /// Takes discs in any distribution and gives them to the owners of equal domains.
@@ -59,6 +67,11 @@ public:
     /// **Collective.**
     void fetch_halo(double time, double reach, std::vector<DiscState>* companion);
 
+    /// Adds the discs within `reach` to the halos of those ranks that `want` it. Their halos hold
+    /// the discs within `beyond` already, which keep their places. Until discs are sorted again,
+    /// there are no updates. **Collective.**
+    void fetch_more_halo(double time, double beyond, double reach, bool wants);
+
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their
     /// halo. Takes over those of the own halo, and appends their places to `updates`.
     /// **Collective.**
@@ -72,16 +85,20 @@ public:
         Received<T> in;
         transfer(exchange_, halo_plan_, std::span<const T>(values), in);
         values.insert(values.end(), in.items.begin(), in.items.end());
+        for (const HaloPart& part : more_halo_) {
+            transfer(exchange_, part.plan, std::span<const T>(values), in);
+            values.insert(values.end(), in.items.begin(), in.items.end());
+        }
     }
 
     /// Reports discs of the halo to their owners. Appends to `reported` the own discs that others
     /// have reported. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
-    /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds
-    /// the mean by a factor of more than `above`. The discs follow when they migrate next.
-    /// **Collective.**
-    void rebalance(double time, double above);
+    /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest one
+    /// exceeds the mean by a factor of more than `above`. Discs count at their places at `time`,
+    /// and follow when they migrate next. **Collective.**
+    void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
     const CellGrid& grid() const { return grid_; }
@@ -128,6 +145,7 @@ public:
 
     /// Removes the discs of the halo.
     void forget_halo() {
+        more_halo_.clear();
         discs_.resize(n_own_);
         columns_.resize(n_own_);
     }
@@ -137,12 +155,21 @@ public:
     bool is_valid(double time) const;
 
 private:
+    /// Discs that have come to the halo later.
+    struct HaloPart {
+        TransferPlan plan;
+        std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
+    };
+
     template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
     void set_home_images(double time, double farthest, std::vector<DiscState>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
-    Domains cut_across(Strips strips, double time) const;
+    template <class Visit> void weigh(const RankWork& work, double unit, const Visit& visit) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
     std::pair<double, double> place_in_box(const DiscState& disc, double time) const;
+    TransferPlan plan_of_halo(double time, const HaloDepth& depth) const;
+    void report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
+                     std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(std::vector<DiscState>* states);
 
     Communicator communicator_;
@@ -164,7 +191,8 @@ private:
     TransferPlan halo_plan_;
     std::vector<int> other_partners_;       ///< in a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
-    std::vector<std::uint8_t> is_shown_;    ///< by own disc: a partner has it in its halo
+    std::vector<HaloPart> more_halo_;
+    std::vector<std::uint8_t> is_shown_; ///< by own disc: a partner has it in its halo
 };
 
 } // namespace carrom

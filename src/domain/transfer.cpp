@@ -54,16 +54,17 @@ TransferPlan plan_migration(const Domains& before, const Domains& domains, int r
 }
 
 TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
-                       std::span<const PlaceRange> searched, double time, double reach) {
+                       std::span<const PlaceRange> searched, double time, const HaloDepth& depth) {
     TransferPlan plan;
-    plan.partners = domains.neighbours_within(rank, reach);
+    plan.partners = domains.neighbours_within(rank, depth.reach);
     plan.leaving.resize(plan.partners.size());
     for (std::size_t k = 0; k < plan.partners.size(); ++k) {
         const Domain theirs = domains.of(plan.partners[k]);
         for (const PlaceRange range : searched) {
             for (std::size_t i = range.begin; i < range.end; ++i) {
                 const auto [along, across] = domains.place_of(own[i], time);
-                if (theirs.is_within(reach, along, across))
+                if (theirs.is_within(depth.reach, along, across) &&
+                    (depth.beyond < 0 || !theirs.is_within(depth.beyond, along, across)))
                     plan.leaving[k].push_back(static_cast<LocalIndex>(i));
             }
         }

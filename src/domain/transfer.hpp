@@ -38,11 +38,16 @@ TransferPlan plan_migration(const Domains& before, const Domains& domains, int r
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest);
 
-/// The discs within `reach` of another rank's domain at `time`, along each axis. Empty domains get
-/// none. `searched` are ascending ranges of own discs that hold all discs not further than `reach`
-/// inside the domain.
+/// A halo holds the discs within `reach` of a domain, along each axis, but for those within
+/// `beyond` of it; it leaves out none if that is negative.
+struct HaloDepth {
+    double reach = 0, beyond = -1;
+};
+
+/// The discs for the halos of other ranks at `time`. Empty domains get none. `searched` are
+/// ascending ranges of own discs that hold all discs not further than the reach inside the domain.
 TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
-                       std::span<const PlaceRange> searched, double time, double reach);
+                       std::span<const PlaceRange> searched, double time, const HaloDepth& depth);
 
 /// Plans by the places of the discs' images in a box with periodic sides. After a
 /// migration these are the images in the box. In a halo a disc also goes to its own
@@ -52,8 +57,11 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
                                      const Periods& periods);
 /// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
 TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
-                                std::span<const PlaceRange> searched, double time, double reach,
-                                const Periods& periods);
+                                std::span<const PlaceRange> searched, double time,
+                                const HaloDepth& depth, const Periods& periods);
+/// The partners of both plans.
+std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
+                               const Periods& periods);
 
 /// The places in the rank's domain that are further than `reach` from its sides, where it ends, or
 /// the box does and is periodic.

@@ -28,9 +28,9 @@ void Engine::note_crossing(const DiscState& disc, double x, double y, const Peri
 namespace {
 
 /// Halos are usually this deep, in mean distances of discs: a reach of the time-stepped method, and
-/// six of the event-driven one, whose windows are longer (tests/performance/rank_loads.cpp).
+/// three of the event-driven one, whose windows are longer (tests/performance/rank_loads.cpp).
 GroupChoice group_choice(Method method, const Tuning& tuning) {
-    return {method == Method::time_stepped ? 1.5 : 19, tuning.ranks_across};
+    return {method == Method::time_stepped ? 1.2 : 10, tuning.ranks_across};
 }
 
 /// Includes columns of the scene that no collision changes, because they go where the discs go.
@@ -89,7 +89,7 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
-    discs_.rebalance(time_, tuning_.rebalance_above);
+    discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
     redistribute_now();
 }
 
@@ -159,7 +159,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     ++n_syncs_;
     if (tuning_.rebalance_every == 0 || n_syncs_ % tuning_.rebalance_every != 0) return;
     const PhaseClock::Scope wait(phases_, Phase::wait);
-    discs_.rebalance(0, tuning_.rebalance_above);
+    discs_.rebalance(0, tuning_.rebalance_above, std::exchange(rank_work_, {}));
 }
 
 /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.

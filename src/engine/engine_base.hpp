@@ -72,6 +72,12 @@ protected:
     /// **Collective.**
     void refuse_long_flights(double speed) const;
 
+    /// Counts the discs that a window sees as work of this rank, and returns their number.
+    std::size_t count_seen() {
+        rank_work_.of_discs += discs_.all().size();
+        return discs_.all().size();
+    }
+
     Population population() const { return discs_.population(); }
     /// The present walls in the coordinates of states.
     Extent extent() const;
@@ -93,6 +99,7 @@ protected:
     double redistributed_time_ = 0; ///< when discs last migrated
     double largest_speed_ = 0;      ///< no own disc is faster
     double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
+    RankWork rank_work_;      ///< since ranks were last compared
     PhaseClock phases_;
 
 private:

@@ -16,8 +16,6 @@ constexpr double uneven = 1.5;
 /// Where discs crowd, there are at most this many times as many cells as in an even gas, because
 /// empty cells take memory too.
 constexpr double most_cells = 4;
-/// What a disc that a run sees costs, in units of a collision.
-constexpr double work_of_disc = 0.14;
 constexpr double most_units = 0x1p31; ///< so that sums of whole units fit 32 bits
 
 /// Cells and windows by the mean density cost as little while discs are hardly denser than that.
@@ -86,7 +84,7 @@ template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(do
     geometry.axis = axis;
     geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
     geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
-    const int n_halo = halo_depth_ * geometry.n_reach;
+    const int n_halo = laid_depth() * geometry.n_reach;
     // The number of columns or rows of other domains, or of images.
     const auto n_beside = [&](double beside, Axis of, bool is_cut) {
         if (discs_.periods().along(of) != 0) return n_halo;
@@ -120,7 +118,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
             has_threads || (!is_set && are_uneven(discs_.grid(), cuts_.blocks(), tuning_.threads))))
         cut_by_work(n_pairs);
     const std::vector<CellBlock>& blocks = cuts_.blocks();
-    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != blocks.size();
+    const bool is_new = common_depth_ == first_halo_depth() || blocks_.size() != blocks.size();
     blocks_.resize(blocks.size());
     for (std::size_t k = 0; k < blocks.size(); ++k) {
         blocks_[k].cells = blocks[k];

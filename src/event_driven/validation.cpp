@@ -123,11 +123,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
     n_rounds_ += 1;
 }
 
-/// Doubles the halo of all marked blocks that do not have the whole box yet. Returns true if the
-/// rank's halo must then become deeper, so that all blocks have to run again. **Collective.**
+/// Doubles the halo of all marked blocks that do not have the whole box yet. Ranks whose halo must
+/// then become deeper get more of it, as far as there are cells for it. Returns true if the halos
+/// of all ranks must become deeper than that, so that all blocks have to run again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
-    std::uint64_t n_widened = 0;
+    JointReduction wanted;
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
         if (sees_all(block)) {
@@ -135,19 +136,28 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
             continue;
         }
         block.halo *= 2;
-        ++n_widened;
+        ++wanted.sums[0];
         deepest = std::max(deepest, halo_depth_for(block));
     }
     if (discs_.periods().are_any()) { // a halo that goes once around the box has all discs
         const int around = static_cast<int>(std::ceil(dynamics_.box().longest() / reach())) + 3;
         deepest = std::max(halo_depth_, std::min(deepest, around));
     }
-    ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
-    if (discs_.has_no_halo()) return false;
-    const auto wanted = static_cast<int>(communicator_.max(std::int64_t{deepest}));
-    if (wanted == halo_depth_) return false;
-    halo_depth_ = wanted;
-    return true;
+    const bool wants = deepest > halo_depth_;
+    wanted.sums[1] = wants ? 1 : 0;
+    wanted.largest = deepest;
+    if (communicator_.size() > 1) reduce(wanted, communicator_);
+    ensure(wanted.sums[0] > 0, "blocks that have seen the whole box disagree");
+    if (discs_.has_no_halo() || wanted.sums[1] == 0) return false;
+    if (wanted.largest > laid_depth()) {
+        common_depth_ = static_cast<int>(wanted.largest);
+        return true;
+    }
+    const PhaseClock::Scope exchange(phases_, Phase::exchange);
+    discs_.fetch_more_halo(time_, fetched_reach(common_depth_), fetched_reach(laid_depth()), wants);
+    if (wants) halo_depth_ = laid_depth();
+    histories_.resize(discs_.all().size());
+    return false;
 }
 
 /// The depth of the rank's halo that the block's halo needs, in reaches. A block needs none on a
@@ -206,13 +216,12 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const auto is_deep_enough = [&](double length) {
         return halo_depth_ * reach > length + 2 * reach;
     };
-    const bool has_all_along = domains.n_strips() == 1,
-               has_all_across = !domains.are_cut_across();
+    const bool has_all_along = domains.n_strips() == 1, has_all_across = !domains.are_cut_across();
     const Box box = dynamics_.box();
     const bool rank_has_all = (has_all_along || is_deep_enough(along(axis, box))) &&
                               (has_all_across || is_deep_enough(along(other_axis(axis), box)));
-    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells,
-                             Axis of, bool own_is_all) {
+    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells, Axis of,
+                             bool own_is_all) {
         const int seen_first = std::max(0, first - halo), seen_end = std::min(n_cells, end + halo);
         if (discs_.periods().along(of) == 0) return seen_first == 0 && seen_end == n_cells;
         const int around = static_cast<int>(std::ceil(along(of, box) / geometry.cell_width)) + 1 +

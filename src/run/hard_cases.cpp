@@ -78,13 +78,16 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
 }
 
 std::string warning_of_narrow_strips(const SceneParameters& scene, int n_ranks, int n_threads) {
-    // A strip of 15 mean distances of discs has as many discs in its halos
-    // (docs/how-to/cluster.md). A few ranks are rather a test, or all that a small machine has.
-    constexpr double least_width = 15;
+    // A strip of 15 mean distances of discs has as many discs in its halos, and so has a square of
+    // 48, whose halo is 10 deep all around (docs/how-to/cluster.md). A few ranks are rather a test,
+    // or all that a small machine has.
+    constexpr double least_width = 15, least_square = 48;
     constexpr int few_ranks = 8;
     const double spacings = std::sqrt(static_cast<double>(scene.n_discs) * scene.box.longest() /
                                       scene.box.shortest());
-    const double most_ranks = std::max(1.0, std::floor(spacings / least_width));
+    const double most_squares = static_cast<double>(scene.n_discs) / (least_square * least_square);
+    const double most_ranks = std::max(
+        {1.0, std::floor(spacings / least_width), std::floor(most_squares)});
     if (scene.method != Method::event_driven || n_ranks < few_ranks || n_ranks <= most_ranks)
         return "";
     const double n_cores = static_cast<double>(n_ranks) * n_threads;

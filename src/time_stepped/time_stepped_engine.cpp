@@ -94,7 +94,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     }
     search_.list_large(population(), discs_.grid());
     if (usual_speed_ < window_speed_) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
-    states_.assign(discs_.all().size(), 0);
+    states_.assign(this->count_seen(), 0);
     return window;
 }
 
@@ -228,7 +228,7 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
         across_strips_.decide(population(), discs_.neighbours(), verdicts_.undecided, updates[0],
                               verdicts_.kept);
     }
-    n_candidates_ += n_candidates;
+    n_candidates_ += n_candidates, this->rank_work_.of_pairs += n_candidates;
     n_kept_ += count_ours(verdicts_.kept);
     apply(window, m);
     return true;

@@ -60,9 +60,7 @@ std::vector<Option> run_options(RunOptions& run) {
          false, costs},
         {"--cell-width", "C", "Width of a cell, in reaches of the window",
          number(run.tuning.cell_width, least_above_0, largest_double), false, costs},
-        {"--ranks-across", "G",
-         "Ranks that share a strip and cut it across; default 1, and more where strips would be "
-         "narrow",
+        {"--ranks-across", "G", "Ranks that share a strip; default 1, and more of narrow strips",
          number(run.tuning.ranks_across, 1, 1000000), false, costs},
         {"--rebalance-every", "K",
          "Syncs between inspections of the load; 0 keeps the first domains",

@@ -199,7 +199,8 @@ TEST_CASE("domains: movers are symmetric and know every way a disc can go") {
     }
 }
 
-TEST_CASE("domains: discs at rest in unchanged domains have nowhere to go but across a shared cut") {
+TEST_CASE(
+    "domains: discs at rest in unchanged domains have nowhere to go but across a shared cut") {
     const Domains strips(Strips({2, 5, 8}));
     CHECK(movers_between(strips, strips, 1, 0) == std::vector<int>{0, 2});
     CHECK(movers_between(strips, Domains(Strips({6, 7, 8})), 0, 0) == std::vector<int>{1, 2});
@@ -207,10 +208,11 @@ TEST_CASE("domains: discs at rest in unchanged domains have nowhere to go but ac
           std::vector<int>{1, 2, 3});
 }
 
-TEST_CASE("domains: groups make domains about square where strips would be narrow, for any number of ranks") {
+TEST_CASE("domains: groups make domains about square where strips would be narrow, for any number "
+          "of ranks") {
     for (const int n_ranks : {1, 2, 3, 7, 16, 97, 1000, 1024}) {
         for (const double halo : {0.0, 1e-4, 0.01, 0.1}) {
-            const std::vector<int> sizes = carrom::choose_groups({n_ranks, 3, 1, halo, false});
+            const std::vector<int> sizes = carrom::choose_groups({n_ranks, 3, 1, halo});
             CHECK(std::accumulate(sizes.begin(), sizes.end(), 0) == n_ranks);
             const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
             CHECK(*least >= 1);
@@ -218,8 +220,9 @@ TEST_CASE("domains: groups make domains about square where strips would be narro
             if (n_ranks * halo < 0.1) CHECK(*most == 1);
         }
     }
-    CHECK(carrom::choose_groups({16, 1, 1, 0.05, true}) == std::vector<int>{4, 4, 4, 4});
-    CHECK(carrom::choose_groups({64, 4, 1, 0.05, true}).size() == 16);
+    CHECK(carrom::choose_groups({16, 1, 1, 0.05, true, true}) == std::vector<int>{4, 4, 4, 4});
+    CHECK(carrom::choose_groups({16, 1, 1, 0.05}) == std::vector<int>{4, 4, 4, 4});
+    CHECK(carrom::choose_groups({64, 4, 1, 0.05, true, true}).size() == 16);
     CHECK(carrom::groups_of(7, 3) == std::vector<int>{2, 2, 3});
     CHECK(carrom::groups_of(4, 1) == std::vector<int>{1, 1, 1, 1});
 }

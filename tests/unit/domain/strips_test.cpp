@@ -165,7 +165,8 @@ TEST_CASE("balanced cuts halve, quarter and interpolate") {
     const Shares quarters = {0.25, 0.5, 0.75}, half = {0.5};
     CHECK(carrom::balanced_cuts(Weights{1, 1, 1, 1}, 8, quarters) == std::vector<double>{2, 4, 6});
     CHECK(carrom::balanced_cuts(Weights{3, 1}, 8, half) == std::vector<double>{4.0 * 2 / 3});
-    CHECK(carrom::balanced_cuts(Weights{0, 0, 0, 8}, 8, quarters) == std::vector<double>{6.5, 7, 7.5});
+    CHECK(carrom::balanced_cuts(Weights{0, 0, 0, 8}, 8, quarters) ==
+          std::vector<double>{6.5, 7, 7.5});
     CHECK(carrom::balanced_cuts(Weights{0, 0}, 8, half) == std::vector<double>{4});
     CHECK(carrom::balanced_cuts(Weights{}, 8, quarters) == std::vector<double>{2, 4, 6});
     CHECK(carrom::balanced_cuts(Weights{2, 2}, 8, Shares{0.25, 1}) == std::vector<double>{2, 8});
