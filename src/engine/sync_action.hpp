@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Who is told of impulses that effects give at a sync.
+/// Receive the impulses that effects give at a sync.
 struct SyncNotes {
     const Followers<WallEvent>* walls = nullptr;
     StressSums* stress = nullptr; ///< null if nobody asks

@@ -79,7 +79,7 @@ def reach_of(counted, n_discs):
 
 
 def most_marked(ranks, marked, windows=20):
-    """Mean over windows of the block runs that the busiest rank repeats, of so many in all."""
+    """Mean over windows of the block runs that the busiest rank repeats, from the total."""
     chance = random.Random(39)
     total = 0
     for _ in range(windows):

@@ -51,7 +51,7 @@ void check_grid(const SceneDraft& draft) {
                         n_blocks, n_cells, profile_samples.key_name()));
 }
 
-/// What gives a run with so many steps from its first sample on a whole block.
+/// Changes that let a run of this length, from its first sample on, have a whole block.
 std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t steps) {
     const std::string samples = profile_samples.key_name();
     const auto intervals = static_cast<std::int64_t>(profile_samples.of(output)) - 1;

@@ -20,7 +20,7 @@ struct Record {
     std::uint64_t id = 0;
 };
 
-/// Brings n records that lie anywhere to pieces of so many ranks.
+/// Sends n records, which lie anywhere, to the pieces of n_owners ranks.
 void check_records(std::uint64_t n, int n_owners) {
     const Communicator world = Communicator::world();
     std::vector<std::uint64_t> ids;
