@@ -28,7 +28,7 @@ FAULTS = {  # of a test: what it does, and how its output counts that
     "nothing_lost": ("folders that cannot be listed, links, foreign files, gaps in a log", RUNS),
     "lost_places": ("a folder or a file that is moved, removed or replaced during a run", RUNS),
     "shared_places": ("two runs in one folder, links in the place of files", RUNS),
-    "checkpoint_failure": ("full disks, short writes, no threads for a checkpoint", RUNS),
+    "checkpoint_failure_all": ("full disks, short writes, no threads for a checkpoint", RUNS),
     "output_failure": ("outputs that cannot be written", RUNS),
     "compare": ("wrong lines of students, numbers that no run has", RUNS),
     "python_sweeps": ("two sweeps in one folder, sweeps that are stopped", PYTEST),

@@ -22,11 +22,12 @@ inline std::optional<ShapePart> shape_part() {
     return ShapePart{number, std::strtoul(slash + 1, nullptr, 10)};
 }
 
-/// Whether the `run`-th run is another shape's: of `n_sharing` that follow each other each makes
-/// every n-th.
+/// Whether the `run`-th run is another shape's: each shape makes one of `n_sharing` that follow
+/// each other, and another one each time, since runs often take turns in one respect, such as the
+/// method.
 inline bool is_left_to_others(std::size_t run, std::size_t n_sharing) {
     const std::optional<ShapePart> part = shape_part();
-    return part && (run + part->number) % n_sharing != 0;
+    return part && (run + run / n_sharing + part->number) % n_sharing != 0;
 }
 
 /// Whether it is when all shapes share.
@@ -36,6 +37,7 @@ inline bool is_left_to_others(std::size_t run) {
 }
 
 /// So many share where `n_threads` run at once: machines of continuous integration have few cores.
-inline std::size_t n_sharing(int n_threads) { return n_threads <= 2 ? 1 : n_threads <= 4 ? 2 : 4; }
+/// What none of them runs is run by the long tests.
+inline std::size_t n_sharing(int n_threads) { return n_threads <= 2 ? 2 : n_threads <= 4 ? 4 : 8; }
 
 } // namespace carrom::test

@@ -9,7 +9,8 @@
 namespace carrom::test {
 
 /// Checks a scene against the rule's own statement: windows of several lengths, and a run that is
-/// stopped and begun again on the way. **Collective.**
+/// stopped and begun again on the way. Shapes share the calls out (shape_parts.hpp).
+/// **Collective.**
 void check_bits(const TestScene& scene, Method method);
 
 /// A thin gas, a dense one, a rack that is broken and a cradle.

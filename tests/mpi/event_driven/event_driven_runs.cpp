@@ -19,15 +19,12 @@ namespace carrom::test {
 namespace {
 
 /// Two scenes that follow each other differ in one respect, so neighbours go to different parts,
-/// and so do every n-th. Every second one has two shapes; where many threads would run at once, the
-/// others have none there.
+/// and so do every n-th. Where many threads would run at once, every second one has no shape.
 bool belongs_to_part(std::size_t number, int n_threads) {
     const std::optional<ShapePart> part = shape_part();
     if (!part) return true;
     const std::size_t round = number / part->count, home = (number + round) % part->count;
-    const bool is_home = home == part->number;
-    if (!is_home && (home + part->count / 2 - 1) % part->count != part->number) return false;
-    return round % 2 == (is_home ? 0 : 1) || (is_home && n_threads <= 4);
+    return home == part->number && (round % 2 == 0 || n_threads <= 4);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ struct EventDrivenResult {
 };
 
 /// Whether the scene, `number` in its list, is to be run: it belongs to the shape's part
-/// (shape_parts.hpp; each scene to those of two shapes), and $CARROM_TEST_SCENE, if set, is a part
+/// (shape_parts.hpp), and $CARROM_TEST_SCENE, if set, is a part
 /// of its name (to inspect one scene).
 bool is_wanted(const TestScene& scene, std::size_t number);
 
