@@ -6,6 +6,7 @@ import re
 import subprocess
 import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 from watch_support import BROWSER, SCENE, Page, pixels, run, start, stored, wait_for
@@ -119,6 +120,26 @@ class BrowserTest(unittest.TestCase):
         finally:
             process.kill()
             process.wait()
+
+    def test_the_newest_profiles_of_a_run_that_goes_on(self):
+        for columns, rows in ((4, 3), (5, 1), (1, 6)):
+            grid = (f"profile_columns={columns}", f"profile_rows={rows}", "profile_samples=4")
+            options = ['output.measurements.quantities=["profiles"]']
+            options += [f"output.measurements.{one}" for one in (*grid, "every_steps=500")]
+            words = [word for option in options for word in ("--set", option)]
+            name = f"grid{columns}"
+            process = start(name, steps=10**7, every=5000, options=words)
+            try:
+                with Page(name, may_wait=True) as page:
+                    table = Path(name, "measurements/profiles.csv")
+                    wait_for(lambda: table.exists() and table.read_text().count("\n") > 8)
+                    facts, text = self.shown(page)
+                    self.assertEqual(facts["status"], "running")
+                    self.assertEqual(facts["field"], f"{columns} by {rows}")
+                    self.assertIn('<option value="temperature">', text)
+            finally:
+                process.kill()
+                process.wait()
 
     def test_a_page_without_a_run(self):
         os.mkdir("nothing")

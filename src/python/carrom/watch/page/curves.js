@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A curve along the run's steps, with the step that is shown.
+// A curve along the run's steps, with the step that is shown, or along the box.
 "use strict";
 
 const Curves = (() => {
@@ -50,7 +50,8 @@ const Curves = (() => {
     context.fillText(line, x, y);
   }
 
-  function draw(canvas, curve, lastStep, shownStep) {
+  // The canvas without its old picture, in the pixels of the page.
+  function cleared(canvas) {
     const ratio = window.devicePixelRatio || 1, style = getComputedStyle(document.documentElement);
     const width = canvas.clientWidth, height = canvas.clientHeight;
     canvas.width = Math.round(width * ratio);
@@ -58,13 +59,19 @@ const Curves = (() => {
     const context = canvas.getContext("2d");
     context.scale(ratio, ratio);
     context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+    return { context, width, height, style };
+  }
+
+  // `shownStep` is null where no step is marked. `axis` is the name of what `curve.steps` has.
+  function draw(canvas, curve, lastStep, shownStep, axis = "step") {
+    const { context, width, height, style } = cleared(canvas);
     context.fillStyle = style.getPropertyValue("--soft");
     if (!curve || curve.steps.length === 0) {
       words(context, curve ? curve.source : "", width - 16, 8, 18, 15);
       return;
     }
     const [low, high] = range(curve.values);
-    const end = Math.max(lastStep, curve.steps[curve.steps.length - 1], 1);
+    const end = Math.max(lastStep, curve.steps[curve.steps.length - 1]) || 1;
     const heights = ticks(low, high, height > 110 ? 4 : 2);
     const names = tickNames(heights);
     const left = 14 + Math.max(...names.map((name) => context.measureText(name).width));
@@ -84,7 +91,7 @@ const Curves = (() => {
     const steps = ticks(0, end, Math.max(2, Math.floor((right - left) / 75)));
     const stepNames = tickNames(steps);
     steps.forEach((s, i) => {
-      const name = i === 0 ? `step ${stepNames[i]}` : stepNames[i];
+      const name = i === 0 ? `${axis} ${stepNames[i]}` : stepNames[i];
       const half = context.measureText(name).width / 2;
       context.fillText(name, Math.min(Math.max(x(s), half + 2), width - half - 2), height - 6);
       context.moveTo(x(s), bottom);
@@ -98,8 +105,10 @@ const Curves = (() => {
     context.strokeStyle = style.getPropertyValue("--soft");
     context.setLineDash([3, 3]);
     context.beginPath();
-    context.moveTo(x(shownStep), top);
-    context.lineTo(x(shownStep), bottom);
+    if (shownStep !== null) {
+      context.moveTo(x(shownStep), top);
+      context.lineTo(x(shownStep), bottom);
+    }
     context.stroke();
     context.setLineDash([]);
     context.strokeStyle = context.fillStyle = style.getPropertyValue("--accent");
@@ -114,5 +123,5 @@ const Curves = (() => {
     }
   }
 
-  return { draw, number };
+  return { cleared, draw, number };
 })();

@@ -11,45 +11,44 @@ const Fields = (() => {
     return low <= high ? [low, high] : [0, 1];
   }
 
-  function drawMap(context, rows, [low, high], left, top, width, height) {
-    const nx = rows[0].length, ny = rows.length;
+  // The side of the box along which the centres of cells lie; a single cell has its centre alone.
+  function sideOf(places) {
+    const n = places.length, first = places[0], last = places[n - 1];
+    return n > 1 ? (last - first) * n / (n - 1) : 2 * first;
+  }
+
+  // As long and high as the box, so that a round spot in it is round here.
+  function drawMap(canvas, field) {
+    const { context, width, height, style } = Curves.cleared(canvas);
+    const { rows, x, y } = field, nx = x.length, ny = y.length, [low, high] = bounds(rows);
+    context.fillStyle = style.getPropertyValue("--soft");
+    context.fillText(`${Curves.number(low)} to ${Curves.number(high)}`, 8, 13);
+    context.textAlign = "right";
+    context.fillText(`up to step ${field.step}`, width - 8, 13);
+    const scale = Math.min((width - 16) / sideOf(x), (height - 26) / sideOf(y));
+    const across = scale * sideOf(x) / nx, up = scale * sideOf(y) / ny;
+    const left = (width - across * nx) / 2, top = 18 + (height - 26 - up * ny) / 2;
     rows.forEach((row, j) => row.forEach((v, i) => {
       if (v === null) return;
       const [r, g, b] = Discs.mix(high > low ? (v - low) / (high - low) : 0.5);
       context.fillStyle = `rgb(${r},${g},${b})`;
-      const x = left + width * i / nx, y = top + height * (ny - 1 - j) / ny;
-      context.fillRect(x, y, width / nx + 0.5, height / ny + 0.5);
+      context.fillRect(left + across * i, top + up * (ny - 1 - j), across + 0.5, up + 0.5);
     }));
   }
 
-  function drawCurve(context, values, [low, high], left, top, width, height) {
-    const room = high > low ? high - low : 1;
-    context.beginPath();
-    values.forEach((v, i) => {
-      if (v === null) return;
-      context.lineTo(left + width * (i + 0.5) / values.length,
-                     top + height * (1 - (v - low) / room));
-    });
-    context.stroke();
+  // Along x or y. Cells without discs have no value, so the curve leaves them out.
+  function drawCurve(canvas, field, axis) {
+    const all = field.rows.flat(), places = field[axis], n = places.length;
+    const known = all.map((v, i) => i).filter((i) => all[i] !== null);
+    const curve = { steps: known.map((i) => places[i]), values: known.map((i) => all[i]),
+                    source: `up to step ${field.step}` };
+    Curves.draw(canvas, curve, places[n - 1] + sideOf(places) / (2 * n), null, axis);
   }
 
   function draw(canvas, field) {
-    const ratio = window.devicePixelRatio || 1, style = getComputedStyle(document.documentElement);
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    const context = canvas.getContext("2d"), range = bounds(field.rows);
-    context.scale(ratio, ratio);
-    context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
-    context.fillStyle = context.strokeStyle = style.getPropertyValue("--soft");
-    context.fillText(`${Curves.number(range[0])} to ${Curves.number(range[1])}`, 8, 13);
-    context.textAlign = "right";
-    context.fillText(`up to step ${field.step}`, width - 8, 13);
-    context.lineWidth = 1.5;
-    context.strokeStyle = style.getPropertyValue("--accent");
-    const isMap = field.rows.length > 1 && field.rows[0].length > 1;
-    (isMap ? drawMap : drawCurve)(context, isMap ? field.rows : field.rows.flat(), range, 8, 18,
-                                  width - 16, height - 26);
+    document.body.dataset.field = `${field.x.length} by ${field.y.length}`;
+    if (field.x.length > 1 && field.y.length > 1) drawMap(canvas, field);
+    else drawCurve(canvas, field, field.x.length > 1 ? "x" : "y");
   }
 
   return { draw };
