@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measure/field_sums.hpp"
 
+#include <cmath>
 #include <span>
 
 namespace carrom {
 
 namespace {
 
-/// Usual terms are some 2^50 units, and sums come to 2^75 of these.
-constexpr double headroom = 0x1p75;
+/// Usual terms of discs are some 2^50 units, and sums come to 2^75 of these. Those of collisions
+/// are some 2^47 units, so that the largest in a million is below 2^51.
+constexpr double headroom = 0x1p75, headroom_of_contacts = 0x1p78;
 constexpr std::size_t words_per_cell = 1 + 4 * n_field_moments;
 
 } // namespace
@@ -31,8 +33,8 @@ void FieldSums::clear() {
     add(speed_, 2);
     add(speed_ * speed_, 3);
     add(speed_ * speed_ * speed_, 2);
-    add(speed_ * length_, 3);
-    add(speed_ * speed_ * length_, 2);
+    add(speed_ * length_ * headroom_of_contacts / headroom, 3);
+    add(speed_ * speed_ * length_ * headroom_of_contacts / headroom, 2);
     for (std::size_t k = 0; k < n_disc_moments; ++k) scales_[k] = of_cell[k].scale();
     const double stress = -of_cell[field_stress_xx].scale(), heat = -of_cell[field_heat_x].scale();
     normal_scales_ = Pair{stress, stress};
@@ -44,22 +46,31 @@ void FieldSums::clear() {
 }
 
 ContactUnits FieldSums::units_of(const ContactTerms& terms) {
-    const auto limited = [](double units) { return whole(std::clamp(units, -0x1p62, 0x1p62)); };
+    const auto limited = [](double units) {
+        if (std::fabs(units) < most_gathered) units = (units + rounder) - rounder;
+        return static_cast<std::int64_t>(std::clamp(units, -0x1p62, 0x1p62));
+    };
     return {limited(terms.normal[0]), limited(terms.shear[0]), limited(terms.normal[1]),
             limited(terms.flow[0]), limited(terms.flow[1])};
 }
 
+ContactUnits FieldSums::units_of(const Gathered& gathered) {
+    const auto without_rounders = [&gathered](std::uint64_t word) {
+        return static_cast<std::int64_t>(word - gathered.n * bits_of_rounder);
+    };
+    return {without_rounders(gathered.normal[0]), without_rounders(gathered.shear[0]),
+            without_rounders(gathered.normal[1]), without_rounders(gathered.flow[0]),
+            without_rounders(gathered.flow[1])};
+}
+
 void FieldSums::hand_over(std::size_t cell) {
-    const Gathered& of = gathered_[cell];
-    add_contact(cell, ContactUnits{of.normal_x, of.shear, of.normal_y, of.flow_x, of.flow_y});
+    add_contact(cell, units_of(gathered_[cell]));
     gathered_[cell] = {};
 }
 
 ExactSum FieldSums::sum_at(std::size_t cell, std::size_t moment) const {
     ExactSum sum = sums_[n_field_moments * cell + moment];
-    const Gathered& of = gathered_[cell];
-    const std::array waiting = {of.normal_x, of.shear, of.normal_y, of.flow_x, of.flow_y};
-    if (moment >= n_disc_moments) sum.add_units(waiting[moment - n_disc_moments]);
+    if (moment >= n_disc_moments) sum.add_units(units_of(gathered_[cell])[moment - n_disc_moments]);
     return sum;
 }
 

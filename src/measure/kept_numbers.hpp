@@ -47,6 +47,23 @@ public:
             value = static_cast<T>(bits);
         }
     }
+    /// A part that begins with its length. `keep` names its numbers. They stay in the one list,
+    /// because a copy of each part would take as much memory again.
+    template <class Keep> void part(const Keep& keep) {
+        std::int64_t size = 0;
+        const std::size_t begin = words_.size() + 1;
+        word(size);
+        if (!is_restored_) {
+            keep(*this);
+            words_[begin - 1] = static_cast<std::int64_t>(words_.size() - begin);
+            return;
+        }
+        if (size < 0 || static_cast<std::uint64_t>(size) > stored_.size() - next_) size = fail();
+        KeptNumbers its(stored_.subspan(next_, static_cast<std::size_t>(size)));
+        next_ += static_cast<std::size_t>(size);
+        keep(its);
+        if (!its.is_right() || !its.is_at_end()) refuse();
+    }
     /// A setting on which the sums depend. If the stored one differs the sums are useless.
     template <class T> void same(const T& value) {
         T found = value;

@@ -62,11 +62,7 @@ void Sampler::go_on_measuring(const StoredSamples& stored) {
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;
-        std::vector<std::int64_t> own;
-        kept(own);
-        KeptNumbers its(own);
-        measurement->keep(its);
-        if (!its.is_right() || !its.is_at_end()) kept.refuse();
+        kept.part([&](KeptNumbers& its) { measurement->keep(its); });
     }
     for (const auto& measurement : measurements_) measurement->store_discs(asked);
     if (!kept.is_right() || !kept.is_at_end() ||
@@ -138,10 +134,7 @@ StoredSamples Sampler::stored() const {
     keep_settings(kept);
     keep_counts(kept);
     for (const auto& measurement : measurements_) {
-        KeptNumbers its;
-        measurement->keep(its);
-        std::vector<std::int64_t> own = its.take_words();
-        kept(own);
+        kept.part([&](KeptNumbers& its) { measurement->keep(its); });
         measurement->store_discs(stored);
     }
     stored.sums = kept.take_words();

@@ -167,26 +167,40 @@ void VectorBlocks::join_pairs() {
     samples_per_block_ *= 2;
 }
 
-std::vector<SampledMean> VectorBlocks::means() const {
-    std::vector<SampledMean> means(n_values_);
+/// The mean of `number(values)`, which is linear in the values.
+template <class Number> SampledMean VectorBlocks::mean_of(const Number& number) const {
     const auto per_block = static_cast<double>(samples_per_block_),
                all = static_cast<double>(n_samples());
+    if (!(all > 0)) return {};
     std::vector<double> terms(n_blocks());
-    for (std::size_t k = 0; k < n_values_ && all > 0; ++k) {
-        double sum = present_.empty() ? 0 : present_[k];
-        for (std::size_t block = 0; block < terms.size(); ++block) {
-            sum += blocks_[block * n_values_ + k];
-            terms[block] = blocks_[block * n_values_ + k] / per_block;
-        }
-        const BlockedMean blocked = blocked_mean(terms);
-        means[k] = {sum / all,
-                    blocked.error,
-                    blocked.blocks_per_independent * per_block / 2,
-                    all / (blocked.blocks_per_independent * per_block),
-                    blocked.is_constant,
-                    blocked.is_changing};
+    double sum = present_.empty() ? 0 : number(present_.data());
+    for (std::size_t block = 0; block < terms.size(); ++block) {
+        const double of_block = number(blocks_.data() + block * n_values_);
+        sum += of_block;
+        terms[block] = of_block / per_block;
     }
+    const BlockedMean blocked = blocked_mean(terms);
+    return {sum / all,
+            blocked.error,
+            blocked.blocks_per_independent * per_block / 2,
+            all / (blocked.blocks_per_independent * per_block),
+            blocked.is_constant,
+            blocked.is_changing};
+}
+
+std::vector<SampledMean> VectorBlocks::means() const {
+    std::vector<SampledMean> means(n_values_);
+    for (std::size_t k = 0; k < n_values_; ++k)
+        means[k] = mean_of([k](const double* values) { return values[k]; });
     return means;
+}
+
+SampledMean VectorBlocks::weighted_mean(std::span<const double> weights) const {
+    return mean_of([&](const double* values) {
+        double sum = 0;
+        for (std::size_t k = 0; k < n_values_; ++k) sum += weights[k] * values[k];
+        return sum;
+    });
 }
 
 std::vector<std::int64_t> VectorBlocks::words() const {

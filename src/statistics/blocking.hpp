@@ -66,6 +66,9 @@ public:
 
     /// One mean for each value.
     std::vector<SampledMean> means() const;
+    /// The mean of the sum of all values, each times its weight. Its error allows for values that
+    /// vary together.
+    SampledMean weighted_mean(std::span<const double> weights) const;
 
     /// All data, for a checkpoint. The numbers do not depend on ranks or threads if
     /// the samples do not.
@@ -75,6 +78,7 @@ public:
 
 private:
     void join_pairs();
+    template <class Number> SampledMean mean_of(const Number& number) const;
 
     std::size_t n_values_ = 0;
     std::int64_t samples_per_block_ = 1, n_present_ = 0;

@@ -214,13 +214,12 @@ private:
     void add(const PairEvent& event, const PlacedGrid& grid) {
         const Pair from = Pair{event.x, event.y} * grid.per_length + grid.origin,
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
-        const auto whole = [](double place) { return static_cast<std::int64_t>(place); };
-        const std::int64_t column = whole(from[0]), row = whole(from[1]);
-        const std::size_t to_right = static_cast<std::size_t>(column) - 1,
-                          upwards = static_cast<std::size_t>(row) - 1; // huge if negative
+        const PairOfCells cell = cell_at(from);
+        const std::size_t to_right = static_cast<std::size_t>(cell[0]) - 1,
+                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if negative
         const ContactTerms terms = terms_of(event);
-        if (column == whole(to[0]) && row == whole(to[1]) && to_right < n_x_ && upwards < n_y_ &&
-            n_kinds_ == 1) [[likely]]
+        if (are_same(cell, cell_at(to)) && to_right < n_x_ && upwards < n_y_ && n_kinds_ == 1)
+            [[likely]]
             sums_.add_contact(upwards * n_x_ + to_right, terms);
         else
             add_parts(event, FieldSums::units_of(terms), from, length);

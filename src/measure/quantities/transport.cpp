@@ -219,11 +219,13 @@ std::vector<MeasuredTable> Transport::tables() const {
         const double time = static_cast<double>(scheme_.lag(lag)) *
                             static_cast<double>(run_.output.every_steps);
         const std::vector<SampledMean> means = lags_[lag].means();
-        std::array<double, 3> spread{}, errors{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            spread[k] = means[k].value - (k == 1 ? means[3].value * means[3].value : 0);
-            errors[k] = means[k].error;
-        }
+        const double mean_trace = means[3].value;
+        const std::array<double, 3> spread = {
+            means[0].value, means[1].value - mean_trace * mean_trace, means[2].value};
+        // The trace's square scatters with its mean, which is taken off.
+        const std::array about_mean = {0.0, 1.0, 0.0, -2 * mean_trace};
+        const std::array<double, 3> errors = {
+            means[0].error, lags_[lag].weighted_mean(about_mean).error, means[2].error};
         std::vector<double> row = {time, static_cast<double>(lags_[lag].n_samples())};
         for (std::size_t k = 0; k < 3; ++k) {
             row.push_back(spread[k] / (2 * scale[k] * time));

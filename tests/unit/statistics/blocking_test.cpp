@@ -2,6 +2,7 @@
 // Claimed errors against the scatter between many series whose correlation is known: x' = a x +
 // noise has the variance 1 and the correlation time 1 / log(1 / a).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -97,6 +98,26 @@ TEST_CASE("Short series have no error, and memory does not grow") {
     CHECK(blocks.words().size() <= 3 * (most_blocks + 1) + 3);
     CHECK(blocks.means()[0].value == Approx(49999.5));
     CHECK(blocks.means()[2].error == 0);
+}
+
+TEST_CASE("The error of a sum allows for values that vary together") {
+    const std::vector<double> noise = series(20000, 1, 7);
+    VectorBlocks blocks(2);
+    double mean = 0, square = 0;
+    for (const double x : noise) {
+        mean += (1000 + x) / static_cast<double>(noise.size());
+        square += x * x / static_cast<double>(noise.size());
+        blocks.add(std::vector{(1000 + x) * (1000 + x), 1000 + x});
+    }
+    // Squares about the mean forget at twice the rate: their mean has the error of the variance
+    // times sqrt(2 (1 + a^2) / (1 - a^2) / n) with a = 1 / e. The mean of squares alone has an
+    // error that is some 2000 times the root of the variance over n.
+    const SampledMean variance = blocks.weighted_mean(std::array{1.0, -2 * mean});
+    CHECK(variance.value + mean * mean == Approx(square).epsilon(0.01));
+    const double squared_a = std::exp(-2),
+                 in_sum = 2 * (1 + squared_a) / (1 - squared_a) / static_cast<double>(noise.size());
+    CHECK(variance.error == Approx(square * std::sqrt(in_sum)).epsilon(0.25));
+    CHECK(blocks.means()[0].error > 100 * variance.error);
 }
 
 TEST_CASE("Blocks that go on from a checkpoint's words have the same bits") {
