@@ -68,6 +68,61 @@ LastingForces ContactImpulses::act(std::span<HeapDisc> discs,
         n_sweeps = std::max(n_sweeps, sweep(own, bodies));
         stop_slow(own, bodies);
     }
+    LastingForces forces = forces_of(contacts, discs, bodies);
+    forces.n_sweeps = n_sweeps;
+    kept = kept_of(contacts, discs);
+    set_velocities(contacts, bodies, discs);
+    return forces;
+}
+
+LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
+                                         std::span<const HeapDisc> discs,
+                                         std::span<const Body> bodies) const {
+    LastingForces forces;
+    for (std::size_t side = 0; side < 4; ++side) forces.walls[side].side = side;
+    for (const Contact& contact : contacts) {
+        if (!(contact.normal > 0)) continue;
+        const HeapDisc& a = discs[contact.a];
+        PairImpulse pair; // on disc a
+        pair.ix = -(contact.normal * contact.nx - contact.tangential * contact.ny);
+        pair.iy = -(contact.normal * contact.ny + contact.tangential * contact.nx);
+        pair.p_vx = 0.5 * (a.vx + bodies[contact.a].vx - fall_x_);
+        pair.p_vy = 0.5 * (a.vy + bodies[contact.a].vy - fall_y_);
+        if (contact.b < discs.size()) {
+            const HeapDisc& b = discs[contact.b];
+            pair.p = a.id, pair.q = b.id;
+            pair.x = a.x, pair.y = a.y;
+            pair.dx = contact.nx * contact.distance, pair.dy = contact.ny * contact.distance;
+            pair.q_vx = 0.5 * (b.vx + bodies[contact.b].vx - fall_x_);
+            pair.q_vy = 0.5 * (b.vy + bodies[contact.b].vy - fall_y_);
+            forces.pairs.push_back(pair);
+        } else if (contact.body < 4) {
+            WallImpulse& wall = forces.walls[static_cast<std::size_t>(contact.body)];
+            wall.normal += contact.normal;
+            wall.along += contact.body < 2 ? pair.iy : pair.ix;
+            wall.energy += pair.ix * pair.p_vx + pair.iy * pair.p_vy;
+        }
+    }
+    return forces;
+}
+
+std::vector<KeptImpulse> ContactImpulses::kept_of(std::span<const Contact> contacts,
+                                                  std::span<const HeapDisc> discs) {
+    std::vector<KeptImpulse> kept;
+    for (const Contact& contact : contacts)
+        if (contact.normal > 0)
+            kept.push_back(
+                {discs[contact.a].id, key_of(contact, discs), contact.normal, contact.tangential});
+    std::sort(kept.begin(), kept.end(), [](const KeptImpulse& p, const KeptImpulse& q) {
+        return std::tuple(p.a, p.b) < std::tuple(q.a, q.b);
+    });
+    return kept;
+}
+
+/// Discs that nothing presses keep the bits of theirs.
+void ContactImpulses::set_velocities(std::span<const Contact> contacts,
+                                     std::span<const Body> bodies,
+                                     std::span<HeapDisc> discs) const {
     std::vector<std::uint8_t> is_pressed(discs.size() + 1);
     for (const Contact& contact : contacts)
         if (contact.normal > 0) is_pressed[contact.a] = is_pressed[contact.b] = 1;
@@ -77,36 +132,6 @@ LastingForces ContactImpulses::act(std::span<HeapDisc> discs,
         discs[i].vy = bodies[i].vy - fall_y_;
         discs[i].spin = bodies[i].turning / species_.of(discs[i].id).radius;
     }
-    LastingForces forces = forces_of(contacts, discs, kept);
-    forces.n_sweeps = n_sweeps;
-    return forces;
-}
-
-LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
-                                         std::span<const HeapDisc> discs,
-                                         std::vector<KeptImpulse>& kept) const {
-    LastingForces forces;
-    kept.clear();
-    for (const Contact& contact : contacts) {
-        if (!(contact.normal > 0)) continue;
-        // on disc a
-        const double ix = -(contact.normal * contact.nx - contact.tangential * contact.ny),
-                     iy = -(contact.normal * contact.ny + contact.tangential * contact.nx);
-        if (contact.b < discs.size()) {
-            forces.pairs.push_back(
-                {ix, iy, contact.nx * contact.distance, contact.ny * contact.distance});
-        } else if (contact.body < 4) {
-            WallPush& wall = forces.walls[static_cast<std::size_t>(contact.body)];
-            wall.normal += contact.normal;
-            wall.along += contact.body < 2 ? iy : ix;
-        }
-        kept.push_back(
-            {discs[contact.a].id, key_of(contact, discs), contact.normal, contact.tangential});
-    }
-    std::sort(kept.begin(), kept.end(), [](const KeptImpulse& p, const KeptImpulse& q) {
-        return std::tuple(p.a, p.b) < std::tuple(q.a, q.b);
-    });
-    return forces;
 }
 
 std::int64_t ContactImpulses::key_of(const Contact& contact, std::span<const HeapDisc> discs) {

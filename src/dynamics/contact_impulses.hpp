@@ -28,14 +28,9 @@
 
 #include "dynamics/lasting_contacts.hpp"
 #include "dynamics/species.hpp"
+#include "dynamics/sync_effect.hpp"
 
 namespace carrom {
-
-/// The impulse (ix, iy) that the first disc of a pair gets at the separation (dx, dy) to the
-/// second.
-struct LastingPair {
-    double ix = 0, iy = 0, dx = 0, dy = 0;
-};
 
 /// The impulse of a contact, from which the next sync begins. `b` is a disc's id, or below 0 for
 /// walls and obstacles.
@@ -47,14 +42,9 @@ struct KeptImpulse {
     friend bool operator==(const KeptImpulse&, const KeptImpulse&) = default;
 };
 
-/// What a side of the box gives to discs: impulses away from it and along its axis, and energy.
-struct WallPush {
-    double normal = 0, along = 0;
-};
-
 struct LastingForces {
-    std::vector<LastingPair> pairs;
-    std::array<WallPush, 4> walls{};
+    std::vector<PairImpulse> pairs;
+    std::array<WallImpulse, 4> walls{};
     int n_sweeps = 0; ///< the most of any connected component
 };
 
@@ -78,8 +68,13 @@ private:
         double normal = 0, along = 0;
     };
 
+    /// What contacts with an impulse give, where `discs` have their velocities of before.
     LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
-                            std::vector<KeptImpulse>& kept) const;
+                            std::span<const Body> bodies) const;
+    static std::vector<KeptImpulse> kept_of(std::span<const Contact> contacts,
+                                            std::span<const HeapDisc> discs);
+    void set_velocities(std::span<const Contact> contacts, std::span<const Body> bodies,
+                        std::span<HeapDisc> discs) const;
     static std::int64_t key_of(const Contact& contact, std::span<const HeapDisc> discs);
     std::vector<Contact> lasting_contacts(std::span<const HeapDisc> discs,
                                           std::span<const KeptImpulse> kept) const;

@@ -31,6 +31,17 @@ struct WallImpulse {
     std::size_t side = 0;
     double normal = 0; ///< away from the side
     double along = 0;  ///< in the direction of its axis
+    double energy = 0; ///< of the discs' motion
+};
+
+/// What a disc gives to another one at a sync.
+struct PairImpulse {
+    DiscId p = 0, q = 0;       ///< p is the lower id
+    double x = 0, y = 0;       ///< centre of p
+    double dx = 0, dy = 0;     ///< from there to the centre of q
+    double ix = 0, iy = 0;     ///< impulse that p gets; q gets the opposite
+    double p_vx = 0, p_vy = 0; ///< means of the velocities before and after the sync
+    double q_vx = 0, q_vy = 0;
 };
 
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
@@ -53,9 +64,9 @@ struct SyncDiscs {
     /// Adds what a side of the box gives to discs, per micro-step. It is called on one rank for
     /// all, and is empty while nobody measures walls.
     std::function<void(const WallImpulse&)> note_wall = {};
-    /// Adds a pair's impulse, which the first disc gets, at the separation to the second one. It is
-    /// called on one rank for all, and is empty while nobody measures stress.
-    std::function<void(double ix, double iy, double dx, double dy)> note_pair = {};
+    /// Adds what a pair's discs give each other, per micro-step. It is called on one rank for all,
+    /// and is empty while nobody measures stress or follows pairs.
+    std::function<void(const PairImpulse&)> note_pair = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
     /// a copy of `sums`. **Collective.**

@@ -190,8 +190,9 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     }
     if (is_work_asked) *work_ += energy_of_own();
     if (sync_action_.has_effects()) {
-        sync_action_.act(discs_, n_micro_done_ / sync_every_,
-                         {&this->wall_followers_, this->stress_});
+        sync_action_.act(
+            discs_, n_micro_done_ / sync_every_,
+            {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_});
         fastest = 0;
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
         for (std::int64_t i = 0; i < n; ++i)

@@ -3,6 +3,7 @@
 // between the discs, and how fast they were afterwards. Engines note it only where a measurement
 // follows pairs.
 //
+// Lasting contacts give such events at syncs, of what discs give each other until the next one.
 // Everything is as the box sees it at the time of the collision, so gravity and drag are in it.
 // Places are not brought back into a periodic box.
 #pragma once

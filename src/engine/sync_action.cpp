@@ -74,14 +74,38 @@ void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
             event.side = static_cast<std::uint8_t>(impulse.side);
             event.normal = impulse.normal * micro_steps_;
             event.along = impulse.along * micro_steps_;
+            event.energy = impulse.energy * micro_steps_ * micro_steps_;
+            event.is_lasting = true;
             walls->give({&event, 1});
         };
-    if (notes.stress != nullptr)
-        at.note_pair = [stress = notes.stress](double ix, double iy, double dx, double dy) {
+    if (notes.stress == nullptr && !notes.pairs->are_any()) return;
+    at.note_pair = [this, notes](const PairImpulse& pair) {
+        if (notes.stress != nullptr) {
             StressTerms terms;
-            terms.add(ix, iy, {dx, dy}, *stress);
-            terms.add_to(*stress);
-        };
+            terms.add(pair.ix, pair.iy, {pair.dx, pair.dy}, *notes.stress);
+            terms.add_to(*notes.stress);
+        }
+        if (!notes.pairs->are_any()) return;
+        const PairEvent event = event_of(pair, notes.micro_step);
+        notes.pairs->give({&event, 1});
+    };
+}
+
+/// Followers take the mean of the velocities before and after an event from those after it, so
+/// these are about the mean of the sync, as if the impulse were alone.
+PairEvent SyncAction::event_of(const PairImpulse& pair, std::int64_t micro_step) const {
+    const double p_share = 0.5 / species_.of(pair.p).mass, q_share = 0.5 / species_.of(pair.q).mass;
+    PairEvent event;
+    event.p = pair.p, event.q = pair.q;
+    event.micro_step = micro_step;
+    event.x = pair.x, event.y = pair.y;
+    event.dx = pair.dx, event.dy = pair.dy;
+    event.ix = pair.ix * micro_steps_, event.iy = pair.iy * micro_steps_;
+    event.p_vx = (pair.p_vx + p_share * pair.ix) * micro_steps_;
+    event.p_vy = (pair.p_vy + p_share * pair.iy) * micro_steps_;
+    event.q_vx = (pair.q_vx - q_share * pair.ix) * micro_steps_;
+    event.q_vy = (pair.q_vy - q_share * pair.iy) * micro_steps_;
+    return event;
 }
 
 std::vector<std::byte> SyncAction::gathered(std::span<const std::byte> mine) const {

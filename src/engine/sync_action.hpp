@@ -2,8 +2,11 @@
 // Lets effects act at a sync on the discs of a rank.
 #pragma once
 
+#include <cstdint>
+
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
+#include "engine/pair_event.hpp"
 #include "engine/stress_sums.hpp"
 #include "engine/wall_event.hpp"
 #include "parallel/communicator.hpp"
@@ -14,7 +17,9 @@ namespace carrom {
 /// Receive the impulses that effects give at a sync.
 struct SyncNotes {
     const Followers<WallEvent>* walls = nullptr;
+    const Followers<PairEvent>* pairs = nullptr;
     StressSums* stress = nullptr; ///< null if nobody asks
+    std::int64_t micro_step = 0;  ///< of the sync
 };
 
 class SyncAction {
@@ -37,6 +42,7 @@ public:
 
 private:
     void follow(SyncDiscs& at, const SyncNotes& notes) const;
+    PairEvent event_of(const PairImpulse& pair, std::int64_t micro_step) const;
     std::vector<std::byte> gathered(std::span<const std::byte> mine) const;
     double energy_of(const SyncDiscs& at) const;
     /// Adds the flow of sheared discs, so many times, to velocities and spins.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A collision of a disc with a side of the box: what the side has given to the disc. Engines note
-// it only where a measurement follows walls.
+// it only where a measurement follows walls. Lasting contacts give such events at syncs, one for
+// all discs that press a side.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +17,10 @@ namespace carrom {
 /// `side_names`.
 struct WallEvent {
     std::uint8_t side = 0;
-    double normal = 0; ///< impulse across the side and away from it
-    double along = 0;  ///< impulse along it, in the direction of the axis
-    double energy = 0; ///< kinetic energy of the disc's motion that the side has added
+    double normal = 0;       ///< impulse across the side and away from it
+    double along = 0;        ///< impulse along it, in the direction of the axis
+    double energy = 0;       ///< kinetic energy of the disc's motion that the side has added
+    bool is_lasting = false; ///< forces from sync to sync, and no collision
 };
 using WallFollower = EventFollower<WallEvent>;
 

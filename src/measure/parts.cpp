@@ -63,4 +63,12 @@ double usual_speed(const MeasuredRun& run) {
     return thermal > 0 ? thermal : driven > 0 ? driven : 1;
 }
 
+VelocityChange change_until_half_way(const MeasuredRun& run) {
+    const Effects& effects = run.scene.effects;
+    if (effects.lasting_speed == 0) return {};
+    const double micro_steps = 0.5 * static_cast<double>(run.scene.sync_every) - run.system.clock(),
+                 steps = micro_steps / static_cast<double>(run.scene.micro_steps);
+    return {effects.gravity.x * steps, effects.gravity.y * steps};
+}
+
 } // namespace carrom

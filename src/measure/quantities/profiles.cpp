@@ -105,11 +105,12 @@ public:
     }
 
     void take(std::span<const PairEvent> events) override {
-        PlacedGrid grid = grid_in({0, run_.scene.box.x, 0, run_.scene.box.y});
+        PlacedGrid grid(n_x_, n_y_, {0, run_.scene.box.x, 0, run_.scene.box.y});
         for (const PairEvent& event : events) {
             if (are_sides_moving_) [[unlikely]]
-                grid = grid_in(extent_at(run_.scene.effects, run_.scene.box,
-                                         event.steps_since(0, run_.scene.micro_steps)));
+                grid = {n_x_, n_y_,
+                        extent_at(run_.scene.effects, run_.scene.box,
+                                  event.steps_since(0, run_.scene.micro_steps))};
             add(event, grid);
         }
     }
@@ -124,12 +125,13 @@ public:
             return static_cast<std::size_t>(
                 std::clamp<std::int64_t>(cell, 0, static_cast<std::int64_t>(n) - 1));
         };
+        const VelocityChange later = change_until_half_way(run_);
         for (const DiscState& disc : state.inside) {
             std::size_t cell = place((disc.y_at(time) - box.y_low) * per_y, n_y_) * n_x_ +
                                place((disc.x_at(time) - box.x_low) * per_x, n_x_);
             if (n_kinds_ > 1) cell += kind_of(disc.id) * n_cells();
-            sums_.add_disc(cell, have_masses_ ? species_.of(disc.id).mass : 1, disc.vx * unit,
-                           disc.vy * unit);
+            sums_.add_disc(cell, have_masses_ ? species_.of(disc.id).mass : 1,
+                           disc.vx * unit + later.x, disc.vy * unit + later.y);
         }
         if (!state.is_first) head_.steps += static_cast<double>(run_.output.every_steps);
         head_.x_low += box.x_low, head_.x_high += box.x_high;
@@ -196,8 +198,6 @@ private:
         return within(row, n_y_, run_.scene.effects.is_periodic_y()) * n_x_ +
                within(column, n_x_, run_.scene.effects.is_periodic_x());
     }
-
-    PlacedGrid grid_in(const Extent& box) const { return {n_x_, n_y_, box}; }
 
     /// What a collision adds to the stress and to the flow of energy. The energy that goes from p
     /// to q is the mean of what q gains and p loses.

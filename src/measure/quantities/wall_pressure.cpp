@@ -13,7 +13,7 @@ public:
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) {
             since_last_.add(event.side, event.normal);
-            ++counts_[event.side];
+            counts_[event.side] += event.is_lasting ? 0 : 1;
         }
     }
 

@@ -97,12 +97,11 @@ private:
     }
 
     void note(const SyncDiscs& at) const {
-        for (std::size_t side = 0; at.note_wall && side < 4; ++side)
-            if (forces_.walls[side].normal > 0)
-                at.note_wall({side, forces_.walls[side].normal, forces_.walls[side].along});
-        if (!at.note_pair) return;
-        for (const LastingPair& pair : forces_.pairs)
-            at.note_pair(pair.ix, pair.iy, pair.dx, pair.dy);
+        if (at.note_wall)
+            for (const WallImpulse& wall : forces_.walls)
+                if (wall.normal > 0) at.note_wall(wall);
+        if (at.note_pair)
+            for (const PairImpulse& pair : forces_.pairs) at.note_pair(pair);
     }
 
     ContactImpulses impulses_;

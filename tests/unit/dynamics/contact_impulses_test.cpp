@@ -141,20 +141,33 @@ TEST_CASE("lasting contacts: a floor that slides carries a disc as Coulomb says"
     CHECK(heap.forces.walls[2].along == Approx(0.3 * g * interval).epsilon(0.01));
 }
 
-TEST_CASE("lasting contacts: what pairs get is opposite, and all that changes the momentum") {
-    const Effects effects = under_gravity(0, -g);
+TEST_CASE("lasting contacts: pairs and walls give what changes the momentum and the energy") {
+    Effects effects = under_gravity(0, -g);
+    effects.boundaries[2].surface = {0, 0.5, 0.3};
     std::vector<HeapDisc> discs;
     for (DiscId id = 0; id < 60; ++id) {
         const auto row = static_cast<double>(id / 10), column = static_cast<double>(id % 10);
         discs.push_back({id, 40 + 1.003 * column + 0.5 * std::fmod(row, 2), r + 0.88 * row,
                          0.01 * (std::fmod(7 * column + row, 5) - 2), -0.02, 0.01 * column});
     }
-    double px = 0, py = 0;
-    for (const HeapDisc& disc : discs) px -= disc.vx, py -= disc.vy;
+    double px = 0, py = 0, energy = 0;
+    const auto energy_of = [](const HeapDisc& disc) {
+        return 0.5 * (disc.vx * disc.vx + disc.vy * disc.vy);
+    };
+    for (const HeapDisc& disc : discs) px -= disc.vx, py -= disc.vy, energy -= energy_of(disc);
     std::vector<KeptImpulse> kept;
     const LastingForces forces =
         ContactImpulses(Box(100), effects, SpeciesTable({}, r), interval).act(discs, kept);
-    for (const HeapDisc& disc : discs) px += disc.vx, py += disc.vy;
+    for (const HeapDisc& disc : discs) px += disc.vx, py += disc.vy, energy += energy_of(disc);
+    double given = forces.walls[2].energy;
+    for (const PairImpulse& pair : forces.pairs) {
+        CHECK(pair.p < pair.q);
+        CHECK(discs[pair.p].x + pair.dx == Approx(discs[pair.q].x));
+        CHECK(discs[pair.p].y + pair.dy == Approx(discs[pair.q].y));
+        given += pair.ix * (pair.p_vx - pair.q_vx) + pair.iy * (pair.p_vy - pair.q_vy);
+    }
+    CHECK(forces.walls[2].energy > 0);
+    CHECK(given == Approx(energy).epsilon(0.01));
     CHECK(forces.pairs.size() > 40);
     CHECK(px == Approx(forces.walls[2].along).margin(0.01 * 60 * g * interval));
     CHECK(py == Approx(forces.walls[2].normal).margin(0.01 * 60 * g * interval));
