@@ -33,7 +33,8 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
          const Messages& messages)
     : ranks_(ranks), scene_(decided(std::move(scene), start, ranks_, tuning, messages)),
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
-      system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_) {
+      system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_),
+      heap_warning_(scene_, system_, ranks_, messages) {
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (scene_.trajectory && scene_.trajectory->has_image) {
         images_.emplace(scene_.box, system_, ranks_);

@@ -15,6 +15,7 @@
 #include "measure/image_counts.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
+#include "run/heap_warning.hpp"
 #include "run/messages.hpp"
 #include "run/start/run_start.hpp"
 #include "scene/scene_parameters.hpp"
@@ -73,8 +74,9 @@ private:
     DiscSystem system_;
     std::optional<ImageCounts> images_;
     Sampler sampler_;
+    HeapWarning heap_warning_;
     /// The sampler is the first, so that all others see the sample of the present step.
-    std::vector<StepAction*> actions_{&sampler_};
+    std::vector<StepAction*> actions_{&sampler_, &heap_warning_};
     StretchSeconds seconds_;
 };
 

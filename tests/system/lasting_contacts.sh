@@ -28,18 +28,28 @@ print("floor", floor, "stress", stress, "height less a radius", height - 4)
 assert abs(floor / 4 - 1) < 0.01, floor
 assert abs(stress / (height - 4) - 1) < 0.01, (stress, height - 4)
 END
-sed -n 's/^  "collisions_per_disc_per_micro_step".*/&/p' heap/report.json
 
 run 1 run "$heap" --quiet --steps 600 --report early.json
 expect_code 0 'the same on one rank'
 [ "$(json_value early.json pair_collisions)" = "$(json_value heap/report.json pair_collisions)" ] ||
     complain 'discs at rest collide'
 
-# Rows of exactly 30 discs. Without the effect such a run takes hundreds of times as long.
+# Rows of exactly 30 discs. Without the effect their run takes hundreds of times as long, and warns.
+for ranks in 1 3; do
+    run $ranks run "$heap" --quiet --steps 144 --set "box.size=[60, 60]" --set time.sync_every=16 \
+        --set effects.lasting_contacts.speed=0 --set effects.contact.contact_time=0.1
+    expect_code 0 "a heap of collisions on $ranks ranks"
+    grep 'warning: .* collided .* times in a contact time' "$test_folder/err" >warned_$ranks
+    [ "$(wc -l <warned_$ranks)" = 1 ] || complain "not one warning of a heap on $ranks ranks"
+done
+grep -q 'try: effects.lasting_contacts.speed = 0.05$' warned_1 || complain 'another remedy'
+cmp warned_1 warned_3 || complain 'another warning of a heap on 3 ranks'
+
 for friction in 0 0.5; do
     run 1 run "$heap" --check --quiet --steps 600 --set "box.size=[60, 60]" \
         --set effects.contact.friction=$friction --report full.json
     expect_code 0 "rows that fill the box, friction $friction"
+    grep -q warning "$test_folder/err" && complain "a warning of a heap at rest, friction $friction"
     [ "$(json_value full.json pair_collisions)" -lt 300000 ] ||
         complain "collisions of rows that fill the box, friction $friction"
 done
