@@ -7,12 +7,16 @@
 #   job_scripts/portability.sh trixie              Debian 13 with Open MPI 5
 #   job_scripts/portability.sh trixie mpich        the same with MPICH
 #   MIRROR=URL job_scripts/portability.sh noble    Ubuntu 24.04, from a mirror of Ubuntu
+#   COMPILERS='clang-18 g++-14' job_scripts/portability.sh noble   with these compilers besides
 #
 # Needs root and debootstrap, 5 GB of disk, and an hour on two cores, most of it for compiling and
 # testing. Uncommitted changes are left out. May be set from outside:
 #   MIRROR      where the packages are; default: where apt of this machine takes its own from
+#   KEYRING     file with the key of that system, where this machine does not have it
 #   FOLDER      keep the system there and use it again; default: a temporary folder, then removed
 #   TESTS       options for ctest, as in '-L unit'; `none` leaves the tests out
+#   COMPILERS   packages of compilers that build the program and run all scenes, too: 6 CPU minutes
+#               each
 #   TABLE       file for the table of hashes; default build/portability/SUITE-MPI.csv
 # The exit code is 1 if a command or a test fails or a hash differs.
 set -euo pipefail
@@ -36,13 +40,16 @@ host_mirror() {
 # make_system: a minimal Debian or Ubuntu in $folder, with what a shell on it would have
 make_system() {
     [ ! -e "$folder/usr/bin/apt-get" ] || return 0
-    local start=$SECONDS
+    local start=$SECONDS script=()
+    # An older debootstrap does not know the name, but it makes all releases of Ubuntu alike.
+    [[ $mirror != *ubuntu* || -e /usr/share/debootstrap/scripts/$suite ]] || script=(gutsy)
     say "making $suite in $folder from $mirror"
     mkdir -p "$folder"
-    debootstrap --variant=minbase --include=ca-certificates "$suite" "$folder" "$mirror" \
-        >"$folder/debootstrap.log" 2>&1 || die "debootstrap failed; see $folder/debootstrap.log"
+    debootstrap --variant=minbase --include=ca-certificates ${KEYRING:+"--keyring=$KEYRING"} \
+        "$suite" "$folder" "$mirror" "${script[@]}" >"$folder/debootstrap.log" 2>&1 ||
+        die "debootstrap failed; see $folder/debootstrap.log"
     case $mirror in
-        *ubuntu*) echo "deb $mirror $suite main universe" ;;
+        *ubuntu*) printf "deb $mirror %s main universe\n" "$suite" "$suite-updates" ;;
         *) echo "deb $mirror $suite main" ;;
     esac >"$folder/etc/apt/sources.list"
     say "$suite is there after $((SECONDS - start)) s"
@@ -60,6 +67,22 @@ in_system() {
         "${kept[@]}" sh -c 'cd /srv/carrom && exec "$@"' sh "$@" </dev/null
 }
 
+# with_compiler PACKAGE: the program as another compiler builds it, and the hashes of all scenes
+with_compiler() {
+    local version=${1##*-} needed=("$1") build=/srv/carrom/build-$1 names=("CC=gcc-${1##*-}" "CXX=$1")
+    case $1 in
+        clang-*)
+            needed+=("libomp-$version-dev") # those of two versions exclude each other
+            names=("CC=$1" "CXX=clang++-$version")
+            ;;
+    esac
+    in_system env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends \
+        "${needed[@]}" >&2 &&
+        in_system env "${names[@]}" BUILD_DIR="$build" ./job_scripts/run_local.sh inputs/gas.toml \
+            --steps 10 --quiet &&
+        in_system env FINGERPRINT=no tests/stability/scene_hashes.sh "$build" --compare
+}
+
 # stage NAME WORD...: a command of this check, and how long it takes
 n_failures=0
 stage() {
@@ -75,7 +98,7 @@ stage() {
 if [ "${1:-}" != --inside ]; then
     suite=${1:-}
     case "${suite:---help} ${2:-openmpi}" in
-        -*) sed -n '3,18s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+        -*) sed -n '3,22s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
         *' openmpi' | *' mpich') ;;
         *) die "the MPI library is openmpi or mpich, not $2" ;;
     esac
@@ -106,9 +129,15 @@ mkdir -p "$(dirname "$table")"
 build=build${mpi:+-$mpi}
 stage 'first command' in_system ./job_scripts/run_local.sh inputs/gas.toml
 [ "${TESTS:-}" = none ] || stage 'second command' in_system ./job_scripts/test_local.sh ${TESTS:-}
-stage 'hashes' in_system tests/stability/scene_hashes.sh "$build" >"$table"
-stage "hashes as everywhere" diff "$top/tests/stability/scene_hashes.csv" "$table"
+# The fingerprint is that of a program of the tests.
+[ "${TESTS:-}" = none ] && fingerprint=no || fingerprint=yes
+stage 'hashes as everywhere' in_system env FINGERPRINT=$fingerprint TABLE=/srv/carrom/table.csv \
+    tests/stability/scene_hashes.sh "$build" --compare
+cp "$folder/srv/carrom/table.csv" "$table"
 say "the hashes are in $table"
+for compiler in ${COMPILERS:-}; do
+    stage "$compiler" with_compiler "$compiler"
+done
 versions='(libhdf5-(openmpi|mpich)-dev|lib(openmpi|mpich)-dev|catch2|cmake)'
 in_system sh -c '. /etc/os-release; echo "$PRETTY_NAME"; c++ --version; dpkg-query -W' |
     grep -E "^(Debian GNU|Ubuntu|c\\+\\+|$versions\\b)" >&2
