@@ -69,12 +69,13 @@ in_system() {
 
 # with_compiler PACKAGE: the program as another compiler builds it, and the hashes of all scenes
 with_compiler() {
-    local version=${1##*-} needed=("$1") build=/srv/carrom/build-$1 names=("CC=gcc-${1##*-}" "CXX=$1")
+    local version=${1##*-} needed=("$1") build=/srv/carrom/build-$1 names
     case $1 in
         clang-*)
             needed+=("libomp-$version-dev") # those of two versions exclude each other
             names=("CC=$1" "CXX=clang++-$version")
             ;;
+        *) names=("CC=gcc-$version" "CXX=$1") ;;
     esac
     in_system env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends \
         "${needed[@]}" >&2 &&
