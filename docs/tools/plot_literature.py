@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the tables of `tests/physics/literature.py`, each beside itself as PNG. Bars are standard errors."""
+"""Draws tables of `tests/physics/literature.py` and `dense` of `flow_studies.py`, each beside itself as PNG. Bars are standard errors."""
 import argparse
 import csv
 import pathlib
@@ -67,7 +67,24 @@ def draw_melting(axes, table):
     axes.legend(handles=handles, fontsize="small", loc="upper center")
 
 
+def draw_dense(axes, table):
+    """Ratios to Enskog's near freezing, and those of the table of less dense gases."""
+    thin = read(pathlib.Path(__file__).parents[1] / "validation" / "transport.csv")
+    for name, colour, marker in (("shear", "#0060b0", "o"), ("bulk", "#703090", "D"), ("conductivity", "#208040", "^"), ("diffusion", "#c05000", "s")):
+        axes.errorbar(table["packing"], table[name], table[f"{name}_error"], label=name, color=colour, marker=marker, linewidth=0.8, capsize=3)
+        if name in thin:
+            known = thin[f"{name}_known"]
+            points = [[value / enskog for value, enskog in zip(thin[column], known)] for column in (name, f"{name}_error")]
+            axes.errorbar(thin["packing"], *points, color=colour, marker=marker, markerfacecolor="white", linewidth=0.8, capsize=3)
+    axes.axhline(1, color="black", linewidth=0.8)
+    axes.axvline(0.7, color="black", linewidth=0.8, linestyle=":")
+    axes.text(0.7, 0.1, "freezing ", ha="right")
+    axes.set(xlabel="packing fraction", ylabel="measured / Enskog's", ylim=(0, None), xlim=(0, 0.72))
+    axes.legend(loc="upper left")
+
+
 DRAW = {
+    "dense": draw_dense,
     "pressure": lambda axes, table: draw_deviations(axes, table, "Z", r"$Z$ off Kolafa and Rottner's, $10^{-4}$ of it"),
     "li": lambda axes, table: draw_deviations(axes, table, "P", r"$P^*$ off that of Li and others, $10^{-4}$ of it"),
     "enskog": draw_enskog,

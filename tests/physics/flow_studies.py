@@ -8,11 +8,12 @@ shock      a piston drives a shock; the gas behind it, against Rankine and Hugon
            Henderson's equation of state
 fronts     the speed of the front of weak and strong shocks in a long box, against these jumps
 transport  viscosities and thermal conductivity in periodic boxes, against Enskog (Gass, J.
-           Chem. Phys. 54, 1898 (1971)); near freezing they are known to differ, the viscosity
-           upwards and the others downwards (Garcia-Rojo, Luding and Brey, Phys. Rev. E 74, 061305
-           (2006)), so that nothing is held beyond a packing of 0.5
+           Chem. Phys. 54, 1898 (1971))
 windows    the same over Enskog's, as means over all packings, by the lags that they are read from;
            with seeds other than those that have chosen the lags
+dense      ratios to Enskog's near freezing, diffusion too: the viscosity rises, diffusion drops
+           (Garcia-Rojo, Luding and Brey, Phys. Rev. E 74, 061305 (2006)). The viscosity is in
+           proportion to 1 / (0.7 - packing) there (Otsuki, Hayakawa and Luding, arXiv:1002.0618)
 conduction a gas between walls of two temperatures: the heat that the walls give, and that of
            profiles, against Enskog's conductivity times the slope of the temperature
 
@@ -189,6 +190,61 @@ def windows(program, is_short):
         yield row
 
 
+# Bounds on ratios to Enskog's, by packing: more than, or less than, by four standard errors.
+DENSE = {0.55: {}, 0.6: {}, 0.65: {"shear_above": 1.2, "diffusion_below": 1.15},
+         0.68: {"shear_above": 1.7, "diffusion_below": 0.85}}
+DENSE_LAGS = {"shear": (64, 256), "bulk": (16, 64), "conductivity": (16, 64),
+              "diffusion": (64, 256)}
+
+
+def near_freezing(program, packing, seed, discs, steps, lags):
+    """Ratios to Enskog's and their errors."""
+    report = literature.gas(program, discs, packing, 2_000, steps, discs__seed=seed,
+                            output__measurements__quantities='["transport", "correlations"]',
+                            output__measurements__every_steps=4,
+                            output__measurements__from_step=2_000)
+    scale = math.sqrt(report["temperature"]["value"])
+    tables = report["measurements"]
+    known = dict(zip(LAGS, enskog(packing, 1)))
+    # The second approximation of Sonine's series is 1.027 times kT over the frequency.
+    known["diffusion"] = 1.027 * math.sqrt(math.pi) / (4 * (literature.factor(packing) - 1))
+    return {name: [x / (scale * known[name]) for x in
+                   between(tables["correlations" if name == "diffusion" else "transport"], name,
+                           *lags[name])]
+            for name in lags}
+
+
+def dense(program, is_short):
+    """Stress lives for some hundred collisions of a disc there, so lags are longer."""
+    discs, steps, seeds = (256, 10_000, 1) if is_short else (400, 150_000, 4)
+    lags = dict.fromkeys(DENSE_LAGS, (16, 64)) if is_short else DENSE_LAGS
+    shear = []
+    for packing, bounds in {0.68: {"shear_above": 1.0}}.items() if is_short else DENSE.items():
+        found = [near_freezing(program, packing, seed, discs, steps, lags)
+                 for seed in range(1, seeds + 1)]
+        row = {"packing": packing, "discs": discs, "seeds": seeds, "steps": steps}
+        for name in lags:
+            value, error = zip(*(each[name] for each in found))
+            row |= {name: statistics.fmean(value), f"{name}_error": math.hypot(*error) / seeds}
+            row |= {f"{name}_{kind}": bounds.get(f"{name}_{kind}", "") for kind in
+                    ("above", "below")}
+        row |= {"pole": "", "pole_error": "", "pole_known": "", "pole_known_error": ""}
+        shear.append((packing, *(row[name] * enskog(packing, 1)[0] for name in
+                                 ("shear", "shear_error"))))
+        if packing == list(DENSE)[-1] and not is_short:
+            row |= pole(*shear[-2:])
+        yield row
+
+
+def pole(first, last):
+    """Where the inverse viscosity of two packings points to zero."""
+    (a, v, v_error), (b, w, w_error) = first, last
+    slope = (b - a) / (w - v) ** 2 # of the pole by v is w times it, by w v times it
+    return {"pole": (w * b - v * a) / (w - v),
+            "pole_error": slope * math.hypot(w * v_error, v * w_error),
+            "pole_known": 0.7, "pole_known_error": 0.005}
+
+
 def conduction(program, is_short):
     """Walls at 2 and 0.5 in kT. In each strip the heat should be Enskog's conductivity there times
     the slope of the temperature. Next to walls the temperature jumps, so strips there do not count.
@@ -223,7 +279,7 @@ def conduction(program, is_short):
 
 STUDIES = {"shock": (shock, 0.05, 0.03), "fronts": (fronts, 0.02, 0.01),
            "transport": (transport, 0.2, 0.04), "windows": (windows, 0.2, 0.02),
-           "conduction": (conduction, 0.05, 0.04)}
+           "dense": (dense, 1, 0.01), "conduction": (conduction, 0.05, 0.04)}
 
 if __name__ == "__main__":
     literature.main(__doc__, STUDIES)

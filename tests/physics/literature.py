@@ -11,8 +11,9 @@ haff       granular gases that cool, against Haff's law
 melting    P* and psi6 of 128^2 discs through melting, against Li and others
 
 The exit code is 1 where a number is further than four joint standard errors from what is known,
-or its own error is too large. Seeds are fixed, so a study has the same digits each time.
-Core-hours go to standard error. docs/tools/plot_literature.py draws the tables.
+or less than four above or below a bound, or its own error is too large. Seeds are fixed, so a
+study has the same digits each time. Core-hours go to standard error.
+docs/tools/plot_literature.py draws the tables.
 """
 import argparse
 import json
@@ -246,11 +247,18 @@ STUDIES = {"pressure": (pressure, 2e-3, 1.5e-4), "li": (li, 2e-3, 3e-4),
 
 
 def is_right(row, largest_error):
-    """Whether numbers are within four joint standard errors of what is known, with small ones."""
-    names = [name[:-6] for name in row if name.endswith("_known") and row[name] != ""]
-    return all(abs(row[name] - row[f"{name}_known"]) <=
-               4 * math.hypot(row[f"{name}_error"], row[f"{name}_known_error"]) and
-               row[f"{name}_error"] <= largest_error * abs(row[f"{name}_known"]) for name in names)
+    """Whether numbers are within four joint standard errors of what is known, with small ones, and
+    four of their own above or below their bounds."""
+    def is_number_right(name):
+        value, error = row[name], row.get(f"{name}_error")
+        known, above, below = (row.get(f"{name}_{kind}", "") for kind in
+                               ("known", "above", "below"))
+        return ((known == "" or error <= largest_error * abs(known) and
+                 abs(value - known) <= 4 * math.hypot(error, row[f"{name}_known_error"])) and
+                (above == "" or value - 4 * error > above) and
+                (below == "" or value + 4 * error < below))
+
+    return all(is_number_right(name) for name in row)
 
 
 def main(description, studies):
