@@ -61,6 +61,36 @@ def strips_and_halos(folder):
     save(figure, folder, "strips_and_halos.svg")
 
 
+def domains_and_halos(folder):
+    """Seven ranks in groups of two, two and three; the halo of the middle rank of the last group."""
+    size, radius, depth, cuts = 12.0, 0.32, 1.3, (3.4, 6.8)
+    groups, chosen = ((6.9,), (4.6,), (3.6, 7.9)), 5
+    domains = []
+    for strip, across in enumerate(groups):
+        x = ((0.0,) + cuts + (size,))[strip : strip + 2]
+        ys = (0.0,) + across + (size,)
+        domains += [(x[0], x[1], low, high) for low, high in zip(ys, ys[1:])]
+
+    def owner(x, y):
+        return next(k for k, (a, b, c, d) in enumerate(domains) if a <= x < b and c <= y < d)
+
+    figure, axes = plt.subplots(figsize=(6.4, 5.2), layout="constrained")
+    left, right, low, high = domains[chosen]
+    axes.add_patch(Rectangle((left - depth, low - depth), size - left + depth, high - low + 2 * depth, color="#e8e8e8", linewidth=0))
+    axes.add_patch(Rectangle((left, low), right - left, high - low, color="white", linewidth=0))
+    for x, y in random_places(75, size, radius, 4):
+        rank = owner(x, y)
+        is_halo = rank != chosen and x >= left - depth and low - depth <= y <= high + depth
+        axes.add_patch(Circle((x, y), radius, facecolor=STRIP[rank % 3], alpha=1 if rank == chosen or is_halo else 0.35,
+                              edgecolor="black", linewidth=1.3 if is_halo else 0))
+    for rank, (a, b, c, d) in enumerate(domains):
+        axes.add_patch(Rectangle((a, c), b - a, d - c, fill=False, linewidth=1.5, edgecolor="black"))
+        axes.text((a + b) / 2, c + 0.2, f"rank {rank}", ha="center", fontsize=9, backgroundcolor="white")
+    axes.text(size / 2, -1.0, f"grey: halo of rank {chosen}", ha="center", fontsize=9)
+    axes.set(xlim=(0, size), ylim=(0, size), aspect="equal", xticks=[], yticks=[])
+    save(figure, folder, "domains_and_halos.svg")
+
+
 def conflict_chain(folder):
     radius, discs = three_strips.read_scene()
     ordered = three_strips.candidates(radius, discs)
@@ -186,7 +216,7 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, default=three_strips.FOLDER / "pictures")
     options = parser.parse_args()
     plt.rcParams.update({"svg.hashsalt": "carrom", "svg.fonttype": "path"})
-    for draw in (strips_and_halos, conflict_chain, block_window, unseen_blow):
+    for draw in (strips_and_halos, domains_and_halos, conflict_chain, block_window, unseen_blow):
         draw(options.output)
 
 

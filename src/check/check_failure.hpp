@@ -17,7 +17,7 @@ enum class Invariant : int {
     finite,     ///< every number of every state is finite
     owned_once, ///< each of the discs 0 .. N-1 is owned by exactly one rank
     in_box,     ///< the disc's centre is a radius from every wall, to within rounding
-    in_strip,   ///< the disc is in the strip of the rank that owns it
+    in_domain,  ///< the disc is in the domain of the rank that owns it
     in_cell,    ///< the disc is in the cell into which it was sorted
     clear,      ///< the disc is in no obstacle
     counters,   ///< the disc's counters have grown by the number of its collisions that were

@@ -19,7 +19,7 @@ std::string text_of(const Finding& f, const SceneParameters& scene, const std::s
     case Invariant::in_box:
         return who +
                fmt::format("is {:.3g} outside the box; rounding explains {:.3g}", f.value, f.bound);
-    case Invariant::in_strip: return who + fmt::format("is in the strip of rank {}", f.value);
+    case Invariant::in_domain: return who + fmt::format("is in the domain of rank {}", f.value);
     case Invariant::in_cell: return who + "is not in the cell that it is filed under";
     case Invariant::clear:
         return who + fmt::format("overlaps {} by {:.3g}; rounding explains {:.3g}", body, f.value,

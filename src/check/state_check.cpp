@@ -277,8 +277,8 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
                                : radius + beyond(box.y_low, seen.y, box.y_high));
         if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
         const auto [along, across] = turned(geometry.axis, x, y);
-        if (now.strips->owner(along) != communicator_.rank())
-            add(Invariant::in_strip, disc.id, now.strips->owner(along), 0);
+        if (const int owner = now.domains->owner(along, across); owner != communicator_.rank())
+            add(Invariant::in_domain, disc.id, owner, 0);
         const auto index = static_cast<LocalIndex>(i);
         const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
         if (cell.column != geometry.column_of(along) || cell.row != geometry.row_of(across))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans for periodic boundaries, where strips are neighbours across the sides of the
-// box too, and a rank is its own neighbour.
+// Plans for periodic boundaries, where domains are neighbours across the sides of the box too, and
+// a rank is its own neighbour.
 #include <algorithm>
 #include <cmath>
 
@@ -14,33 +14,49 @@ namespace {
 /// Lists of partners reach this much further than the distances, because images are rounded.
 constexpr double margin = 1e-9;
 
-/// A strip that ends where the box does.
-struct Slab {
-    double low = 0, high = 0;
-
-    Slab(const Strips& strips, int rank, double period)
-        : low(strips.low(rank)), high(strips.high(rank)) {
+/// The domain, ending where the box does along axes that are periodic.
+Domain domain_in_box(const Domains& domains, int rank, const Periods& periods) {
+    const auto cut = [](Strip& strip, double period) {
         if (period == 0) return;
-        if (rank == 0) low = 0;
-        if (rank + 1 == strips.size()) high = period;
-    }
-    /// Whether something in the slab can be within `distance` of something in the other one, or of
-    /// its images.
-    bool is_near(const Slab& other, double distance, double period) const {
-        const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
-        for (double n = -n_last; n <= n_last; ++n)
-            if (low - distance <= other.high + n * period &&
-                high + distance >= other.low + n * period)
-                return true;
-        return false;
-    }
-};
+        if (std::isinf(strip.low)) strip.low = 0;
+        if (std::isinf(strip.high)) strip.high = period;
+    };
+    Domain domain = domains.of(rank);
+    cut(domain.along, periods.along(domains.axis()));
+    cut(domain.across, periods.along(other_axis(domains.axis())));
+    return domain;
+}
 
-/// Always asks in the same order, so that two ranks that ask for each other get the same answer.
-bool are_near(const Strips& a, int rank_a, const Strips& b, int rank_b, double distance,
-              double period) {
+/// Whether something in one strip can be within `distance` of something in the other one, displaced
+/// by n periods.
+bool are_near(const Strip& a, const Strip& b, double distance, double shift) {
+    return a.low - distance <= b.high + shift && a.high + distance >= b.low + shift;
+}
+
+/// Whether something in one strip can be within `distance` of something in the other one, or of an
+/// image of it; of the images beyond a side alone if `is_beyond`.
+bool are_near_images(const Strip& a, const Strip& b, double distance, double period,
+                     bool is_beyond) {
+    const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
+    for (double n = -n_last; n <= n_last; ++n)
+        if ((n != 0 || !is_beyond) && are_near(a, b, distance, n * period)) return true;
+    return false;
+}
+
+/// Whether something in the domain of `rank_a` can be within the distances, along and across, of
+/// something in that of `rank_b` or of its images. Always asks in the same order, so that two ranks
+/// that ask for each other get the same answer.
+bool are_near(const Domains& a, int rank_a, const Domains& b, int rank_b, double distance,
+              double distance_across, const Periods& periods) {
     if (a.is_empty(rank_a) || b.is_empty(rank_b)) return false;
-    return Slab(a, rank_a, period).is_near(Slab(b, rank_b, period), distance, period);
+    const double period = periods.along(a.axis()),
+                 period_across = periods.along(other_axis(a.axis()));
+    const Domain from = domain_in_box(a, rank_a, periods), to = domain_in_box(b, rank_b, periods);
+    // Rows of boxes that slide may bring any place across the axis beside any other one.
+    if (periods.are_moving() && are_near_images(from.along, to.along, distance, period, true))
+        return true;
+    return are_near_images(from.along, to.along, distance, period, false) &&
+           are_near_images(from.across, to.across, distance_across, period_across, false);
 }
 
 /// The displacements by n periods that may bring `place` to within `reach` of low ..
@@ -75,30 +91,35 @@ std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks
 
 } // namespace
 
-TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
+TransferPlan plan_periodic_migration(const Domains& before, const Domains& domains, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods, int n_threads) {
     TransferPlan plan;
-    const Axis axis = strips.axis();
-    const double period = periods.along(axis);
-    double distance = farthest;
-    if (period != 0)
-        distance = std::min(farthest, period) +
-                   margin * period; // no place is further than once around
-    for (int other = 0; other < strips.size(); ++other) {
-        if (other != rank && (are_near(old_strips, rank, strips, other, distance, period) ||
-                              are_near(old_strips, other, strips, rank, distance, period)))
+    const Axis axis = domains.axis();
+    const auto distance_along = [&](Axis of) { // no place is further than once around
+        const double period = periods.along(of);
+        return period == 0 ? farthest : std::min(farthest, period) + margin * period;
+    };
+    const double distance = distance_along(axis),
+                 distance_across = distance_along(other_axis(axis));
+    for (int other = 0; other < domains.size(); ++other) {
+        if (other != rank &&
+            (are_near(before, rank, domains, other, distance, distance_across, periods) ||
+             are_near(before, other, domains, rank, distance, distance_across, periods)))
             plan.partners.push_back(other);
     }
     plan.leaving.resize(plan.partners.size());
-    const std::vector<std::size_t> places = places_of(plan.partners, strips.size());
-    if (strips.size() == 1) return plan;
-    const double low = strips.low(rank), high = strips.high(rank);
+    const std::vector<std::size_t> places = places_of(plan.partners, domains.size());
+    if (domains.size() == 1) return plan;
+    const Domain mine = domains.of(rank);
     const PlaceRange all[] = {{0, own.size()}};
     plan_in_parts(plan, all, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
-        const double x = periods.place_of(own[i], axis, time);
-        if (x >= low && x < high) return;
-        const int owner = strips.owner(x);
+        const double along = periods.place_of(own[i], axis, time);
+        const double across = domains.are_cut_across()
+                                  ? periods.place_of(own[i], other_axis(axis), time)
+                                  : 0; // a whole strip holds any
+        if (mine.holds(along, across)) return;
+        const int owner = domains.owner(along, across);
         if (owner == rank) return;
         const std::size_t place = places[static_cast<std::size_t>(owner)];
         ensure(place < plan.partners.size(), "a disc goes to a rank that does not expect it");
@@ -107,53 +128,60 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
     return plan;
 }
 
-Inside interior(const Strips& strips, int rank, double reach, const Periods& periods) {
-    const Slab mine(strips, rank, periods.along(strips.axis()));
-    Inside inner = periods.inside();
-    auto& [x_low, x_high, y_low, y_high] = inner;
-    (strips.axis() == Axis::x ? x_low : y_low) = mine.low;
-    (strips.axis() == Axis::x ? x_high : y_high) = mine.high;
-    return {x_low + reach, x_high - reach, y_low + reach, y_high - reach};
+Inside interior(const Domains& domains, int rank, double reach, const Periods& periods) {
+    const Domain mine = domain_in_box(domains, rank, periods);
+    const auto [x, y] = turned(domains.axis(), mine.along, mine.across);
+    return {x.low + reach, x.high - reach, y.low + reach, y.high - reach};
 }
 
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
-                                std::span<const PlaceRange> ranges, double time, double reach,
-                                const Periods& periods, int n_threads) {
-    TransferPlan plan;
-    const Axis axis = strips.axis();
-    const double longest = std::max(periods.x, periods.y), period = periods.along(axis);
-    for (int other = 0; other < strips.size(); ++other) {
-        if (are_near(strips, std::min(rank, other), strips, std::max(rank, other),
-                     reach + margin * longest, period))
-            plan.partners.push_back(other);
+std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
+                               const Periods& periods) {
+    if (!periods.are_any()) return domains.neighbours_within(rank, reach);
+    const double distance = reach + margin * std::max(periods.x, periods.y);
+    std::vector<int> partners;
+    for (int other = 0; other < domains.size(); ++other) {
+        if (are_near(domains, std::min(rank, other), domains, std::max(rank, other), distance,
+                     distance, periods))
+            partners.push_back(other);
     }
+    return partners;
+}
+
+TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
+                                std::span<const PlaceRange> ranges, double time,
+                                const HaloDepth& depth, const Periods& periods, int n_threads) {
+    TransferPlan plan;
+    const Axis axis = domains.axis();
+    const double period = periods.along(axis), period_across = periods.along(other_axis(axis)),
+                 reach = depth.reach;
+    plan.partners = halo_partners(domains, rank, reach, periods);
     plan.leaving.resize(plan.partners.size());
     plan.images.resize(plan.partners.size());
-    std::vector<Slab> slabs;
-    for (const int other : plan.partners) slabs.emplace_back(strips, other, period);
-    const double period_across = periods.along(other_axis(axis));
+    std::vector<Domain> theirs;
+    for (const int other : plan.partners) theirs.push_back(domain_in_box(domains, other, periods));
     // Moving rows of boxes slide along x, so strips are cut along y then.
     ensure(axis == Axis::y || !periods.are_moving(), "strips are cut along the rows of boxes");
     const double slide = axis == Axis::y ? periods.offset_at(time) : 0;
-    const Inside box = periods.inside();
-    const double across_low = axis == Axis::x ? box.y_low : box.x_low;
-    const double across_high = axis == Axis::x ? box.y_high : box.x_high;
+    const auto is_far = [](const Strip& strip, double place, double distance) {
+        return place + distance < strip.low || place - distance > strip.high;
+    };
     plan_in_parts(plan, ranges, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
         const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
         const Image home = image_of(own[i]);
-        const Shifts at_rest(v, reach, across_low, across_high, period_across);
-        for (std::size_t k = 0; k < slabs.size(); ++k) {
-            const Shifts along(u, reach, slabs[k].low, slabs[k].high, period);
+        for (std::size_t k = 0; k < theirs.size(); ++k) {
+            const Strip &strip = theirs[k].along, &strip_across = theirs[k].across;
+            const Shifts along(u, reach, strip.low, strip.high, period);
             for (int n = along.first; n <= along.last; ++n) {
                 const double image_u = u + n * period;
-                if (image_u + reach < slabs[k].low || image_u - reach > slabs[k].high) continue;
+                if (is_far(strip, image_u, reach)) continue;
+                const bool is_deep = depth.beyond < 0 || is_far(strip, image_u, depth.beyond);
                 const double beside = v + n * slide;
-                Shifts across = at_rest;
-                if (n != 0 && slide != 0) [[unlikely]]
-                    across = Shifts(beside, reach, across_low, across_high, period_across);
+                const Shifts across(beside, reach, strip_across.low, strip_across.high,
+                                    period_across);
                 for (int m = across.first; m <= across.last; ++m) {
                     const double image_v = beside + m * period_across;
-                    if (image_v + reach < across_low || image_v - reach > across_high) continue;
+                    if (is_far(strip_across, image_v, reach)) continue;
+                    if (!is_deep && !is_far(strip_across, image_v, depth.beyond)) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
                     const auto [by_x, by_y] = turned(axis, n, m);
                     part.leaving[k].push_back(i);

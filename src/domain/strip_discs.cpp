@@ -2,10 +2,11 @@
 #include "domain/strip_discs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "core/errors.hpp"
+#include "domain/domain_cuts.hpp"
 #include "domain/hand_to_owners.hpp"
 #include "domain/transfer_in_parts.hpp"
 
@@ -13,54 +14,46 @@ namespace carrom {
 
 namespace {
 
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
 /// Moving rows of boxes slide along x. Strips are rows then, so that only the first
 /// and the last one have images that move.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
 
-Strips equal_strips(const Box& box, const Periods& periods, int n_ranks) {
+/// The depth of halos in mean distances of discs becomes one in lengths.
+std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks,
+                             std::uint64_t n_discs, const GroupChoice& choice) {
+    if (choice.ranks_across) return groups_of(n_ranks, std::min(*choice.ranks_across, n_ranks));
     const Axis axis = cut_axis(box, periods);
-    std::vector<double> cuts;
-    for (int k = 1; k < n_ranks; ++k) cuts.push_back(along(axis, box) * k / n_ranks);
-    return Strips(cuts, axis);
-}
-
-/// The places further than `reach` from both ends of the strip.
-Inside inner_part(const Strips& strips, int rank, double reach) {
-    const double low = strips.low(rank) + reach, high = strips.high(rank) - reach;
-    return strips.axis() == Axis::x ? Inside{low, high, -unbounded, unbounded}
-                                    : Inside{-unbounded, unbounded, low, high};
-}
-
-/// The disc's place in the box along the strips' axis.
-double place_in_box(const Strips& strips, const Periods& periods, const DiscState& disc,
-                    double time) {
-    DiscState in_box = disc;
-    in_box.x = disc.x_at(time);
-    in_box.y = disc.y_at(time);
-    periods.wrap(in_box, time);
-    return strips.place_of(in_box, in_box.tau);
+    GroupNeeds needs;
+    needs.n_ranks = n_ranks;
+    needs.n_discs = static_cast<double>(n_discs);
+    needs.length = along(axis, box);
+    needs.width = along(other_axis(axis), box);
+    needs.halo = choice.halo_spacings * std::sqrt(needs.length / static_cast<double>(n_discs + 1)) *
+                 std::sqrt(needs.width);
+    needs.is_periodic = periods.along(axis) != 0;
+    needs.is_periodic_across = periods.along(other_axis(axis)) != 0;
+    return choose_groups(needs);
 }
 
 } // namespace
 
 StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
                        std::vector<DiscState> discs, const Periods& periods, SideColumns columns,
-                       int n_threads)
-    : communicator_(communicator), n_threads_(n_threads),
-      length_(along(cut_axis(box, periods), box)), periods_(periods),
-      strips_(equal_strips(box, periods, communicator.size())), redistributed_strips_(strips_),
-      exchange_(communicator) {
+                       int n_threads, const GroupChoice& choice)
+    : communicator_(communicator), n_threads_(n_threads), box_(box), periods_(periods),
+      n_total_(communicator.sum(std::uint64_t{discs.size()})), n_with_departed_(n_total_),
+      group_sizes_(group_sizes(box, periods, communicator.size(), n_total_, choice)),
+      domains_(equal_domains(box, cut_axis(box, periods), group_sizes_)),
+      redistributed_domains_(domains_), exchange_(communicator) {
     columns_ = std::move(columns);
     columns_.resize(discs.size());
     columns_.for_each([&](SideColumn column) { departed_columns_.add(column); });
     if (communicator.size() > 1) {
         const auto owner_of = [&](const DiscState& disc) {
-            return static_cast<std::size_t>(
-                strips_.owner(place_in_box(strips_, periods, disc, disc.tau)));
+            const auto [along, across] = place_in_box(disc, disc.tau);
+            return static_cast<std::size_t>(domains_.owner(along, across));
         };
         columns_.for_each([&](SideColumn column) {
             hand_to_owners(communicator, columns_[column],
@@ -70,7 +63,15 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
     }
     discs_ = std::move(discs);
     n_own_ = discs_.size();
-    n_total_ = n_with_departed_ = communicator.sum(std::uint64_t{n_own_});
+}
+
+/// The disc's place in the box, along the strips' axis and across it.
+std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double time) const {
+    DiscState in_box = disc;
+    in_box.x = disc.x_at(time);
+    in_box.y = disc.y_at(time);
+    periods_.wrap(in_box, time);
+    return domains_.place_of(in_box, in_box.tau);
 }
 
 void StripDiscs::set_departed_aside() {
@@ -105,7 +106,7 @@ void StripDiscs::migrate(double time, double farthest, std::vector<DiscState>* c
         n_own_ = discs_.size();
     }
     is_sorted_ = false;
-    redistributed_strips_ = strips_;
+    redistributed_domains_ = domains_;
 }
 
 /// Sends the values of the discs that leave, and appends those of the discs that come.
@@ -116,14 +117,15 @@ template <Message T> void StripDiscs::move_along(const TransferPlan& plan, std::
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Discs far from both ends of the strip when they were sorted cannot have left it.
+/// Discs far from the sides of the domain when they were sorted cannot have left it.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
-        return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest,
-                                       periods_, n_threads_);
-    const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, farthest));
-    return plan_migration(redistributed_strips_, strips_, rank, own(), searched, time, farthest,
+        return plan_periodic_migration(redistributed_domains_, domains_, rank, own(), time,
+                                       farthest, periods_, n_threads_);
+    const std::vector<PlaceRange> searched = places_outside(
+        interior(domains_, rank, farthest, periods_));
+    return plan_migration(redistributed_domains_, domains_, rank, own(), searched, time, farthest,
                           n_threads_);
 }
 
@@ -188,21 +190,15 @@ void StripDiscs::set_home_images(double time, double farthest, std::vector<DiscS
 }
 
 Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
-    const auto all_of = [reach](double box_low, double box_high, double period) {
-        return period == 0 ? std::pair(box_low, box_high) : std::pair(-reach, period + reach);
+    const auto part_of = [reach](const Strip& mine, double low, double high, double period) {
+        if (period != 0)
+            return std::pair(std::max(0.0, mine.low) - reach, std::min(period, mine.high) + reach);
+        return std::pair(std::max(low, mine.low - reach), std::min(high, mine.high + reach));
     };
-    const auto part_of = [&](double box_low, double box_high, double period) {
-        const double low = strips_.low(communicator_.rank()),
-                     high = strips_.high(communicator_.rank());
-        if (period == 0)
-            return std::pair(std::max(box_low, low - reach), std::min(box_high, high + reach));
-        return std::pair(std::max(0.0, low) - reach, std::min(period, high) + reach);
-    };
-    const bool cut_x = strips_.axis() == Axis::x;
-    const auto [x_low, x_high] = cut_x ? part_of(box.x_low, box.x_high, periods_.x)
-                                       : all_of(box.x_low, box.x_high, periods_.x);
-    const auto [y_low, y_high] = cut_x ? all_of(box.y_low, box.y_high, periods_.y)
-                                       : part_of(box.y_low, box.y_high, periods_.y);
+    const Domain mine = domains_.of(communicator_.rank());
+    const auto [along_x, along_y] = turned(domains_.axis(), mine.along, mine.across);
+    const auto [x_low, x_high] = part_of(along_x, box.x_low, box.x_high, periods_.x);
+    const auto [y_low, y_high] = part_of(along_y, box.y_low, box.y_high, periods_.y);
     return {x_low, x_high, y_low, y_high};
 }
 
@@ -218,18 +214,10 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 0;
     }
-    if (periods_.are_any()) {
-        const std::vector<PlaceRange> searched = places_outside(
-            interior(strips_, communicator_.rank(), reach, periods_));
-        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), searched, time, reach,
-                                        periods_, n_threads_);
-        other_partners_ = halo_plan_.partners;
-        std::erase(other_partners_, communicator_.rank());
-    } else {
-        const int rank = communicator_.rank();
-        const std::vector<PlaceRange> searched = places_outside(inner_part(strips_, rank, reach));
-        halo_plan_ = plan_halo(strips_, rank, own(), searched, time, reach, n_threads_);
-    }
+    more_halo_.clear();
+    halo_plan_ = plan_of_halo(time, {reach});
+    other_partners_ = halo_plan_.partners;
+    std::erase(other_partners_, communicator_.rank());
     for (std::vector<DiscState>* values : {&discs_, companion}) {
         if (!values) continue;
         if (communicator_.size() == 1) {
@@ -253,6 +241,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
 void StripDiscs::send_updates(std::span<const LocalIndex> changed,
                               std::vector<LocalIndex>& updates) {
     if (has_no_halo()) return;
+    ensure(more_halo_.empty(), "a halo that has grown gets no updates");
     const TransferPlan plan = plan_updates(changed);
     const std::size_t n_partners = plan.partners.size();
     std::vector<RawVector<Update>> out(n_partners);
@@ -320,43 +309,9 @@ void StripDiscs::take_updates(std::span<const Update> items, std::size_t offset,
     }
 }
 
-void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
-                                  std::vector<LocalIndex>& reported) {
-    if (has_no_halo()) return;
-    std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
-    for (const LocalIndex index : of_halo) {
-        const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(),
-                                             std::size_t{index});
-        const auto k = static_cast<std::size_t>(behind - halo_offsets_.begin()) - 1;
-        out[k].push_back(index - halo_offsets_[k]);
-    }
-    Received<std::uint64_t> in;
-    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
-    for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const std::uint64_t place : in.from(k))
-            reported.push_back(halo_plan_.leaving[k][place]);
-    }
-}
-
-void StripDiscs::rebalance(double time, double above) {
-    const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());
-    if (n_ranks == 1) return;
-    const auto largest_share = static_cast<double>(communicator_.max(std::uint64_t{n_own_}) *
-                                                   n_ranks);
-    if (largest_share <= above * static_cast<double>(n_total_)) return;
-    std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
-    const auto n_bins = static_cast<double>(weights.size());
-    for (const DiscState& disc : own()) {
-        const double bin = place_in_box(strips_, periods_, disc, time) / length_ * n_bins;
-        weights[static_cast<std::size_t>(std::clamp(bin, 0.0, n_bins - 1))] += 1;
-    }
-    communicator_.sum(weights);
-    strips_ = Strips(balanced_cuts(weights, length_, communicator_.size()), strips_.axis());
-}
-
 bool StripDiscs::is_valid(double time) const {
     std::uint64_t sums[] = {n_own_ + departed_.size(), 0, 0};
-    bool in_strip = true;
+    bool in_domain = true;
     for (const DiscState& disc : departed_) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
@@ -364,9 +319,9 @@ bool StripDiscs::is_valid(double time) const {
     for (const DiscState& disc : own()) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
-        in_strip = in_strip &&
-                   redistributed_strips_.owner(place_in_box(strips_, periods_, disc, time)) ==
-                       communicator_.rank();
+        const auto [along, across] = place_in_box(disc, time);
+        in_domain = in_domain &&
+                    redistributed_domains_.owner(along, across) == communicator_.rank();
     }
     communicator_.sum(sums);
     std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, like the expected sums
@@ -374,7 +329,7 @@ bool StripDiscs::is_valid(double time) const {
         id_sum += id;
         square_sum += id * id;
     }
-    return communicator_.all(in_strip) && sums[0] == n_with_departed_ && sums[1] == id_sum &&
+    return communicator_.all(in_domain) && sums[0] == n_with_departed_ && sums[1] == id_sum &&
            sums[2] == square_sum;
 }
 

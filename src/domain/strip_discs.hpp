@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The discs of one rank: its own, in the order of their cells, and behind them the halo that its
-// neighbours have sent. Moves them between ranks: migrate, sort, fetch the halo.
+// neighbours have sent. The rank owns a strip, or a part of one (domains.hpp). Moves them between
+// ranks: migrate, sort, fetch the halo.
 //
 // Who may send to whom follows from cuts and bounds that all ranks share, so
 // `farthest` and `reach` must be the same on all ranks. Price: two passes over the own
@@ -8,14 +9,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
 #include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
-#include "domain/strips.hpp"
+#include "domain/domains.hpp"
 #include "domain/transfer.hpp"
 #include "dynamics/effects.hpp"
 #include "parallel/communicator.hpp"
@@ -23,18 +26,33 @@
 
 namespace carrom {
 
+/// How many ranks share a strip. It affects the cost only.
+struct GroupChoice {
+    double halo_spacings = 0;        ///< the usual depth of halos, in mean distances of discs
+    std::optional<int> ranks_across; ///< unset: by that depth, the box and the number of ranks
+};
+
+/// What a rank has done, in any unit that all ranks share. Work for pairs of near discs, such as
+/// collisions, is counted apart, because it grows with the density around a disc.
+struct RankWork {
+    std::uint64_t of_discs = 0, of_pairs = 0;
+
+    std::uint64_t all() const { return of_discs + of_pairs; }
+};
+
 class StripDiscs {
 public:
-    /// Takes discs in any distribution and gives them to the owners of equal strips.
+    /// Takes discs in any distribution and gives them to the owners of equal domains.
     /// In a periodic box own discs get the images in the box when they migrate, and
     /// the halo has images of own discs, too. `columns` run along the discs; missing
     /// numbers are 0. **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, std::vector<DiscState> discs,
-               const Periods& periods, SideColumns columns, int n_threads);
+               const Periods& periods, SideColumns columns, int n_threads,
+               const GroupChoice& choice);
 
-    /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
-    /// has moved by more than `farthest` since the last migration. `companion` runs along the own
-    /// discs, or is null. **Collective.**
+    /// Forgets the halo and sends each own disc to the rank whose domain holds it at `time`. No
+    /// disc has moved by more than `farthest` since the last migration. `companion` runs along the
+    /// own discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<DiscState>* companion);
 
     /// Brings the own discs, and all arrays along them, into the order of their cells
@@ -44,10 +62,15 @@ public:
     /// Sorts into cells without flights.
     void sort_cells(const GridGeometry& geometry, double time);
 
-    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
-    /// puts them into cells. The own discs have migrated and been sorted for the same time.
+    /// Appends to the own discs those of other ranks within `reach` of the own domain at `time`,
+    /// and puts them into cells. The own discs have migrated and been sorted for the same time.
     /// **Collective.**
     void fetch_halo(double time, double reach, std::vector<DiscState>* companion);
+
+    /// Adds the discs within `reach` to the halos of those ranks that `want` it. Their halos hold
+    /// the discs within `beyond` already, which keep their places. Until discs are sorted again,
+    /// there are no updates. **Collective.**
+    void fetch_more_halo(double time, double beyond, double reach, bool wants);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their
     /// halo. Takes over those of the own halo, and appends their places to `updates`.
@@ -60,16 +83,18 @@ public:
         values.resize(n_own_);
         if (has_no_halo()) return;
         transfer(exchange_, halo_plan_, values, values, n_threads_);
+        for (const HaloPart& part : more_halo_)
+            transfer(exchange_, part.plan, values, values, n_threads_);
     }
 
     /// Reports discs of the halo to their owners. Appends to `reported` the own discs that others
     /// have reported. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
-    /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds
-    /// the mean by a factor of more than `above`. The discs follow when they migrate next.
-    /// **Collective.**
-    void rebalance(double time, double above);
+    /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest one
+    /// exceeds the mean by a factor of more than `above`. Discs count at their places at `time`,
+    /// and follow when they migrate next. **Collective.**
+    void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
     const CellGrid& grid() const { return grid_; }
@@ -89,7 +114,7 @@ public:
     }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
-    const Strips& strips() const { return strips_; }
+    const Domains& domains() const { return domains_; }
     /// The other ranks that had own discs in their halo when it was fetched.
     std::span<const int> neighbours() const {
         return periods_.are_any() ? other_partners_ : halo_plan_.partners;
@@ -116,19 +141,31 @@ public:
 
     /// Removes the discs of the halo.
     void forget_halo() {
+        more_halo_.clear();
         discs_.resize(n_own_);
         columns_.resize(n_own_);
     }
 
-    /// Whether each own disc lies in its strip at `time`, and all ranks together have
+    /// Whether each own disc lies in its domain at `time`, and all ranks together have
     /// each of 0 .. n-1 once, departed ones included. **Collective.**
     bool is_valid(double time) const;
 
 private:
+    /// Discs that have come to the halo later.
+    struct HaloPart {
+        TransferPlan plan;
+        std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
+    };
+
     template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
     void set_home_images(double time, double farthest, std::vector<DiscState>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
+    template <class Visit> void weigh(const RankWork& work, double unit, const Visit& visit) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
+    std::pair<double, double> place_in_box(const DiscState& disc, double time) const;
+    TransferPlan plan_of_halo(double time, const HaloDepth& depth) const;
+    void report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
+                     std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(std::vector<DiscState>* states);
 
     /// A disc's new state, and its place in the neighbour's halo.
@@ -142,16 +179,17 @@ private:
 
     Communicator communicator_;
     int n_threads_;
-    double length_; ///< length of the box along the strips' axis
+    Box box_;
     Periods periods_;
     std::vector<DiscState> discs_; ///< own, then halo
     SideColumns columns_;          ///< along `discs_`
     std::size_t n_own_ = 0;
-    std::uint64_t n_total_ = 0, n_with_departed_ = 0;
+    std::uint64_t n_total_, n_with_departed_;
     std::vector<DiscState> departed_; ///< discs at the places where they have left
     SideColumns departed_columns_;    ///< along `departed_`
-    Strips strips_,
-        redistributed_strips_; ///< the cuts now, and those of the last migration
+    std::vector<int> group_sizes_;    ///< by strip
+    Domains domains_,
+        redistributed_domains_; ///< the cuts now, and those of the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
     bool is_sorted_ = false;  ///< the grid has the own discs' places
@@ -159,7 +197,8 @@ private:
     TransferPlan halo_plan_;
     std::vector<int> other_partners_;       ///< in a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
-    std::vector<std::uint8_t> is_shown_;    ///< by own disc: a partner has it in its halo
+    std::vector<HaloPart> more_halo_;
+    std::vector<std::uint8_t> is_shown_; ///< by own disc: a partner has it in its halo
 };
 
 } // namespace carrom

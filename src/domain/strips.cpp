@@ -15,14 +15,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether a disc that was in the strip of `sender` can belong to `receiver` after it has moved.
-bool can_move(const Strips& before, const Strips& after, int sender, int receiver,
-              double distance) {
-    if (before.is_empty(sender) || after.is_empty(receiver)) return false;
-    return before.high(sender) + distance >= after.low(receiver) &&
-           before.low(sender) - distance < after.high(receiver);
-}
-
 } // namespace
 
 Strips::Strips(std::vector<double> cuts, Axis axis) : cuts_(std::move(cuts)), axis_(axis) {
@@ -44,48 +36,37 @@ int Strips::owner(double x) const {
     return static_cast<int>(std::upper_bound(cuts_.begin(), cuts_.end(), x) - cuts_.begin());
 }
 
-bool Strips::are_within(int lower, int upper, double reach) const {
-    // Rounding is monotone. For x < high(lower) the rounded x + reach is at most this sum. Where
-    // the rounded x - reach of a sender above is less than high(lower), the sum is at least x. A
-    // difference of the two edges might miss both.
-    return high(lower) + reach >= low(upper);
-}
-
 std::vector<int> Strips::neighbours_within(int rank, double reach) const {
     std::vector<int> neighbours;
     if (is_empty(rank)) return neighbours;
-    for (int lower = rank - 1; lower >= 0 && are_within(lower, rank, reach); --lower)
+    for (int lower = rank - 1; lower >= 0 && are_within(of(lower), of(rank), reach); --lower)
         if (!is_empty(lower)) neighbours.push_back(lower);
     std::reverse(neighbours.begin(), neighbours.end());
-    for (int upper = rank + 1; upper < size() && are_within(rank, upper, reach); ++upper)
+    for (int upper = rank + 1; upper < size() && are_within(of(rank), of(upper), reach); ++upper)
         if (!is_empty(upper)) neighbours.push_back(upper);
     return neighbours;
 }
 
-std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
-                                double distance) {
-    ensure(before.size() == after.size(), "strips before and after are of different numbers");
-    std::vector<int> partners;
-    for (int other = 0; other < before.size(); ++other) {
-        if (other == rank) continue;
-        if (can_move(before, after, rank, other, distance) ||
-            can_move(before, after, other, rank, distance))
-            partners.push_back(other);
-    }
-    return partners;
+bool can_move(const Strip& before, const Strip& after, double distance) {
+    return before.high + distance >= after.low && before.low - distance < after.high;
+}
+
+bool are_within(const Strip& a, const Strip& b, double reach) {
+    // Rounding is monotone. For x < a.high the rounded x + reach is at most this sum. Where the
+    // rounded x - reach of a sender above b is less than b.high, the sum is at least x. A
+    // difference of the two edges might miss both.
+    return a.high + reach >= b.low && b.high + reach >= a.low;
 }
 
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
-                                  int n_ranks) {
-    ensure(n_ranks > 0, "there are no ranks to balance");
+                                  std::span<const double> below_cuts) {
     const double total = static_cast<double>(
         std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
     const double bin_width = length / static_cast<double>(std::max<std::size_t>(1, weights.size()));
     std::vector<double> cuts;
     std::size_t bin = 0;
     double below = 0; // the weight of the bins below `bin`: whole numbers, exact up to 2^53
-    for (int k = 1; k < n_ranks; ++k) {
-        const double share = static_cast<double>(k) / n_ranks;
+    for (const double share : below_cuts) {
         double cut = length * share;
         if (total > 0) {
             const double target = total * share;

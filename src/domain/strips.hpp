@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank owns which slab of the strips' axis, by default x, and which ranks may
-// therefore exchange discs. Pure arithmetic, no MPI.
+// An axis, by default x, cut into half-open slabs, and which owners of slabs may therefore exchange
+// discs. Domains (domains.hpp) are strips in both directions. Pure arithmetic, no MPI.
 //
 // All lists follow from numbers that every rank knows, so both partners of an exchange
 // know of it without a message. Lists are symmetric: a lists b if and only if b lists
@@ -22,6 +22,7 @@ struct Strip {
     double low = 0, high = 0;
 
     bool is_empty() const { return !(low < high); }
+    bool holds(double place) const { return place >= low && place < high; }
     /// Whether a strip that is not empty meets [from, to].
     bool meets(double from, double to) const { return from < high && to >= low; }
 };
@@ -59,22 +60,21 @@ public:
     friend bool operator==(const Strips&, const Strips&) = default;
 
 private:
-    bool are_within(int lower, int upper, double reach) const;
-
     std::vector<double> cuts_;
     Axis axis_ = Axis::x;
 };
 
-/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from. Discs
-/// were in their owners' strips `before`, have moved by at most `distance` in x, and go to their
-/// owners in `after`. Cost: the number of ranks.
-std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
-                                double distance);
+/// Whether a disc that was in the strip `before` can be in the strip `after` when it has moved by
+/// at most `distance`. Neither strip is empty.
+bool can_move(const Strip& before, const Strip& after, double distance);
 
-/// Cuts that give `n_ranks` strips equal weight. `weights` belong to equal bins of [0,
-/// length], and are taken as spread evenly inside a bin. The cuts ascend, lie within
-/// the box, and are a function of the arguments alone.
+/// Whether a disc in one of the strips can lie within `reach` >= 0 of the other. Neither is empty.
+bool are_within(const Strip& a, const Strip& b, double reach);
+
+/// The cuts below which the shares `below` of the weight lie, which ascend from 0 to 1. `weights`
+/// belong to equal bins of [0, length], and are taken as spread evenly inside a bin. The cuts
+/// ascend, lie within the box, and are a function of the arguments alone.
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
-                                  int n_ranks);
+                                  std::span<const double> below);
 
 } // namespace carrom

@@ -34,36 +34,38 @@ private:
 
 } // namespace
 
-TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
+TransferPlan plan_migration(const Domains& before, const Domains& domains, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest, int n_threads) {
     TransferPlan plan;
-    plan.partners = movers_between(old_strips, strips, rank, farthest);
+    plan.partners = movers_between(before, domains, rank, farthest);
     plan.leaving.resize(plan.partners.size());
-    if (strips.size() == 1) return plan;
+    if (domains.size() == 1) return plan;
     const PartnerPlaces places(plan.partners);
-    const double low = strips.low(rank), high = strips.high(rank);
+    const Domain mine = domains.of(rank);
     plan_in_parts(plan, searched, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
-        const double x = strips.place_of(own[i], time);
-        if (x >= low && x < high) return;
-        const int owner = strips.owner(x);
+        const auto [along, across] = domains.place_of(own[i], time);
+        if (mine.holds(along, across)) return;
+        const int owner = domains.owner(along, across);
         if (owner != rank) part.leaving[places[owner]].push_back(i);
     });
     return plan;
 }
 
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
-                       std::span<const PlaceRange> searched, double time, double reach,
+TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
+                       std::span<const PlaceRange> searched, double time, const HaloDepth& depth,
                        int n_threads) {
     TransferPlan plan;
-    plan.partners = strips.neighbours_within(rank, reach);
+    plan.partners = domains.neighbours_within(rank, depth.reach);
     plan.leaving.resize(plan.partners.size());
-    std::vector<Strip> theirs;
-    for (const int partner : plan.partners) theirs.push_back(strips.of(partner));
+    std::vector<Domain> theirs;
+    for (const int partner : plan.partners) theirs.push_back(domains.of(partner));
     plan_in_parts(plan, searched, n_threads, [&](LocalIndex i, LeavingDiscs& part) {
-        const double x = strips.place_of(own[i], time);
+        const auto [along, across] = domains.place_of(own[i], time);
         for (std::size_t k = 0; k < theirs.size(); ++k)
-            if (theirs[k].meets(x - reach, x + reach)) part.leaving[k].push_back(i);
+            if (theirs[k].is_within(depth.reach, along, across) &&
+                (depth.beyond < 0 || !theirs[k].is_within(depth.beyond, along, across)))
+                part.leaving[k].push_back(i);
     });
     return plan;
 }

@@ -14,7 +14,7 @@
 
 #include "core/disc_state.hpp"
 #include "core/image.hpp"
-#include "domain/strips.hpp"
+#include "domain/domains.hpp"
 #include "parallel/neighbour_exchange.hpp"
 
 namespace carrom {
@@ -41,34 +41,42 @@ struct TransferPlan : LeavingDiscs {
     std::vector<int> partners; ///< ranks, each of them once
 };
 
-/// The discs whose place at `time` lies in another rank's strip. They were in this
-/// rank's strip of `old_strips`, or at most `farthest` away. `searched` are ascending
-/// ranges of own discs that hold all discs outside of the strip.
-TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
+/// The discs whose place at `time` lies in another rank's domain. They were in this rank's domain
+/// of `before`, or at most `farthest` away along each axis. `searched` are ascending ranges of own
+/// discs that hold all discs outside of the domain.
+TransferPlan plan_migration(const Domains& before, const Domains& domains, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest, int n_threads);
 
-/// The discs within `reach` of another rank's strip at `time`. Empty strips get none.
-/// `searched` are ascending ranges of own discs that hold all discs not further than
-/// `reach` inside the strip.
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const DiscState> own,
-                       std::span<const PlaceRange> searched, double time, double reach,
+/// A halo holds the discs within `reach` of a domain, along each axis, but for those within
+/// `beyond` of it; it leaves out none if that is negative.
+struct HaloDepth {
+    double reach = 0, beyond = -1;
+};
+
+/// The discs for the halos of other ranks at `time`. Empty domains get none. `searched` are
+/// ascending ranges of own discs that hold all discs not further than the reach inside the domain.
+TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
+                       std::span<const PlaceRange> searched, double time, const HaloDepth& depth,
                        int n_threads);
 
 /// Plans by the places of the discs' images in a box with periodic sides. After a
 /// migration these are the images in the box. In a halo a disc also goes to its own
 /// rank, as other images, and may go to a rank several times.
-TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
+TransferPlan plan_periodic_migration(const Domains& before, const Domains& domains, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods, int n_threads);
 /// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const DiscState> own,
-                                std::span<const PlaceRange> searched, double time, double reach,
-                                const Periods& periods, int n_threads);
+TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
+                                std::span<const PlaceRange> searched, double time,
+                                const HaloDepth& depth, const Periods& periods, int n_threads);
+/// The partners of both plans.
+std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
+                               const Periods& periods);
 
-/// The places in the rank's strip that are further than `reach` from its ends, and
-/// from the sides of the box that are periodic along y.
-Inside interior(const Strips& strips, int rank, double reach, const Periods& periods);
+/// The places in the rank's domain that are further than `reach` from its sides, where it ends, or
+/// the box does and is periodic.
+Inside interior(const Domains& domains, int rank, double reach, const Periods& periods);
 
 /// Sends the values that `plan` names of an array along the own discs, and appends those that come
 /// to `arrived`, which may be the same array. Returns where each partner's values begin in what has

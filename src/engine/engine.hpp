@@ -11,7 +11,7 @@
 #include "cell_list/population.hpp"
 #include "core/disc_state.hpp"
 #include "core/frame.hpp"
-#include "domain/strips.hpp"
+#include "domain/domains.hpp"
 #include "dynamics/species.hpp"
 #include "engine/collision.hpp"
 #include "engine/pair_event.hpp"
@@ -24,11 +24,11 @@
 namespace carrom {
 
 /// A rank's discs at `time` as every window begins with them: own discs in their
-/// strip, the halo behind them, all sorted into cells.
+/// domain, the halo behind them, all sorted into cells.
 struct LocalView {
     Population population;
     const CellGrid* grid = nullptr; ///< partners within a diameter are within its reach
-    const Strips* strips = nullptr;
+    const Domains* domains = nullptr;
     double time = 0;   ///< since the last sync
     Frame frame;       ///< the coordinates are in this frame
     Periods periods{}; ///< if the box is periodic; discs are where their images are

@@ -27,6 +27,12 @@ void Engine::note_crossing(const DiscState& disc, double x, double y, const Peri
 
 namespace {
 
+/// Halos are usually this deep, in mean distances of discs: a reach of the time-stepped method, and
+/// three of the event-driven one, whose windows are longer (tests/performance/rank_loads.cpp).
+GroupChoice group_choice(Method method, const Tuning& tuning) {
+    return {method == Method::time_stepped ? 1.2 : 10, tuning.ranks_across};
+}
+
 /// Includes columns of the scene that no collision changes, because they go where the discs go.
 template <class Dynamics>
 SideColumns stored_columns(const SceneParameters& scene, StoredState& state) {
@@ -56,7 +62,8 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
-             stored_columns<Dynamics>(scene, state), tuning.threads),
+             stored_columns<Dynamics>(scene, state), tuning.threads,
+             group_choice(scene.method, tuning)),
       n_micro_done_(state.micro_steps_done), species_(species_of(dynamics_)),
       sync_action_(scene, species_, communicator, tuning.threads), flight_length_(flight_length()),
       last_micro_step_(scene.steps * scene.micro_steps) {
@@ -82,7 +89,7 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
-    discs_.rebalance(time_, tuning_.rebalance_above);
+    discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
     redistribute_now();
 }
 
@@ -98,7 +105,7 @@ template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double lea
         {dynamics_.box(), radius, static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridGeometry geometry = make_sparse_geometry(seen, discs_.strips().axis(), reach,
+    const GridGeometry geometry = make_sparse_geometry(seen, discs_.domains().axis(), reach,
                                                        discs_.n_own());
     discs_.sort_cells(geometry, time_);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
@@ -152,7 +159,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     ++n_syncs_;
     if (tuning_.rebalance_every == 0 || n_syncs_ % tuning_.rebalance_every != 0) return;
     const PhaseClock::Scope wait(phases_, Phase::wait);
-    discs_.rebalance(0, tuning_.rebalance_above);
+    discs_.rebalance(0, tuning_.rebalance_above, std::exchange(rank_work_, {}));
 }
 
 /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
@@ -241,7 +248,7 @@ template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
 
 template <class Dynamics> LocalView EngineBase<Dynamics>::local_view(double reach) {
     redistribute_now(reach * (1 + 1e-6));
-    return {population(), &discs_.grid(), &discs_.strips(), time_, frame(), discs_.periods()};
+    return {population(), &discs_.grid(), &discs_.domains(), time_, frame(), discs_.periods()};
 }
 
 template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {

@@ -52,7 +52,7 @@ protected:
     /// Runs windows until `n_micro_done_` is `target`, which is not beyond the next
     /// sync. **Collective.**
     virtual void advance_to(std::int64_t target) = 0;
-    /// Sends each own disc to the rank whose strip holds it now. **Collective.**
+    /// Sends each own disc to the rank whose domain holds it now. **Collective.**
     virtual void migrate() = 0;
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
@@ -75,6 +75,12 @@ protected:
 
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
+    /// Counts the discs that a window sees as work of this rank, and returns their number.
+    std::size_t count_seen() {
+        rank_work_.of_discs += discs_.all().size();
+        return discs_.all().size();
+    }
+
     Population population() const { return discs_.population(); }
     /// The present walls in the coordinates of states.
     Extent extent() const;
@@ -96,6 +102,7 @@ protected:
     double redistributed_time_ = 0; ///< when discs last migrated
     double largest_speed_ = 0;      ///< no own disc is faster
     double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
+    RankWork rank_work_;      ///< since ranks were last compared
     PhaseClock phases_;
 
 private:

@@ -16,6 +16,7 @@ struct Tuning {
     std::optional<double> cell_width; ///< in units of the window's reach
     std::optional<double>
         usual_speed; ///< in units of the largest speed; cells allow for it if a micro-step is cut
+    std::optional<int> ranks_across;  ///< ranks that share a strip and cut it across
     std::int64_t rebalance_every = 1; ///< in syncs; 0 never moves the first cuts
     double rebalance_above =
         1.05; ///< the largest over mean load that is tolerated; 0 moves the cuts every time

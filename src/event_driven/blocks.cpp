@@ -16,8 +16,6 @@ constexpr double uneven = 1.5;
 /// Where discs crowd, there are at most this many times as many cells as in an even gas, because
 /// empty cells take memory too.
 constexpr double most_cells = 4;
-/// What a disc that a run sees costs, in units of a collision.
-constexpr double work_of_disc = 0.14;
 constexpr double most_units = 0x1p31; ///< so that sums of whole units fit 32 bits
 
 /// Cells and windows by the mean density cost as little while discs are hardly denser than that.
@@ -70,40 +68,50 @@ int cells_along(double length, double width) {
 
 } // namespace
 
-/// Own columns end where the strip does: a block's halo counts from its last column, the rank's
-/// from the strip.
+/// Own columns end where the domain does: a block's halo counts from its last column, the rank's
+/// from the domain. The last own row may end beyond the domain, by less than a reach.
 template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
-    const Axis axis = discs_.strips().axis();
+    const Domains& domains = discs_.domains();
+    const Axis axis = domains.axis();
+    const Domain mine = domains.of(communicator_.rank());
     const auto [low, across_low] = turned(axis, box.x_low, box.y_low);
     const auto [high, across_high] = turned(axis, box.x_high, box.y_high);
-    const double from = std::max(low, discs_.strips().low(communicator_.rank()));
-    const double to = std::min(high, discs_.strips().high(communicator_.rank()));
+    const double from = std::max(low, mine.along.low), to = std::min(high, mine.along.high);
+    const double across_from = std::max(across_low, mine.across.low),
+                 across_to = std::min(across_high, mine.across.high);
     const auto n_for_cells = static_cast<std::uint64_t>(static_cast<double>(discs_.n_own()) *
                                                         std::min(mean_crowding_, most_cells));
-    const double least_width = least_cell_width(reach, dynamics_.box().shortest(),
-                                                std::max(to - from, 0.0), n_for_cells);
+    const double height = domains.are_cut_across() ? std::max(across_to - across_from, 0.0)
+                                                   : dynamics_.box().shortest();
+    const double least_width = least_cell_width(reach, height, std::max(to - from, 0.0),
+                                                n_for_cells);
     const double n_whole = std::max(1.0, std::floor((to - from) / least_width));
     GridGeometry geometry;
     geometry.axis = axis;
     geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
     geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
-    const int n_halo = halo_depth_ * geometry.n_reach;
-    const bool goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
-    const auto n_beside = [&](double beside) { // columns of other strips, or of images
-        if (discs_.periods().along(axis) != 0) return n_halo;
-        return communicator_.size() > 1 ? std::min(n_halo, cells_along(beside, geometry.cell_width))
-                                        : 0;
+    const int n_halo = laid_depth() * geometry.n_reach;
+    // The number of columns or rows of other domains, or of images.
+    const auto n_beside = [&](double beside, Axis of, bool is_cut) {
+        if (discs_.periods().along(of) != 0) return n_halo;
+        return is_cut ? std::min(n_halo, cells_along(beside, geometry.cell_width)) : 0;
     };
-    own_cells_.first_column = n_beside(from - low);
+    const auto n_along = [&](double beside) {
+        return n_beside(beside, axis, domains.n_strips() > 1);
+    };
+    const auto n_across = [&](double beside) {
+        return n_beside(beside, other_axis(axis), domains.are_cut_across());
+    };
+    own_cells_.first_column = n_along(from - low);
     own_cells_.end_column = own_cells_.first_column + cells_along(to - from, geometry.cell_width);
-    geometry.n_columns = own_cells_.end_column + n_beside(high - to);
-    own_cells_.first_row = goes_round_across ? n_halo : 0;
+    geometry.n_columns = own_cells_.end_column + n_along(high - to);
+    own_cells_.first_row = n_across(across_from - across_low);
     own_cells_.end_row = own_cells_.first_row +
-                         cells_along(across_high - across_low, geometry.cell_width);
-    geometry.n_rows = own_cells_.end_row + own_cells_.first_row;
+                         cells_along(across_to - across_from, geometry.cell_width);
+    geometry.n_rows = own_cells_.end_row + n_across(across_high - across_to);
     geometry.low = from - own_cells_.first_column * geometry.cell_width;
-    geometry.across_low = across_low - own_cells_.first_row * geometry.cell_width;
+    geometry.across_low = across_from - own_cells_.first_row * geometry.cell_width;
     return geometry;
 }
 
@@ -117,7 +125,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
             has_threads || (!is_set && are_uneven(discs_.grid(), cuts_.blocks(), tuning_.threads))))
         cut_by_work(n_pairs);
     const std::vector<CellBlock>& blocks = cuts_.blocks();
-    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != blocks.size();
+    const bool is_new = common_depth_ == first_halo_depth() || blocks_.size() != blocks.size();
     blocks_.resize(blocks.size());
     for (std::size_t k = 0; k < blocks.size(); ++k) {
         blocks_[k].cells = blocks[k];

@@ -65,7 +65,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
     migrate();
     refuse_jam();
     window_ = choose(target);
-    halo_depth_ = first_halo_depth();
+    common_depth_ = first_halo_depth();
     redistribute();
     for (bool is_first = true;; is_first = false) {
         run_blocks();
@@ -215,11 +215,16 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         return;
     }
     discs_.sort_cells(lay_cells(reach()), time_);
+    halo_depth_ = common_depth_;
     {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
-        discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);
+        discs_.fetch_halo(time_, fetched_reach(halo_depth_), nullptr);
     }
     histories_.resize(discs_.all().size());
+    halo_counts_.n_windows += 1;
+    halo_counts_.n_own += discs_.n_own();
+    halo_counts_.n_halo += discs_.all().size() - discs_.n_own();
+    halo_counts_.n_neighbours += discs_.neighbours().size();
     make_blocks();
 }
 
@@ -243,13 +248,15 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              levels_,
                              extent()};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
-    std::vector<std::size_t> noted;
+    std::vector<std::size_t> marked;
+    std::vector<BlockWork> round;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         Block& block = blocks_[k];
         if (block.is_marked == 0) continue;
         ++(block.has_run ? counts_.blocks_redone : counts_.blocks);
+        marked.push_back(k);
+        round.push_back({0, 0, block.has_run});
         block.has_run = true;
-        if (block_tuning_.notes_work) noted.push_back(k);
     }
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
@@ -263,10 +270,16 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                           histories_, block.outcome);
         block.is_marked = 0;
     }
-    if (!block_tuning_.notes_work) return;
-    std::vector<BlockWork>& round = rounds_.emplace_back();
-    for (const std::size_t k : noted)
-        round.push_back({blocks_[k].outcome.n_carried, blocks_[k].outcome.n_seen});
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        const BlockOutcome& outcome = blocks_[marked[i]].outcome;
+        round[i].n_carried = outcome.n_carried;
+        round[i].n_seen = outcome.n_seen;
+        if (round[i].is_repeated) continue; // it may happen anywhere next time
+        this->rank_work_.of_pairs += work_unit * outcome.n_carried;
+        this->rank_work_.of_discs += static_cast<std::uint64_t>(
+            work_of_disc * work_unit * static_cast<double>(outcome.n_seen));
+    }
+    if (block_tuning_.notes_work) rounds_.push_back(std::move(round));
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
@@ -296,7 +309,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
     is_largest_known_ = false; // noise and thermostats change speeds
-    jumped_ += dynamics_.jump_at(discs_.strips().axis(), time_);
+    const Axis axis = discs_.domains().axis();
+    const double across = discs_.domains().are_cut_across()
+                              ? dynamics_.jump_at(other_axis(axis), time_)
+                              : 0;
+    jumped_ += std::max(dynamics_.jump_at(axis, time_), across);
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 

@@ -2,7 +2,7 @@
 // Event-driven molecular dynamics on ranks and threads, by speculative runs of blocks of cells
 // (docs/understanding/method.md, section 8). A window of time goes through these phases:
 //
-//   redistribute  discs go to the strips that own them, the halo comes from the neighbours, and
+//   redistribute  discs go to the ranks that own them, the halo comes from the neighbours, and
 //                 all are sorted into cells; the own cells are cut into blocks
 //   run           a free thread runs each block with its halo, without the other blocks
 //   validate      the histories of each block's ring are compared with those that the owners
@@ -40,10 +40,21 @@ struct BlockTuning {
     bool notes_work = false;          ///< `take_work()` has something to return
 };
 
+/// What a disc that a run sees costs, in collisions, which count as this many units.
+inline constexpr double work_of_disc = 0.14;
+inline constexpr std::uint64_t work_unit = 100;
+
 /// What the run of a block has done, for studies of how threads share a window.
 struct BlockWork {
     std::uint64_t n_carried = 0; ///< collisions carried out, those of the halo included
     std::uint64_t n_seen = 0;    ///< discs, those of the halo included
+    bool is_repeated = false;    ///< the block had run before in this window
+};
+
+/// What a rank has seen in windows so far, for studies of how ranks share a box.
+struct HaloCounts {
+    std::uint64_t n_windows = 0, n_own = 0, n_halo = 0; ///< sums over windows
+    std::uint64_t n_neighbours = 0;                     ///< sum over windows
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
@@ -58,6 +69,9 @@ public:
     /// What the runs of this rank's blocks have done since the last call, round by round: a window
     /// has one round, and another one for each rollback.
     std::vector<std::vector<BlockWork>> take_work() { return std::exchange(rounds_, {}); }
+    const HaloCounts& halo_counts() const { return halo_counts_; }
+    /// The number of ranks that share a strip, at most.
+    int most_ranks_across() const { return discs_.domains().largest_group(); }
 
 private:
     using Base = EngineBase<Dynamics>;
@@ -110,9 +124,18 @@ private:
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
 
-    /// Twice a block's halo is fetched at once for the blocks at the strip's ends, because fetching
-    /// more of it later makes all ranks run all blocks again.
-    int first_halo_depth() const { return 2 * choice_.halo; }
+    /// At least two, because the last own row of cells may end beyond the domain.
+    int first_halo_depth() const { return std::max(2, choice_.halo); }
+    /// How far halos of that many reaches are fetched: half a reach more where the last own row of
+    /// cells may end beyond the domain, because block halos count from there.
+    double fetched_reach(int depth) const {
+        const Axis across = other_axis(discs_.domains().axis());
+        const bool has_part_row = discs_.domains().are_cut_across() ||
+                                  discs_.periods().along(across) != 0;
+        return (has_part_row ? depth + 0.5 : depth) * reach();
+    }
+    /// The halo for which there are cells, so that halos can grow to it without other cells.
+    int laid_depth() const { return std::max(common_depth_, 2 * choice_.halo); }
     double reach() const {
         return block_reach(window_, dynamics_.search_diameter() * dynamics_.growth_at(window_.end),
                            dynamics_.box());
@@ -120,7 +143,7 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< the frame's motion along the strips' axis since the last migration
+    double jumped_ = 0; ///< the frame's motion since the last migration, in directions of cuts
     double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
     double last_duration_ = 1;  ///< duration of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
@@ -146,11 +169,13 @@ private:
     BlockWindow window_;
     bool is_alone_ = false; ///< one run of the whole box serves, on one rank and with few discs
     BoxCells box_cells_;    ///< cells for runs of the whole box
+    int common_depth_ = 0;  ///< reaches that the halos of all ranks cover
     int halo_depth_ = 0;    ///< reaches that the rank's halo covers
     CellBlock own_cells_{0, 1, 0, 1};
     BlockCuts cuts_; ///< of the own cells into blocks
     std::vector<Block> blocks_;
     std::vector<std::vector<BlockWork>> rounds_;
+    HaloCounts halo_counts_;
     std::vector<std::uint64_t> histories_;       ///< for each disc, own discs before the halo
     std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };

@@ -3,6 +3,7 @@
 // 9), and marks the blocks that have to run again.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -122,11 +123,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
     n_rounds_ += 1;
 }
 
-/// Doubles the halo of all marked blocks that do not have the whole box yet. Returns true if the
-/// rank's halo must then become deeper, so that all blocks have to run again. **Collective.**
+/// Doubles the halo of all marked blocks that do not have the whole box yet. Ranks whose halo must
+/// then become deeper get more of it, as far as there are cells for it. Returns true if the halos
+/// of all ranks must become deeper than that, so that all blocks have to run again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
-    std::uint64_t n_widened = 0;
+    JointReduction wanted;
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
         if (sees_all(block)) {
@@ -134,19 +136,28 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
             continue;
         }
         block.halo *= 2;
-        ++n_widened;
+        ++wanted.sums[0];
         deepest = std::max(deepest, halo_depth_for(block));
     }
     if (discs_.periods().are_any()) { // a halo that goes once around the box has all discs
         const int around = static_cast<int>(std::ceil(dynamics_.box().longest() / reach())) + 3;
         deepest = std::max(halo_depth_, std::min(deepest, around));
     }
-    ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
-    if (discs_.has_no_halo()) return false;
-    const auto wanted = static_cast<int>(communicator_.max(std::int64_t{deepest}));
-    if (wanted == halo_depth_) return false;
-    halo_depth_ = wanted;
-    return true;
+    const bool wants = deepest > halo_depth_;
+    wanted.sums[1] = wants ? 1 : 0;
+    wanted.largest = deepest;
+    if (communicator_.size() > 1) reduce(wanted, communicator_);
+    ensure(wanted.sums[0] > 0, "blocks that have seen the whole box disagree");
+    if (discs_.has_no_halo() || wanted.sums[1] == 0) return false;
+    if (wanted.largest > laid_depth()) {
+        common_depth_ = static_cast<int>(wanted.largest);
+        return true;
+    }
+    const PhaseClock::Scope exchange(phases_, Phase::exchange);
+    discs_.fetch_more_halo(time_, fetched_reach(common_depth_), fetched_reach(laid_depth()), wants);
+    if (wants) halo_depth_ = laid_depth();
+    histories_.resize(discs_.all().size());
+    return false;
 }
 
 /// The depth of the rank's halo that the block's halo needs, in reaches. A block needs none on a
@@ -154,7 +165,9 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
 template <class Dynamics>
 int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
     const int n_reach = discs_.grid().geometry().n_reach;
-    const Axis axis = discs_.strips().axis();
+    const Axis axis = discs_.domains().axis();
+    const Domains& domains = discs_.domains();
+    const Domain mine = domains.of(communicator_.rank());
     const bool goes_round = discs_.periods().along(axis) != 0,
                goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
     int depth = 0;
@@ -163,12 +176,14 @@ int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
             depth = std::max(depth,
                              (block.halo * n_reach - n_cells_inside + n_reach - 1) / n_reach);
     };
-    reach_over(goes_round || communicator_.rank() > 0,
+    reach_over(goes_round || std::isfinite(mine.along.low),
                block.cells.first_column - own_cells_.first_column);
-    reach_over(goes_round || communicator_.rank() + 1 < communicator_.size(),
+    reach_over(goes_round || std::isfinite(mine.along.high),
                own_cells_.end_column - block.cells.end_column);
-    reach_over(goes_round_across, block.cells.first_row - own_cells_.first_row);
-    reach_over(goes_round_across, own_cells_.end_row - block.cells.end_row);
+    reach_over(goes_round_across || std::isfinite(mine.across.low),
+               block.cells.first_row - own_cells_.first_row);
+    reach_over(goes_round_across || std::isfinite(mine.across.high),
+               own_cells_.end_row - block.cells.end_row);
     return depth;
 }
 
@@ -182,7 +197,9 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
                                block.cells.first_row <= halo &&
                                block.cells.end_row + halo >= geometry.n_rows;
     const double reach = this->reach();
-    const double length = along(discs_.strips().axis(), extent().size());
+    const Domains& domains = discs_.domains();
+    const Box box = extent().size();
+    const double length = domains.are_cut_across() ? box.longest() : along(domains.axis(), box);
     const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > length;
     return has_all_cells && rank_has_all;
 }
@@ -194,26 +211,30 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const int halo = block.halo * geometry.n_reach;
     const double reach = this->reach();
-    const Axis axis = discs_.strips().axis();
-    const double length = along(axis, dynamics_.box());
-    const int around = static_cast<int>(std::ceil(length / geometry.cell_width)) + 1 +
-                       geometry.n_reach;
-    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > length + 2 * reach;
-    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells,
-                             bool goes_round, bool own_is_all) {
+    const Domains& domains = discs_.domains();
+    const Axis axis = domains.axis();
+    const auto is_deep_enough = [&](double length) {
+        return halo_depth_ * reach > length + 2 * reach;
+    };
+    const bool has_all_along = domains.n_strips() == 1, has_all_across = !domains.are_cut_across();
+    const Box box = dynamics_.box();
+    const bool rank_has_all = (has_all_along || is_deep_enough(along(axis, box))) &&
+                              (has_all_across || is_deep_enough(along(other_axis(axis), box)));
+    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells, Axis of,
+                             bool own_is_all) {
         const int seen_first = std::max(0, first - halo), seen_end = std::min(n_cells, end + halo);
-        if (!goes_round) return seen_first == 0 && seen_end == n_cells;
+        if (discs_.periods().along(of) == 0) return seen_first == 0 && seen_end == n_cells;
+        const int around = static_cast<int>(std::ceil(along(of, box) / geometry.cell_width)) + 1 +
+                           geometry.n_reach;
         const bool has_own = seen_first <= first_own - geometry.n_reach &&
                              seen_end >= end_own + geometry.n_reach;
         return has_own && (own_is_all || seen_end >= first_own + around);
     };
     return rank_has_all &&
            has_all(block.cells.first_column, block.cells.end_column, own_cells_.first_column,
-                   own_cells_.end_column, geometry.n_columns, discs_.periods().along(axis) != 0,
-                   communicator_.size() == 1) &&
+                   own_cells_.end_column, geometry.n_columns, axis, has_all_along) &&
            has_all(block.cells.first_row, block.cells.end_row, own_cells_.first_row,
-                   own_cells_.end_row, geometry.n_rows,
-                   discs_.periods().along(other_axis(axis)) != 0, true);
+                   own_cells_.end_row, geometry.n_rows, other_axis(axis), has_all_across);
 }
 
 /// Ends the run on all ranks if a block that had the whole box was given up in a collision cascade.

@@ -77,19 +77,22 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
         scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
 }
 
-std::string warning_of_narrow_strips(const SceneParameters& scene, int n_ranks, int n_threads) {
-    // A strip of 15 mean distances of discs has as many discs in its halos
-    // (docs/how-to/cluster.md). A few ranks are rather a test, or all that a small machine has.
-    constexpr double least_width = 15;
+std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads) {
+    // Halos are 10 mean distances of discs deep. A strip of 20 has as many discs in its halo, and
+    // so has a square of 48 (docs/how-to/cluster.md). A few ranks are rather a test, or all that a
+    // small machine has.
+    constexpr double least_width = 20, least_square = 48;
     constexpr int few_ranks = 8;
     const double spacings = std::sqrt(static_cast<double>(scene.n_discs) * scene.box.longest() /
                                       scene.box.shortest());
-    const double most_ranks = std::max(1.0, std::floor(spacings / least_width));
+    const double most_squares = static_cast<double>(scene.n_discs) / (least_square * least_square);
+    const double most_ranks = std::max(
+        {1.0, std::floor(spacings / least_width), std::floor(most_squares)});
     if (scene.method != Method::event_driven || n_ranks < few_ranks || n_ranks <= most_ranks)
         return "";
     const double n_cores = static_cast<double>(n_ranks) * n_threads;
     const double threads = std::ceil(n_cores / most_ranks);
-    return fmt::format("{} ranks cut {} discs into narrow strips, so more than half of the work is "
+    return fmt::format("{} ranks cut {} discs into small domains, so more than half of the work is "
                        "done twice; try: {:.0f} ranks with --threads {:.0f}",
                        n_ranks, scene.n_discs, std::max(1.0, std::floor(n_cores / threads)),
                        threads);

@@ -23,9 +23,8 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
 void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
                          const Messages& messages);
 
-/// Returns a warning if the ranks' strips are so narrow that more discs lie in halos than in
-/// strips, and an empty text otherwise. The time-stepped method gets none, because its halos are
-/// not as deep.
-std::string warning_of_narrow_strips(const SceneParameters& scene, int n_ranks, int n_threads);
+/// Returns a warning if ranks own so few discs each that more lie in halos than in domains, and an
+/// empty text otherwise. The time-stepped method gets none, because its halos are not as deep.
+std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads);
 
 } // namespace carrom

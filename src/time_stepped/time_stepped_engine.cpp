@@ -94,7 +94,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     }
     search_.list_large(population(), discs_.grid());
     if (usual_speed_ < window_speed_) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
-    states_.resize(discs_.all().size());
+    states_.resize(this->count_seen());
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static)
     for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = 0;
     return window;
@@ -110,7 +110,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridGeometry geometry = make_geometry(seen, discs_.strips().axis(), usual_reach,
+    const GridGeometry geometry = make_geometry(seen, discs_.domains().axis(), usual_reach,
                                                 discs_.n_own(), tuning_.cell_width.value_or(0));
     discs_.sort(geometry, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
                 companion());
@@ -229,6 +229,7 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
                               verdicts_.kept);
     }
     n_candidates_ += n_candidates;
+    this->rank_work_.of_pairs += n_candidates;
     n_kept_ += count_ours(verdicts_.kept);
     apply(window, m);
     return true;

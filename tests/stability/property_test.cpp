@@ -97,6 +97,7 @@ bool has_same_bits_in_another_order(const TestScene& scene, Method method, const
     Tuning tuning;
     tuning.window = window;
     tuning.cell_width = 0.5;
+    tuning.ranks_across = 2;
     return run(scene, method, tuning, 7).totals.hash == end.totals.hash;
 }
 
@@ -186,6 +187,7 @@ bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outc
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
+    tuning.ranks_across = 3;
     DiscSystem first = start(scene, method);
     run_to(first, scene.steps / 2);
     DiscSystem second(again,

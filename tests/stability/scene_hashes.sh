@@ -6,8 +6,9 @@
 #   tests/stability/scene_hashes.sh [BUILD]              prints the table; default: build
 #   tests/stability/scene_hashes.sh [BUILD] --compare    prints what differs from scene_hashes.csv
 #
-# Scenes run 100 steps, on 3 ranks of 2 threads; RANKS, THREADS and STEPS say otherwise. Some two
-# minutes on two cores, of which the fingerprint takes one and a half: FINGERPRINT=no leaves it out.
+# Scenes run 100 steps, on 3 ranks of 2 threads; RANKS, THREADS and STEPS say otherwise. ACROSS is
+# the number of ranks that share a strip (default: as the program chooses). Some two minutes on two
+# cores, of which the fingerprint takes one and a half: FINGERPRINT=no leaves it out.
 # SCENES='gas.toml tiny.in' runs these files of inputs/ alone. TABLE is a file for the table that
 # --compare makes. Code 1: a hash differs.
 set -euo pipefail
@@ -32,7 +33,8 @@ scene_hash() {
     local code=0
     rm -f "$folder/report.json"
     "$launcher" -n "${RANKS:-3}" "$build/carrom" run "$1" --set time.method="$2" \
-        --steps "${STEPS:-100}" -o "$folder/run" --overwrite --quiet \
+        --steps "${STEPS:-100}" ${ACROSS:+--ranks-across "$ACROSS"} \
+        -o "$folder/run" --overwrite --quiet \
         --report "$folder/report.json" >"$folder/said" 2>&1 </dev/null || code=$?
     case $code in
         0) sed -n 's/^ *"state_hash": "\(.*\)",*$/\1/p' "$folder/report.json" ;;

@@ -41,7 +41,7 @@ expect_told 'say what to do, as in carrom run SCENE.toml' 'no words'
 run 1 run --help
 expect_code 0 'run --help'
 for option in --threads --steps --set --digits --output --report --quiet --window --cell-width \
-    --rebalance-every --rebalance-above; do
+    --ranks-across --rebalance-every --rebalance-above; do
     grep -q -- "^  $option" "$test_folder/out" ||
         complain "the help of run does not explain $option"
 done

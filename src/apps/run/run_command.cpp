@@ -195,8 +195,8 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     warn_of_other_bits(ranks);
     Run run(std::move(loaded.scene), std::move(loaded.start), ranks, tuning, options.messages);
     const SceneParameters& scene = run.scene();
-    const std::string narrow = warning_of_narrow_strips(scene, ranks.size(), tuning.threads);
-    if (!narrow.empty()) options.messages.warn("{}: warning: {}\n", scene.name, narrow);
+    const std::string small = warning_of_small_domains(scene, ranks.size(), tuning.threads);
+    if (!small.empty()) options.messages.warn("{}: warning: {}\n", scene.name, small);
     DiscSystem& system = run.system();
     if (options.check) check_every_step(system, scene);
     RunResult result;

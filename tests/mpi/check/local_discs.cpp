@@ -17,7 +17,7 @@ LocalDiscs copy_of(const LocalView& local_view) {
     return {{discs.begin(), discs.end()},
             local_view.population.n_own,
             *local_view.grid,
-            *local_view.strips,
+            *local_view.domains,
             local_view.time,
             local_view.frame};
 }
@@ -26,10 +26,11 @@ LocalDiscs view_by_hand(const std::vector<DiscState>& discs, double time, double
                         double radius, int rank, int n_ranks) {
     std::vector<double> cuts;
     for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
-    LocalDiscs local_view{{}, 0, {}, Strips(cuts), time, {}};
+    LocalDiscs local_view{{}, 0, {}, Domains(Strips(cuts)), time, {}};
     std::vector<DiscState> halo;
     for (const DiscState& disc : discs)
-        (local_view.strips.owner(disc.x_at(time)) == rank ? local_view.discs : halo)
+        (local_view.domains.owner(disc.x_at(time), disc.y_at(time)) == rank ? local_view.discs
+                                                                            : halo)
             .push_back(disc);
     local_view.n_own = local_view.discs.size();
     local_view.discs.insert(local_view.discs.end(), halo.begin(), halo.end());

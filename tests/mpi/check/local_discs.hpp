@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
-#include "domain/strips.hpp"
+#include "domain/domains.hpp"
 #include "engine/engine.hpp"
 
 namespace carrom::test {
@@ -14,11 +14,11 @@ struct LocalDiscs {
     std::vector<DiscState> discs; ///< own ones first
     std::size_t n_own = 0;
     CellGrid grid;
-    Strips strips;
+    Domains domains;
     double time = 0;
     Frame frame;
 
-    LocalView view() const { return {{discs, n_own}, &grid, &strips, time, frame}; }
+    LocalView view() const { return {{discs, n_own}, &grid, &domains, time, frame}; }
     /// Puts the discs into the cells they are in now, the own ones into their order; partners
     /// within a diameter are within reach.
     void sort_into_cells(double box_size, double radius);

@@ -74,13 +74,13 @@ TEST_CASE("check: a disc outside the box, by little") {
     });
 }
 
-TEST_CASE("check: a disc in another rank's strip") {
+TEST_CASE("check: a disc in another rank's domain") {
     if (Communicator::world().size() == 1) return;
-    expect(Invariant::in_strip, [](OneStep& step) {
+    expect(Invariant::in_domain, [](OneStep& step) {
         if (DiscState* const disc = step.own(7)) {
             const double from_left = step.scene().radius,
                          from_right = step.scene().box.x - step.scene().radius;
-            const bool is_left = step.local_view.strips.owner(from_left) == step.world().rank();
+            const bool is_left = step.local_view.domains.owner(from_left, 0) == step.world().rank();
             disc->x += (is_left ? from_right : from_left) - disc->x_at(step.local_view.time);
         }
         return 7;

@@ -89,6 +89,7 @@ Choice window(const char* name, std::optional<double> length) {
     return {name, [=](Plan& plan) {
                 plan.tuning.window = length;
                 plan.tuning.rebalance_above = length ? 0 : 1.05;
+                plan.tuning.ranks_across = length ? 2 : 1;
             }};
 }
 

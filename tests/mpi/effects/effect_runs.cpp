@@ -35,11 +35,13 @@ Totals run_with_restart(const TestScene& scene, Method method, const Communicato
     advance_to(first, scene.steps / 2);
     SceneParameters again = scene_of(scene);
     again.method = method;
+    Tuning in_groups;
+    in_groups.ranks_across = 2;
     DiscSystem second(again,
                       {{first.discs().begin(), first.discs().end()},
                        first.micro_steps_done(),
                        SideColumns(first.side_columns())},
-                      world, {});
+                      world, in_groups);
     advance_to(second, scene.steps);
     return second.totals();
 }

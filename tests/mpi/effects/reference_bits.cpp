@@ -44,6 +44,7 @@ void check_bits(const TestScene& scene, Method method) {
         Tuning tuning;
         tuning.window = window;
         tuning.rebalance_above = window ? 0 : 1.05;
+        if (window) tuning.ranks_across = *window < 1 ? 2 : 3;
         CHECK(to_string(run(scene, method, world, tuning).hash) == to_string(expected));
     }
     CHECK(to_string(run_with_restart(scene, method, world).hash) == to_string(expected));

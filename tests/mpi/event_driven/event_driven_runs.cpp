@@ -95,6 +95,7 @@ Shape shape_number(std::size_t number, double diameter_time) {
     shape.exact.halo = 2 + static_cast<int>(number / 2 % 3);
     shape.exact.speed_allowance = number % 7 == 3 ? 1.001 : 1.2;
     shape.tuning.rebalance_above = rebalances[number / 3 % std::size(rebalances)];
+    shape.tuning.ranks_across = 1 + static_cast<int>(number % 3);
     return shape;
 }
 

@@ -55,6 +55,7 @@ void check_bits(const TestScene& scene, Method method) {
         Tuning tuning;
         tuning.window = window;
         tuning.rebalance_above = window ? 0 : 1.05;
+        if (window) tuning.ranks_across = *window < 1 ? 2 : 3;
         if (window) tuning.cell_width = 0.7;
         const Totals totals = run(scene, method, world, tuning);
         CHECK(to_string(totals.hash) == to_string(expected.hash));

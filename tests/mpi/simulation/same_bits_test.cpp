@@ -68,6 +68,7 @@ std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count,
         tuning.cell_width = cells[n % 5];
         tuning.usual_speed = usual_speeds[(n / 6) % 4];
         tuning.rebalance_above = limits[(n / 2) % 3];
+        tuning.ranks_across = 1 + static_cast<int>((n / 4) % 3);
         list.push_back(tuning);
     }
     return list;
@@ -85,7 +86,8 @@ void check_against_reference(const std::vector<test::TestScene>& scenes, std::si
                             << tuning.window.value_or(0) << ", cells "
                             << tuning.cell_width.value_or(0) << ", usual speed "
                             << tuning.usual_speed.value_or(0) << ", rebalance above "
-                            << tuning.rebalance_above);
+                            << tuning.rebalance_above << ", ranks across "
+                            << tuning.ranks_across.value_or(0));
             const Totals totals = run(scene, tuning, world, static_cast<unsigned>(s));
             CHECK(totals.wall_collisions == expected.counters.wall_collisions);
             CHECK(totals.pair_collisions == expected.counters.pair_collisions);

@@ -71,7 +71,6 @@ TEST_CASE("one strip owns everything") {
     CHECK(all.owner(1e300) == 0);
     CHECK_FALSE(all.is_empty(0));
     CHECK(all.neighbours_within(0, 1e9).empty());
-    CHECK(movers_between(all, all, 0, 1e9).empty());
 }
 
 TEST_CASE("a position on a cut belongs to the strip above, past empty strips") {
@@ -160,68 +159,33 @@ TEST_CASE("neighbours are complete where x + reach rounds onto a cut") {
     CHECK(strips.neighbours_within(2, reach) == std::vector<int>{0, 1});
 }
 
-TEST_CASE("movers are symmetric and know every way a disc can go") {
-    std::mt19937 random(4);
-    for (int trial = 0; trial < 300; ++trial) {
-        const int n_strips = 1 + trial % 9;
-        const Strips before = random_strips(random, n_strips);
-        const Strips after = trial % 3 == 0 ? before : random_strips(random, n_strips);
-        const double distance = trial % 4 == 0
-                                    ? 0
-                                    : std::uniform_real_distribution<double>(0, 3)(random);
-        std::vector<std::vector<int>> lists;
-        for (int rank = 0; rank < n_strips; ++rank)
-            lists.push_back(movers_between(before, after, rank, distance));
-        check_lists(lists);
-        std::uniform_real_distribution<double> shift(-distance, distance);
-        for (const double x : probes(random, before)) {
-            for (const double x_after : {x, x - distance, x + distance, x + shift(random)}) {
-                const int sender = before.owner(x), receiver = after.owner(x_after);
-                if (sender != receiver)
-                    REQUIRE(contains(lists[static_cast<std::size_t>(sender)], receiver));
-            }
-        }
-        for (int a = 0; a < n_strips; ++a)
-            for (const int b : lists[static_cast<std::size_t>(a)]) {
-                const auto can_go = [&](int from, int to) {
-                    return !before.is_empty(from) && !after.is_empty(to) &&
-                           before.high(from) - after.low(to) >= -distance - 1e-12 &&
-                           after.high(to) - before.low(from) >= -distance - 1e-12;
-                };
-                REQUIRE((can_go(a, b) || can_go(b, a)));
-            }
-    }
-}
-
-TEST_CASE("discs at rest in unchanged strips have nowhere to go but across a shared cut") {
-    const Strips strips({2, 5, 8});
-    CHECK(movers_between(strips, strips, 1, 0) == std::vector<int>{0, 2});
-    CHECK(movers_between(strips, Strips({6, 7, 8}), 0, 0) == std::vector<int>{1, 2});
-    CHECK(movers_between(strips, strips, 0, std::numeric_limits<double>::infinity()) ==
-          std::vector<int>{1, 2, 3});
-}
-
 TEST_CASE("balanced cuts halve, quarter and interpolate") {
     using Weights = std::vector<std::uint64_t>;
-    CHECK(carrom::balanced_cuts(Weights{1, 1, 1, 1}, 8, 4) == std::vector<double>{2, 4, 6});
-    CHECK(carrom::balanced_cuts(Weights{3, 1}, 8, 2) == std::vector<double>{4.0 * 2 / 3});
-    CHECK(carrom::balanced_cuts(Weights{0, 0, 0, 8}, 8, 4) == std::vector<double>{6.5, 7, 7.5});
-    CHECK(carrom::balanced_cuts(Weights{0, 0}, 8, 2) == std::vector<double>{4});
-    CHECK(carrom::balanced_cuts(Weights{}, 8, 4) == std::vector<double>{2, 4, 6});
-    CHECK(carrom::balanced_cuts(Weights{5, 5}, 8, 1).empty());
+    using Shares = std::vector<double>;
+    const Shares quarters = {0.25, 0.5, 0.75}, half = {0.5};
+    CHECK(carrom::balanced_cuts(Weights{1, 1, 1, 1}, 8, quarters) == std::vector<double>{2, 4, 6});
+    CHECK(carrom::balanced_cuts(Weights{3, 1}, 8, half) == std::vector<double>{4.0 * 2 / 3});
+    CHECK(carrom::balanced_cuts(Weights{0, 0, 0, 8}, 8, quarters) ==
+          std::vector<double>{6.5, 7, 7.5});
+    CHECK(carrom::balanced_cuts(Weights{0, 0}, 8, half) == std::vector<double>{4});
+    CHECK(carrom::balanced_cuts(Weights{}, 8, quarters) == std::vector<double>{2, 4, 6});
+    CHECK(carrom::balanced_cuts(Weights{2, 2}, 8, Shares{0.25, 1}) == std::vector<double>{2, 8});
+    CHECK(carrom::balanced_cuts(Weights{5, 5}, 8, Shares{}).empty());
 }
 
 TEST_CASE("balanced cuts ascend within the box and share the weight evenly") {
     std::mt19937 random(5);
     for (int trial = 0; trial < 300; ++trial) {
         const std::size_t n_bins = 1 + random() % 30;
-        const int n_ranks = 1 + static_cast<int>(random() % 12);
+        std::vector<double> shares(random() % 12);
+        for (double& share : shares) share = std::uniform_real_distribution<double>(0, 1)(random);
+        std::sort(shares.begin(), shares.end());
         std::vector<std::uint64_t> weights;
         for (std::size_t k = 0; k < n_bins; ++k)
             weights.push_back(random() % 3 == 0 ? random() % 1000 : 0);
         weights[random() % n_bins] += 1;
-        const std::vector<double> cuts = carrom::balanced_cuts(weights, box, n_ranks);
-        REQUIRE(cuts.size() == static_cast<std::size_t>(n_ranks - 1));
+        const std::vector<double> cuts = carrom::balanced_cuts(weights, box, shares);
+        REQUIRE(cuts.size() == shares.size());
         REQUIRE(std::is_sorted(cuts.begin(), cuts.end()));
         const double total = static_cast<double>(
             std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
@@ -233,9 +197,7 @@ TEST_CASE("balanced cuts ascend within the box and share the weight evenly") {
                                     static_cast<double>(bin);
                 below += static_cast<double>(weights[bin]) * std::clamp(part, 0.0, 1.0);
             }
-            REQUIRE(
-                below ==
-                Approx(total * static_cast<double>(k + 1) / n_ranks).epsilon(1e-9).margin(1e-9));
+            REQUIRE(below == Approx(total * shares[k]).epsilon(1e-9).margin(1e-9));
         }
     }
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double length = 100;
 const Strips strips({20, 45, 46, 80});
+const Domains domains(strips);
 
 std::vector<DiscState> discs_between(double low, double high, std::size_t n) {
     std::mt19937 random(21);
@@ -57,7 +58,8 @@ TEST_CASE("plans: a halo has the discs within reach of the other strip, whoever 
         const std::vector<DiscState> discs = discs_between(20, 45, n);
         const std::vector<PlaceRange> searched = ranges_of(n);
         for (const int n_threads : {1, 2, 5}) {
-            const TransferPlan plan = plan_halo(strips, 1, discs, searched, time, reach, n_threads);
+            const TransferPlan plan = plan_halo(domains, 1, discs, searched, time, {reach},
+                                                n_threads);
             CHECK(plan.partners == strips.neighbours_within(1, reach));
             bool is_right = true;
             for (std::size_t k = 0; k < plan.partners.size(); ++k) {
@@ -80,7 +82,7 @@ TEST_CASE("plans: a migration has the discs whose place is another rank's, whoev
     const double time = 1.5;
     const std::vector<DiscState> discs = discs_between(19, 48, 30000);
     const PlaceRange all[] = {{0, discs.size()}};
-    const TransferPlan plan = plan_migration(strips, strips, 1, discs, all, time, 30, 1);
+    const TransferPlan plan = plan_migration(domains, domains, 1, discs, all, time, 30, 1);
     bool is_right = true;
     std::size_t n_leaving = 0;
     for (std::size_t k = 0; k < plan.partners.size(); ++k)
@@ -91,11 +93,12 @@ TEST_CASE("plans: a migration has the discs whose place is another rank's, whoev
     for (const DiscState& disc : discs) n_leaving -= strips.owner(disc.x_at(time)) != 1;
     CHECK(is_right);
     CHECK(n_leaving == 0);
-    CHECK(is_same(plan, plan_migration(strips, strips, 1, discs, all, time, 30, 3)));
+    CHECK(is_same(plan, plan_migration(domains, domains, 1, discs, all, time, 30, 3)));
     const Periods periods{length, length};
-    const TransferPlan around = plan_periodic_migration(strips, strips, 1, discs, time, 40, periods,
-                                                        1);
-    CHECK(is_same(around, plan_periodic_migration(strips, strips, 1, discs, time, 40, periods, 4)));
+    const TransferPlan around = plan_periodic_migration(domains, domains, 1, discs, time, 40,
+                                                        periods, 1);
+    CHECK(
+        is_same(around, plan_periodic_migration(domains, domains, 1, discs, time, 40, periods, 4)));
 }
 
 TEST_CASE("plans: images of a halo do not depend on the threads") {
@@ -104,8 +107,8 @@ TEST_CASE("plans: images of a halo do not depend on the threads") {
         const std::vector<DiscState> discs = discs_between(
             rank == 0 ? 0 : strips.low(rank), rank == 4 ? length : strips.high(rank), 20000);
         const PlaceRange all[] = {{0, discs.size()}};
-        const TransferPlan plan = plan_periodic_halo(strips, rank, discs, all, 0, 9, periods, 1);
-        CHECK(is_same(plan, plan_periodic_halo(strips, rank, discs, all, 0, 9, periods, 3)));
+        const TransferPlan plan = plan_periodic_halo(domains, rank, discs, all, 0, {9}, periods, 1);
+        CHECK(is_same(plan, plan_periodic_halo(domains, rank, discs, all, 0, {9}, periods, 3)));
         std::size_t n = 0;
         for (const std::vector<LocalIndex>& leaving : plan.leaving) n += leaving.size();
         CHECK(n > 1000);
