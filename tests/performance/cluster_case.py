@@ -17,7 +17,7 @@ RANKS_PER_NODE = 32
 # packing 0.2. A disc of a halo takes 33 ns to plan, pack and add.
 NS_COLLISION, NS_STEP, NS_HALO = 383.0, 31.4, 33.0
 SENT_TO_OWN = 2.1  # a disc that is sent over an own one, time-stepped (simulate.py)
-# Where boxes are cut across, blocks look a reach further if ranks wait for repeated runs longer
+# Blocks look a reach further if ranks wait for repeated runs longer
 # than this share of a window, and than the reach costs; such a run takes REPEATED times as long as
 # a first one. The program does so for threads (Caution in src/event_driven/block_window.hpp).
 MUCH_WAITED, REPEATED = 0.08, 1.6
@@ -41,9 +41,10 @@ EVENT_PHASES = (
     "reduce 56",
     "again",
     "exchange 0",
+    "reduce 56",
+    "exchange 0",  # which ranks want more of the halo
+    "exchange 0",  # few get it
     "reduce 16",
-    "reduce 8",
-    "reduce 8",
     "compute",
     f"exchange {HISTORY_BYTES}",
     "reduce 56",
@@ -63,8 +64,6 @@ class Case(NamedTuple):
     method: str = "event-driven"
     is_even: bool = True
     rows: int = 1  # of ranks in a column
-    by_work: bool = False  # cuts are by work, otherwise by counts
-    depth: int = 6  # of a rank's halo in reaches, where blocks look three reaches far
     per_node: int = RANKS_PER_NODE
     windows: int = 6
 
@@ -110,6 +109,13 @@ def gas_of(case):
     return cluster_plan.half_crowded_gas(case.n_discs)
 
 
+def depth_of(window, rows):
+    """Of a rank's halo: as far as blocks look, and half a reach more where the last row of cells
+    may end beyond the rank's rectangle.
+    """
+    return window.reach * (window.halo + (0.5 if rows > 1 else 0))
+
+
 def event_plan(case, counts):
     counted = counts[case.is_even]
     gas = gas_of(case)
@@ -120,7 +126,7 @@ def event_plan(case, counts):
     ns = NS_COLLISION * 1e5 * even.collisions
     ns /= cluster_plan.blocks_of(small, cluster_plan.box_of(small), even).work
     one = cluster_plan.blocks_of(gas, box, window)
-    cut = cluster_plan.cut_box(gas, case.ranks, case.rows, case.by_work, window)
+    cut = cluster_plan.cut_box(gas, case.ranks, case.rows, True, window)
     blocks = [cluster_plan.blocks_of(gas, part, window) for part in cut.rectangles()]
     n_blocks = sum(b.n_blocks for b in blocks)
     rollbacks = counted.rollbacks * sum(b.borders for b in blocks)
@@ -129,11 +135,10 @@ def event_plan(case, counts):
         cluster_plan.blocks_of(gas, part, window._replace(halo=4)) for part in cut.rectangles()
     ]
     cost_of_reach = sum(b.seen for b in deeper) / sum(b.seen for b in blocks) - 1
-    if case.rows > 1 and waited > max(MUCH_WAITED, cost_of_reach):
+    if waited > max(MUCH_WAITED, cost_of_reach):
         window = window._replace(halo=4)
         blocks, rollbacks = deeper, 0  # none were counted with this halo
-    depth = window.reach * case.depth * window.halo / 3
-    halos = cluster_plan.halos(gas, cut, depth)
+    halos = cluster_plan.halos(gas, cut, depth_of(window, case.rows))
     return Plan(
         EVENT_PHASES,
         halos,

@@ -39,8 +39,9 @@ def read_rows():
 def rollbacks_of(row):
     """Rollbacks of a window for each mean distance of discs along borders of blocks."""
     side = math.sqrt(row["discs"])
-    n_across = row["blocks"] / row["ranks"] - 1
-    return row["windows_redone"] / (side * (row["ranks"] - 1 + n_across))
+    n_columns = row["ranks"] if row["across"] == 1 else math.sqrt(row["blocks"])
+    n_borders = n_columns - 1 + row["blocks"] / n_columns - 1
+    return row["windows_redone"] / (side * n_borders)
 
 
 def counted_in(row, many):
@@ -78,8 +79,8 @@ def write(path, rows):
         table.writerows(rows)
 
 
-def counts_of(program, ranks, n_discs, steps, halo, crowd):
-    words = [PLATFORM, ranks, n_discs, 0.5, steps, halo, crowd, "--log=root.thresh:warning"]
+def counts_of(program, ranks, n_discs, steps, halo, crowd, across):
+    words = [PLATFORM, ranks, n_discs, 0.5, steps, halo, crowd, across, "--log=root.thresh:warning"]
     heading = subprocess.run([program], capture_output=True, text=True, check=True).stdout.strip()
     run = subprocess.run(
         [program, *map(str, words)],
@@ -91,13 +92,14 @@ def counts_of(program, ranks, n_discs, steps, halo, crowd):
     return dict(zip(heading.split(","), run.stdout.strip().splitlines()[-1].split(",")))
 
 
-SMALL_RUN = (16, 2e4, 16, 3, 0)  # ranks, discs, steps, halo, crowd
+SMALL_RUN = (16, 2e4, 16, 3, 0, 0)  # ranks, discs, steps, halo, crowd, ranks across (0: chosen)
 RUNS = (
-    (1, 2e5, 32, 3, 0),
-    (16, 2e5, 96, 3, 0),
-    (16, 1e5, 96, 4, 0),
-    (1, 2e5, 64, 3, 2),
-    (16, 2e5, 64, 3, 2),
+    (1, 2e5, 32, 3, 0, 0),
+    (16, 2e5, 96, 3, 0, 0),
+    (16, 2e5, 96, 3, 0, 1),
+    (16, 1e5, 96, 4, 0, 0),
+    (1, 2e5, 64, 3, 2, 0),
+    (16, 2e5, 64, 3, 2, 0),
     SMALL_RUN,
 )
 

@@ -27,7 +27,16 @@ import sys
 import time
 
 import cluster_plan
-from cluster_case import MICRO_STEPS, Case, event_plan, gas_of, reach_of, script_of, stepped_plan
+from cluster_case import (
+    MICRO_STEPS,
+    Case,
+    depth_of,
+    event_plan,
+    gas_of,
+    reach_of,
+    script_of,
+    stepped_plan,
+)
 from cluster_counts import (
     FOLDER,
     PLATFORM,
@@ -50,7 +59,6 @@ FIELDS = (
     "method",
     "ranks",
     "rows",
-    "depth",
     "n_discs",
     "seen",
     "halo",
@@ -90,7 +98,6 @@ def simulated(program, case, counts):
                 case.method,
                 case.ranks,
                 case.rows,
-                "" if is_stepped else case.depth,
                 f"{case.n_discs:.0f}",
                 f"{plan.seen:.3f}",
                 f"{sum(sum(h.values()) for h in plan.halos) / case.n_discs:.3f}",
@@ -105,11 +112,8 @@ def simulated(program, case, counts):
     )
 
 
-def rows_for(ranks):
-    """Ranks in a column, for rectangles about as wide as high."""
-    return 2 ** (ranks.bit_length() // 2)
-
-
+# Of halos, in mean distances of discs (group_choice in src/engine/engine_base.cpp).
+USUAL_DEPTH = {"event-driven": 10, "time-stepped": 1.2}
 MOST_STRONG = 1024  # ranks; with more of them strips are narrower than a few discs
 
 
@@ -124,18 +128,10 @@ def cases_of(ranks):
         for kind, n_discs in (("weak, 1e6 a rank", weak), ("strong, 1e8", strong)):
             if kind.startswith("strong") and ranks > MOST_STRONG:
                 continue
-            yield Case(f"{kind}, {label}", ranks, n_discs, method, is_even)
-            if method == "event-driven" and ranks > 1:
-                yield Case(
-                    f"{kind}, {label}, cut across",
-                    ranks,
-                    n_discs,
-                    method,
-                    is_even,
-                    rows=rows_for(ranks),
-                    by_work=not is_even,
-                    depth=3,
-                )
+            rows = cluster_plan.rows_of(n_discs, ranks, USUAL_DEPTH[method])
+            yield Case(f"{kind}, {label}", ranks, n_discs, method, is_even, rows)
+            if is_even and rows > 1:  # in comparison
+                yield Case(f"{kind}, {label}, whole strips", ranks, n_discs, method, is_even)
 
 
 def study(program, path, n_workers, ranks_wanted, only):
@@ -193,11 +189,13 @@ def compare_model():
         case = Case("", int(row["ranks"]), row["discs"], is_even=row["crowd"] == 0)
         gas = gas_of(case)
         window = Window(counted.collisions, reach_of(counted, row["discs"]), int(row["halo"]))
-        cut = cluster_plan.cut_box(gas, case.ranks, 1, False, window)
+        rows = int(row["across"])
+        cut = cluster_plan.cut_box(gas, case.ranks, rows, True, window)
         blocks = [cluster_plan.blocks_of(gas, part, window) for part in cut.rectangles()]
-        halos = cluster_plan.halos(gas, cut, 2 * window.halo * window.reach)
+        halos = cluster_plan.halos(gas, cut, depth_of(window, rows))
         n_halo = sum(sum(h.values()) for h in halos) / case.ranks
-        name = f"model of {case.ranks} ranks, {row['discs']:.0f} discs, crowd {row['crowd']:.0f}"
+        name = f"model of {case.ranks} ranks, {rows} across, {row['discs']:.0f} discs"
+        name += f", crowd {row['crowd']:.0f}"
         seen = sum(b.seen for b in blocks) / row["discs"]
         n_bytes = n_halo * (DISC_BYTES + HISTORY_BYTES)
         bound = TOLERANCE_OF_MODEL[case.is_even]

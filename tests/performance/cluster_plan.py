@@ -3,9 +3,9 @@
 """What each rank of a large cluster would do in a window: arithmetic on counted figures.
 
 A gas has a density of 1 where it is densest, so that the mean distance of its discs is the unit of
-length there. Its discs lie in rectangles of even density. The box is cut into columns, and columns
-into rows, by counts of discs or by work. Strips, which are what the program has, are columns of one
-row. A rank gets the discs of all others that lie within `depth` of its own rectangle.
+length there. Its discs lie in rectangles of even density. The box is cut into columns, which are
+the program's strips, and columns into rows, by counts of discs or by work. A rank gets the discs of
+all others that lie within `depth` of its own rectangle.
 """
 
 import bisect
@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 DISC_BYTES, HISTORY_BYTES = 64, 8
 WORK_OF_DISC = 0.14  # of a disc that a block sees, in collisions
+WORTH_A_GROUP, LEAST_SAVED = 0.95, 600  # src/domain/domains.cpp
 DISCS_IN_CACHE = 24_000  # of a block with its halo (src/event_driven/block_window.cpp)
 
 
@@ -139,6 +140,20 @@ def cut_box(gas, n_ranks, n_rows, by_work, window):
             else [box.y_low, box.y_high]
         )
     return Cut(x, y)
+
+
+def rows_of(n_discs, n_ranks, depth):
+    """Ranks that share a strip: a power of two, otherwise by the program's rule (choose_groups in
+    src/domain/domains.cpp). `depth` is that of halos in mean distances of discs.
+    """
+    side = math.sqrt(n_discs)
+
+    def seen(rows):
+        return math.prod(min(1 + 2 * depth * (n - 1) / side, n) for n in (n_ranks // rows, rows))
+
+    rows = min((2**k for k in range(n_ranks.bit_length())), key=seen)
+    saved = (seen(1) - seen(rows)) * n_discs / n_ranks
+    return rows if seen(rows) < WORTH_A_GROUP * seen(1) and saved >= LEAST_SAVED else 1
 
 
 def halos(gas, cut, depth):

@@ -4,17 +4,18 @@
 // process (simulated_ranks.hpp), so the counts are those of a real run. cluster_model.py takes
 // its figures from here.
 //
-//   window_counts PLATFORM RANKS DISCS PACKING STEPS HALO CROWD
+//   window_counts PLATFORM RANKS DISCS PACKING STEPS HALO CROWD ACROSS
 //
 // HALO is the halo of a block's first run in reaches (0: as the engine chooses). CROWD is 0 for an
-// even gas, 1 if all discs lie in one hundredth of the box, 2 if half of them do. The first 32
-// steps are left out, because they forget the lattice that discs start from. One line on standard
-// output, as in the heading that the program prints when it is called without arguments.
-// Collisions, those that first runs of blocks carry out, and discs that they see are counted for
-// each disc and window. "busiest" is the work of first runs on the busiest rank over the mean.
-// "span" is the work that all ranks wait for, repeated runs included, for each disc of a rank and
-// window: a rank's work is the collisions that it carries out plus 0.14 for each disc that its
-// blocks see.
+// even gas, 1 if all discs lie in one hundredth of the box, 2 if half of them do. ACROSS is the
+// number of ranks that share a strip (0: as the engine chooses). The first 32 steps are left out,
+// because they forget the lattice that discs start from, and 256 of a crowd, because cuts between
+// ranks follow counted work. One line on standard output, as in the
+// heading that the program prints when it is called without arguments. Collisions, those that first
+// runs of blocks carry out, and discs that they see are counted for each disc and window. "busiest"
+// is the work of first runs on the busiest rank over the mean. "span" is the work that all ranks
+// wait for, repeated runs included, for each disc of a rank and window: a rank's work is the
+// collisions that it carries out plus 0.14 for each disc that its blocks see.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -36,8 +37,7 @@ using namespace carrom;
 
 namespace {
 
-constexpr std::int64_t n_first = 32; ///< steps that are not counted
-constexpr double per_disc = 0.14;    ///< work of a disc that a block sees, in collisions
+constexpr double per_disc = 0.14; ///< work of a disc that a block sees, in collisions
 
 using Rounds = std::vector<std::vector<BlockWork>>;
 
@@ -46,17 +46,21 @@ struct Tally {
     RollbackCounts counts_before, counts_after;
     std::uint64_t n_own = 0, n_collisions = 0;
     double micro_steps = 0;
+    int n_across = 1;
     Rounds rounds{};
 };
 
 struct Job {
     double n_discs = 0, packing = 0;
     std::int64_t steps = 0;
-    int halo = 0;
+    int halo = 0, across = 0;
     Crowd crowd = Crowd::none;
     std::vector<Tally> tallies{};
     std::vector<InputDisc> inputs{};             ///< of all ranks, which share this memory
     std::vector<std::vector<DiscState>> dealt{}; ///< by the rank whose strip they begin in
+
+    /// Steps that are not counted: from a lattice to a gas, or until cuts have followed the crowd.
+    std::int64_t n_first() const { return crowd == Crowd::none ? 32 : 256; }
 };
 
 SceneParameters gas(const Job& job) {
@@ -64,7 +68,7 @@ SceneParameters gas(const Job& job) {
     return read_scene(fmt::format("[box]\nsize = {}\n[discs]\ncount = {:.0f}\nradius = 1\n"
                                   "generator = \"lattice\"\nspeed = 0.5\n"
                                   "[time]\nsteps = {}\nmethod = \"event-driven\"\n",
-                                  side, job.n_discs, n_first + job.steps),
+                                  side, job.n_discs, job.n_first() + job.steps),
                       "gas.toml");
 }
 
@@ -113,20 +117,23 @@ void run(Job& job, int rank) {
     BlockTuning blocks;
     blocks.notes_work = true;
     if (job.halo > 0) blocks.halo = job.halo;
-    EventDrivenEngine<PlainDynamics> engine(scene, std::move(state), world, Tuning{}, blocks);
-    advance(engine, scene, n_first);
+    Tuning tuning;
+    if (job.across > 0) tuning.ranks_across = job.across;
+    EventDrivenEngine<PlainDynamics> engine(scene, std::move(state), world, tuning, blocks);
+    advance(engine, scene, job.n_first());
     Tally& tally = job.tallies[place];
     engine.take_work();
     tally.counts_before = engine.rollback_counts();
     tally.n_collisions = world.sum(collisions_of(engine)) / 2;
     tally.micro_steps = -static_cast<double>(engine.micro_steps_done());
     tally.before = world.traffic();
-    advance(engine, scene, n_first + job.steps);
+    advance(engine, scene, job.n_first() + job.steps);
     tally.after = world.traffic();
     tally.micro_steps += static_cast<double>(engine.micro_steps_done());
     tally.rounds = engine.take_work();
     tally.counts_after = engine.rollback_counts();
     tally.n_collisions = world.sum(collisions_of(engine)) / 2 - tally.n_collisions;
+    tally.n_across = engine.most_ranks_across();
     tally.n_own = engine.own().size();
 }
 
@@ -138,14 +145,13 @@ struct Work {
     double n_rounds = 0;
 };
 
-/// A round in which a rank runs fewer blocks than it has repeats some of them.
 Work work_of(const Job& job) {
     Work work;
     const std::size_t n_rounds = job.tallies.front().rounds.size();
     work.n_rounds = static_cast<double>(n_rounds);
     for (std::size_t k = 0; k < n_rounds; ++k) {
         double most = 0, all = 0, carried = 0, seen = 0;
-        bool is_first = true;
+        bool is_first = false; // no rank has run its blocks before
         for (const Tally& tally : job.tallies) {
             double own = 0;
             for (const BlockWork& block : tally.rounds[k]) {
@@ -153,8 +159,8 @@ Work work_of(const Job& job) {
                        per_disc * static_cast<double>(block.n_seen);
                 carried += static_cast<double>(block.n_carried);
                 seen += static_cast<double>(block.n_seen);
+                is_first |= !block.is_repeated;
             }
-            is_first &= tally.rounds[k].size() >= tally.rounds.front().size() * 3 / 4;
             most = std::max(most, own);
             all += own;
         }
@@ -168,9 +174,10 @@ Work work_of(const Job& job) {
     return work;
 }
 
-constexpr const char* heading = "crowd,ranks,discs,packing,halo,windows,micro_steps,collisions,"
-                                "carried,seen,busiest,span,blocks,repeated,windows_redone,rounds,"
-                                "repeated_work,messages,bytes,most_bytes,collectives";
+constexpr const char* heading =
+    "crowd,ranks,across,discs,packing,halo,windows,micro_steps,collisions,"
+    "carried,seen,busiest,span,blocks,repeated,windows_redone,rounds,"
+    "repeated_work,messages,bytes,most_bytes,collectives";
 
 void print_row(const Job& job) {
     const Work work = work_of(job);
@@ -190,24 +197,24 @@ void print_row(const Job& job) {
         most_bytes = std::max(most_bytes, sent);
     }
     const double per = n_windows * n_discs;
-    fmt::print(
-        "{},{},{},{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.5g},{:.5g},{:.4g},{:.4g},{:.4g},"
-        "{:.4g},{:.5g},{:.6g},{:.6g},{:.5g}\n",
-        static_cast<int>(job.crowd), n_ranks, n_discs, job.packing, job.halo, n_windows,
-        tally.micro_steps / n_windows, static_cast<double>(tally.n_collisions) / per,
-        work.carried / per, work.seen / per, work.busiest * n_ranks / work.first,
-        work.span * n_ranks / per, n_blocks / n_windows,
-        count(&RollbackCounts::blocks_redone) / n_blocks,
-        count(&RollbackCounts::windows_redone) / n_windows, work.n_rounds / n_windows - 1,
-        work.repeated / work.first, messages / n_windows / n_ranks, bytes / n_windows / n_ranks,
-        most_bytes / n_windows,
-        static_cast<double>(tally.after.collectives - tally.before.collectives) / n_windows);
+    fmt::print("{},{},{},{},{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.5g},{:.5g},{:.4g},{:.4g}"
+               ",{:.4g},"
+               "{:.4g},{:.5g},{:.6g},{:.6g},{:.5g}\n",
+               static_cast<int>(job.crowd), n_ranks, tally.n_across, n_discs, job.packing, job.halo,
+               n_windows, tally.micro_steps / n_windows,
+               static_cast<double>(tally.n_collisions) / per, work.carried / per, work.seen / per,
+               work.busiest * n_ranks / work.first, work.span * n_ranks / per, n_blocks / n_windows,
+               count(&RollbackCounts::blocks_redone) / n_blocks,
+               count(&RollbackCounts::windows_redone) / n_windows, work.n_rounds / n_windows - 1,
+               work.repeated / work.first, messages / n_windows / n_ranks,
+               bytes / n_windows / n_ranks, most_bytes / n_windows,
+               static_cast<double>(tally.after.collectives - tally.before.collectives) / n_windows);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 8) {
+    if (argc < 9) {
         std::printf("%s\n", heading);
         return 0;
     }
@@ -218,6 +225,7 @@ int main(int argc, char** argv) {
     job.steps = std::stoll(argv[5]);
     job.halo = std::stoi(argv[6]);
     job.crowd = static_cast<Crowd>(std::stoi(argv[7]));
+    job.across = std::stoi(argv[8]);
     job.tallies.resize(static_cast<std::size_t>(cluster.n_ranks));
     job.dealt.resize(job.tallies.size());
     run_simulated(argc, argv, cluster, [&job](int rank) { run(job, rank); });
