@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws tables of `tests/physics/literature.py` and `dense` of `flow_studies.py`, each beside itself as PNG. Bars are standard errors."""
+"""Draws tables of `tests/physics/literature.py`, `heaps.py`, `silo.py` and `dense` of `flow_studies.py`, each beside itself as PNG. Bars are
+standard errors, or the scatter of five starts for heaps."""
 import argparse
 import csv
 import pathlib
@@ -10,10 +11,17 @@ import plot_style
 
 
 def read(path):
-    """Columns of numbers by name; an empty cell is nan."""
+    """Columns by name, of numbers where all are; an empty cell is nan."""
+
+    def numbers(words):
+        try:
+            return [float(word or "nan") for word in words]
+        except ValueError:
+            return words
+
     with open(path, newline="") as table:
         rows = list(csv.DictReader(table))
-    return {name: [float(row[name] or "nan") for row in rows] for name in rows[0]}
+    return {name: numbers([row[name] for row in rows]) for name in rows[0]}
 
 
 def draw_deviations(axes, table, name, label):
@@ -83,6 +91,31 @@ def draw_dense(axes, table):
     axes.legend(loc="upper left")
 
 
+def draw_heaps(axes, table):
+    for study, fill in (("heap", "full"), ("column", "none")):
+        chosen = [k for k, name in enumerate(table["study"]) if name == study]
+        for who, colour, marker, aside in (("carrom", "#0060b0", "o", -0.01), ("lammps", "#c05000", "s", 0.01)):
+            x = [table["friction"][k] + aside for k in chosen]
+            slopes, scatter = ([table[f"slope_{who}{end}"][k] for k in chosen] for end in ("", "_scatter"))
+            label = f"{study}, {'Carrom' if who == 'carrom' else 'LAMMPS, soft discs'}"
+            axes.errorbar(x, slopes, scatter, label=label, color=colour, marker=marker, fillstyle=fill, linestyle="none", capsize=3)
+    axes.set(xlabel="friction", ylabel="slope of the surface in degrees")
+    axes.legend()
+
+
+def draw_silo(axes, table):
+    x = table["opening"]
+    power = [w ** (2 / 3) for w in table["flow"]]
+    errors = [2 / 3 * error * w ** (-1 / 3) for w, error in zip(table["flow"], table["flow_error"])]
+    axes.errorbar(x, power, errors, label="Carrom", color="#0060b0", marker="o", linestyle="none", capsize=3)
+    law = [w ** (2 / 3) for w in table["law"]]
+    slope = (law[-1] - law[0]) / (x[-1] - x[0])
+    k = x[0] - law[0] / slope
+    axes.plot([k, x[-1]], [0, law[-1]], label=f"Beverloo's law, $k$ = {k:.2f}", color="black", linewidth=0.8)
+    axes.set(xlabel="opening in diameters", ylabel="(discs that leave in a step)$^{2/3}$", xlim=(0, None), ylim=(0, None))
+    axes.legend()
+
+
 DRAW = {
     "dense": draw_dense,
     "pressure": lambda axes, table: draw_deviations(axes, table, "Z", r"$Z$ off Kolafa and Rottner's, $10^{-4}$ of it"),
@@ -90,6 +123,8 @@ DRAW = {
     "enskog": draw_enskog,
     "haff": draw_haff,
     "melting": draw_melting,
+    "heaps": draw_heaps,
+    "silo": draw_silo,
 }
 
 
