@@ -69,12 +69,17 @@ cat >parent/CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.25)
 project(parent LANGUAGES C CXX)
 add_subdirectory("$CARROM_SOURCE_DIR" carrom)
+get_target_property(folder carrom RUNTIME_OUTPUT_DIRECTORY)
+message(STATUS "the program is put into \${folder}/")
 END
 unset CMAKE_BUILD_TYPE
 configured parent -DCMAKE_EXPORT_COMPILE_COMMANDS=ON ||
     { complain 'a parent project'; tail -n 5 log; }
 grep -qx 'CMAKE_BUILD_TYPE:STRING=' "$test_folder/build/CMakeCache.txt" ||
     complain "the parent's build type: $(grep BUILD_TYPE: "$test_folder/build/CMakeCache.txt")"
+# Elsewhere it would need the name that the parent gives to the folder of this project.
+grep -q 'the program is put into .*/build/carrom/$' log ||
+    complain "the program of a parent's build: $(grep 'is put into' log)"
 
 # Whatever arithmetic a user's flags ask for is taken back. The compiler says itself what is on.
 mapfile -t flags < <(grep -m 1 '"command".*src/core/' "$test_folder/build/compile_commands.json" |
