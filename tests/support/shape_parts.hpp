@@ -36,8 +36,8 @@ inline bool is_left_to_others(std::size_t run) {
     return part && is_left_to_others(run, part->count);
 }
 
-/// So many share where `n_threads` run at once: machines of continuous integration have few cores.
-/// What none of them runs is run by the long tests.
+/// How many shapes share where `n_threads` run at once: machines of continuous integration have few
+/// cores. What none of them runs is run by the long tests.
 inline std::size_t n_sharing(int n_threads) { return n_threads <= 2 ? 2 : n_threads <= 4 ? 4 : 8; }
 
 } // namespace carrom::test

@@ -8,32 +8,19 @@
 #include <limits>
 #include <numeric>
 #include <random>
-#include <set>
 
 #include "catch.hpp"
 
 #include "domain/domain_cuts.hpp"
+#include "strips_support.hpp"
 
 using carrom::Axis;
 using carrom::Domain;
 using carrom::Domains;
 using carrom::Strips;
+using namespace carrom::test;
 
 namespace {
-
-constexpr double box = 10;
-
-/// Cuts on a coarse lattice half of the time, so that equal ones, and ones at the box's ends, are
-/// common.
-Strips random_strips(std::mt19937& random, int n_strips, Axis axis) {
-    std::uniform_real_distribution<double> anywhere(0, box);
-    const bool coarse = random() % 2 == 0;
-    std::vector<double> cuts;
-    for (int k = 1; k < n_strips; ++k)
-        cuts.push_back(coarse ? std::round(anywhere(random) / 2) * 2 : anywhere(random));
-    std::sort(cuts.begin(), cuts.end());
-    return Strips(cuts, axis);
-}
 
 std::vector<int> random_sizes(std::mt19937& random, int n_ranks) {
     std::vector<int> sizes;
@@ -81,21 +68,6 @@ int owner_by_search(const Domains& domains, Place place) {
             found = found == -1 ? rank : -2;
     }
     return found;
-}
-
-bool contains(const std::vector<int>& list, int rank) {
-    return std::find(list.begin(), list.end(), rank) != list.end();
-}
-
-/// Ascending, without the rank itself, and a lists b if and only if b lists a.
-void check_lists(const std::vector<std::vector<int>>& lists) {
-    for (std::size_t a = 0; a < lists.size(); ++a) {
-        REQUIRE(std::is_sorted(lists[a].begin(), lists[a].end()));
-        REQUIRE(std::set<int>(lists[a].begin(), lists[a].end()).size() == lists[a].size());
-        REQUIRE_FALSE(contains(lists[a], static_cast<int>(a)));
-        for (const int b : lists[a])
-            REQUIRE(contains(lists[static_cast<std::size_t>(b)], static_cast<int>(a)));
-    }
 }
 
 } // namespace

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strips to try, and what lists of ranks that exchange discs must fulfil, of strips and of domains.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "domain/strips.hpp"
+
+namespace carrom::test {
+
+inline constexpr double box = 10;
+
+/// Cuts of the box on a coarse lattice half of the time, so that equal ones, and ones at its ends,
+/// are common.
+inline Strips random_strips(std::mt19937& random, int n_strips, Axis axis = Axis::x) {
+    std::uniform_real_distribution<double> anywhere(0, box);
+    const bool coarse = random() % 2 == 0;
+    std::vector<double> cuts;
+    for (int k = 1; k < n_strips; ++k)
+        cuts.push_back(coarse ? std::round(anywhere(random) / 2) * 2 : anywhere(random));
+    std::sort(cuts.begin(), cuts.end());
+    return Strips(std::move(cuts), axis);
+}
+
+inline bool contains(const std::vector<int>& list, int rank) {
+    return std::find(list.begin(), list.end(), rank) != list.end();
+}
+
+/// `lists` by rank: each ascends and does not hold the rank itself, and a lists b if and only if b
+/// lists a.
+inline void check_lists(const std::vector<std::vector<int>>& lists) {
+    for (std::size_t a = 0; a < lists.size(); ++a) {
+        REQUIRE(std::is_sorted(lists[a].begin(), lists[a].end()));
+        REQUIRE(std::set<int>(lists[a].begin(), lists[a].end()).size() == lists[a].size());
+        REQUIRE_FALSE(contains(lists[a], static_cast<int>(a)));
+        for (const int b : lists[a])
+            REQUIRE(contains(lists[static_cast<std::size_t>(b)], static_cast<int>(a)));
+    }
+}
+
+} // namespace carrom::test
