@@ -8,7 +8,7 @@ source "$(dirname "$0")/common.sh"
 most_seconds=4
 gas=("$CARROM_SOURCE_DIR/inputs/gas.toml" --quiet --set output.folder=kept)
 fast=(--set discs.count=5000 --set discs.speed=1e9 --steps 10)
-placed=(--set discs.count=300000 --set discs.packing=0.5 --steps 10)
+placed=(--set discs.count=4000000 --set discs.packing=0.5 --steps 10)
 compressed=(--set discs.count=2000 --set discs.packing=0.8 --set discs.generator=compressed
             --set discs.growth_rate=1e-6 --steps 10)
 heap=("$CARROM_SOURCE_DIR/inputs/rain.toml" --quiet --set output.folder=kept
