@@ -3,14 +3,14 @@
 # Other programs open our files and see what the run itself has written as text: h5py, pyh5md,
 # MDAnalysis, VTK (through XDMF), and the worked example and figures of
 # docs/understanding/method.md. They come from PyPI, into a folder that is kept; each is skipped
-# where it cannot be had. Argument: that folder.
+# where it cannot be had. Arguments: `few` or `all`, and that folder. `few` leaves out the programs
+# whose packages take hundreds of megabytes.
 source "$(dirname "$0")/common.sh"
+share=$1
+shift
 python=$1/bin/python tests=$(dirname "$0") tools=$CARROM_SOURCE_DIR/docs/tools
-n_skipped=0
-skip() {
-    printf 'skipped: %s\n' "$*"
-    n_skipped=$((n_skipped + 1))
-}
+n_read=0
+skip() { printf 'skipped: %s\n' "$*"; }
 
 [ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 ||
     python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 || {
@@ -28,6 +28,25 @@ has() {
         >"$test_folder/err" 2>&1 && "$python" -c "import $module" 2>/dev/null
 }
 
+# with_readers SCRIPT MODULES FILE...: each of these modules reads the files by a script of this
+# folder.
+readers=('h5py h5py' 'pyh5md h5py pyh5md')
+[ "$share" = few ] || readers+=('ase ase' 'ovito ovito' 'MDAnalysis h5py MDAnalysis' 'vtk vtk')
+with_readers() {
+    local script=$1 known=$2 reader module packages
+    shift 2
+    for reader in "${readers[@]}"; do
+        read -r module packages <<<"$reader"
+        [[ " $known " == *" $module "* ]] || continue
+        if has "$module" $packages; then
+            n_read=$((n_read + 1))
+            "$python" "$tests/$script.py" "$module" "$@" || complain "$module, $script"
+        else
+            skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
+        fi
+    done
+}
+
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 \
     --quiet --steps 20)
 run 2 run "${scene[@]}" --set output.text=every_step --output lines -o run \
@@ -35,15 +54,8 @@ run 2 run "${scene[@]}" --set output.text=every_step --output lines -o run \
     --set output.collisions=true --report report.json
 expect_code 0 'a run'
 
-for reader in 'h5py h5py' 'pyh5md h5py pyh5md' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
-    read -r module packages <<<"$reader"
-    if has "$module" $packages; then
-        "$python" "$tests/readers.py" "$module" lines run/trajectory.h5 \
-            run/checkpoints/checkpoint-000000000020.h5 || complain "$module"
-    else
-        skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
-    fi
-done
+with_readers readers 'h5py pyh5md MDAnalysis vtk' lines run/trajectory.h5 \
+    run/checkpoints/checkpoint-000000000020.h5
 
 # Two species in a box that is periodic along x: radii, types, box and sides as they are.
 cat >mixed.toml <<'END'
@@ -71,15 +83,8 @@ for file in mixed/trajectory.h5 "$last"; do
     run 1 convert "$file" --to xyz --output "$(basename "$file" .h5).xyz"
     expect_code 0 "convert $file"
 done
-for reader in 'h5py h5py' 'ase ase' 'ovito ovito' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
-    read -r module packages <<<"$reader"
-    if has "$module" $packages; then
-        "$python" "$tests/readers_of_mixtures.py" "$module" mixed_lines mixed/trajectory.h5 \
-            "$last" trajectory.xyz checkpoint-000000000020.xyz || complain "$module, two species"
-    else
-        skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
-    fi
-done
+with_readers readers_of_mixtures 'h5py ase ovito MDAnalysis vtk' mixed_lines mixed/trajectory.h5 \
+    "$last" trajectory.xyz checkpoint-000000000020.xyz
 
 # Flights around a periodic box: image counts, on other machine shapes and across a restart, too.
 { periodic_box 10; cat; } >flights.toml <<'END'
@@ -108,15 +113,8 @@ expect_code 0 'flights that meet'
 run 1 run flights.toml --quiet -o resumed --steps 33
 run 2 run -o resumed --resume --quiet --steps 60
 expect_code 0 'flights that go on'
-for reader in 'h5py h5py' 'MDAnalysis h5py MDAnalysis'; do
-    read -r module packages <<<"$reader"
-    if has "$module" $packages; then
-        "$python" "$tests/readers_of_flights.py" "$module" {free,flights,resumed}/trajectory.h5 \
-            flights/measurements/displacement.csv || complain "$module, flights"
-    else
-        skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
-    fi
-done
+with_readers readers_of_flights 'h5py MDAnalysis' {free,flights,resumed}/trajectory.h5 \
+    flights/measurements/displacement.csv
 
 if has h5py h5py; then # the worked example of the method's page, against a run on three ranks
     method=$CARROM_SOURCE_DIR/docs/understanding/method.md
@@ -130,5 +128,5 @@ if has matplotlib matplotlib && has h5py h5py; then
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
 fi
-[ "$n_skipped" -lt 12 ] || [ "$n_failures" -gt 0 ] || exit 77
+[ "$n_read" -gt 0 ] || [ "$n_failures" -gt 0 ] || exit 77
 finish
