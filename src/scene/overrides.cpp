@@ -51,7 +51,7 @@ void take_right_values(const std::vector<Setting>& all,
 }
 
 /// Removes keys of the input that lose their meaning by a word of the command line in their table,
-/// as the strength of kicks does by kind = "langevin".
+/// as the strength of kicks does by kind = "langevin", and those that need a removed one.
 void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     const auto has_word_for = [&given](const Key& other) {
         return std::any_of(given.all().begin(), given.all().end(), [&other](const Setting& one) {
@@ -59,14 +59,19 @@ void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
             return key && key->kind == Kind::choice && key->table() == other.table();
         });
     };
-    SceneParameters before, after;
-    take_right_values(settings.all(), {&before, &after});
-    take_right_values(given.all(), {&after});
-    std::erase_if(settings.all(), [&](const Setting& one) {
-        const Key* key = find_key(one.key);
-        return key && !given.has(one.key) && has_word_for(*key) && key->has_meaning(before) &&
-               !key->has_meaning(after);
-    });
+    SceneParameters before;
+    take_right_values(settings.all(), {&before});
+    std::size_t n_removed = 1;
+    while (n_removed > 0) {
+        SceneParameters after;
+        take_right_values(settings.all(), {&after});
+        take_right_values(given.all(), {&after});
+        n_removed = std::erase_if(settings.all(), [&](const Setting& one) {
+            const Key* key = find_key(one.key);
+            return key && !given.has(one.key) && has_word_for(*key) && key->has_meaning(before) &&
+                   !key->has_meaning(after);
+        });
+    }
 }
 
 /// Reports errors of the input also if the command line replaces the setting.

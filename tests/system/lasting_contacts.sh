@@ -54,9 +54,36 @@ for friction in 0 0.5; do
         complain "collisions of rows that fill the box, friction $friction"
 done
 
+# Gravity adds 0.02 between two syncs, and a fall by a radius gives 0.14. A pair that meets at 1.1
+# may be 2.2 apart at a sync before it, which is more than a diameter.
+warned() { grep -c 'warning: ' "$test_folder/err"; }
+for speed in 0.019 0.29; do
+    run 1 run "$heap" --quiet --steps 2 --set effects.lasting_contacts.speed=$speed
+    expect_code 0 "a slow speed of lasting contacts"
+    expect_told "speed = $speed is " "a slow speed of lasting contacts"
+    expect_told 'take some 0.04' "a slow speed of lasting contacts"
+done
+for speed in 0.021 0.28; do
+    run 1 run "$heap" --quiet --steps 2 --set effects.lasting_contacts.speed=$speed
+    [ "$(warned)" = 0 ] || complain "a warning of the speed $speed"
+done
+for speed in 1.1 1e300; do
+    run 1 run "$heap" --quiet --set effects.lasting_contacts.speed=$speed
+    expect_code 2 "the speed $speed"
+    expect_told 'discs would look for partners' "the speed $speed"
+done
+for every in 3 4; do
+    run 1 run "$heap" --quiet --steps 12 --set output.measurements.every_steps=$every -o samples \
+        --overwrite --set 'output.measurements.quantities=["thermo"]'
+    [ "$(warned)" = $((every % 2)) ] || complain "samples after $every steps"
+done
+
 for wrong in time.sync_every=64 effects.gravity.y=0 effects.contact.kind=elastic \
     box.bottom.kind=thermal; do
     run 1 run "$heap" --quiet --set $wrong
     expect_code 2 "$wrong"
 done
+# A side of another kind drops its restitution, and the friction that needs it.
+run 1 run "$heap" --quiet --steps 2 --set box.bottom.kind=open
+expect_code 0 'a heap over an open side'
 finish

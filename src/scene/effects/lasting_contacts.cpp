@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -118,7 +119,8 @@ std::vector<Key> keys_of_lasting_contacts() {
     return {
         key("effects.lasting_contacts.speed", "length/step",
             "Discs that approach each other, a wall or an obstacle more slowly than this at a sync "
-            "press each other until the next one, and do not bounce.",
+            "press each other until the next one, and do not bounce. Needs gravity, and discs with "
+            "a restitution or rough ones.",
             [](auto& s) -> auto& { return s.effects.lasting_speed; })
             .within({.low = 0}),
     };
@@ -160,10 +162,14 @@ double smallest_radius_of(const SceneParameters& scene) {
     return smallest;
 }
 
+double pull_of(const SceneParameters& scene) {
+    return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
+}
+
 /// How high discs at rest fly between two syncs.
 double hop_of(const SceneParameters& scene) {
     const double time = steps_between_syncs(scene);
-    return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y) * time * time / 8;
+    return pull_of(scene) * time * time / 8;
 }
 
 /// By default syncs follow each other so closely that discs at rest fly up by a hundredth of the
@@ -176,10 +182,11 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-void check_hops(const SceneDraft& draft) {
+/// Returns whether discs at rest stay where they are, or nearly so.
+bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
-    if (!has_lasting(scene) || !(radius > 0) || !(hop_of(scene) > 0.05 * radius)) return;
+    if (!(hop_of(scene) > 0.05 * radius)) return true;
     const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
                                    static_cast<double>(scene.sync_every));
     draft.refuse({"effects.lasting_contacts.speed", "time.sync_every"},
@@ -188,6 +195,60 @@ void check_hops(const SceneDraft& draft) {
                              hop_of(scene),
                              most >= 1 ? fmt::format("time.sync_every = {} or less will do", most)
                                        : "take more time.micro_steps"));
+    return false;
+}
+
+/// Speeds that make the run slow: too small ones let discs bounce, and with too large ones each
+/// disc looks for partners far away.
+void check_speed(const SceneDraft& draft) {
+    SceneParameters& scene = draft.scene;
+    const double radius = smallest_radius_of(scene), time = steps_between_syncs(scene);
+    const double speed = scene.effects.lasting_speed, gained = pull_of(scene) * time,
+                 fallen = std::sqrt(2 * pull_of(scene) * radius);
+    const std::string remedy = fmt::format("take some {:.1g}", 2 * gained);
+    if (speed * time > 2 * radius)
+        draft.refuse(
+            {"effects.lasting_contacts.speed"},
+            fmt::format("discs would look for partners {:.2g} away, which is more than the "
+                        "smallest diameter; {}",
+                        speed * time, remedy));
+    else if (speed < gained)
+        scene.warnings.push_back(
+            fmt::format("effects.lasting_contacts.speed = {:g} is less than the {:.2g} that "
+                        "gravity adds between "
+                        "two syncs, so discs at rest bounce on and the run is slow; {}",
+                        speed, gained, remedy));
+    else if (speed > 2 * fallen)
+        scene.warnings.push_back(fmt::format(
+            "effects.lasting_contacts.speed = {:g} is more than twice the speed {:.2g} that a disc "
+            "has after a fall by the smallest radius: such impacts lose all of their normal "
+            "velocity; {}",
+            speed, fallen, remedy));
+}
+
+/// Quantities whose rows have forces, which lasting contacts have at syncs alone.
+void check_samples_of_forces(const SceneDraft& draft) {
+    SceneParameters& scene = draft.scene;
+    if (!scene.measurements) return;
+    const MeasurementOutput& samples = *scene.measurements;
+    const auto is_at_sync = [&scene](std::int64_t step) {
+        return step * scene.micro_steps % scene.sync_every == 0;
+    };
+    if (is_at_sync(samples.every_steps) && is_at_sync(samples.from_step)) return;
+    for (const char* name : {"wall_pressure", "wall_exchange", "pressure", "thermo"}) {
+        if (!samples.measures(name)) continue;
+        scene.warnings.push_back(fmt::format(
+            "rows of \"{}\" have the forces of lasting contacts unevenly, because samples are not "
+            "taken at syncs; let output.measurements.every_steps and from_step be multiples of {}",
+            name, scene.sync_every / std::gcd(scene.sync_every, scene.micro_steps)));
+        return;
+    }
+}
+
+void check_heap(const SceneDraft& draft) {
+    if (!has_lasting(draft.scene) || !(smallest_radius_of(draft.scene) > 0)) return;
+    if (check_hops(draft)) check_speed(draft);
+    check_samples_of_forces(draft);
 }
 
 } // namespace
@@ -199,7 +260,7 @@ EffectDeclaration lasting_contacts() {
             .keys = keys_of_lasting_contacts(),
             .rules = rules_of_lasting_contacts(),
             .derive = shorten_sync_for_hops,
-            .check_room = check_hops,
+            .check_room = check_heap,
             .summary =
                 [](const Effects& e) {
                     return e.lasting_speed > 0
