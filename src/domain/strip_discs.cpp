@@ -254,12 +254,13 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
             out[k][i] = {discs_[halo_plan_.leaving[k][places[i]]], places[i]};
     }
     const std::size_t n_before = updates.size();
-    Received<Update> in;
-    in.offsets = exchange_.append(std::span<const int>(plan.partners), out, in.items);
-    updates.resize(n_before + in.items.size());
-    for (std::size_t k = 0; k < in.n_senders(); ++k)
-        take_updates(in.from(k), halo_offsets_[k],
-                     std::span(updates).subspan(n_before + in.offsets[k]));
+    RawVector<Update> in;
+    const std::vector<std::size_t> offsets = exchange_.append(std::span<const int>(plan.partners),
+                                                              out, in);
+    updates.resize(n_before + in.size());
+    for (std::size_t k = 0; k < n_partners; ++k)
+        take_updates(std::span<const Update>(in).subspan(offsets[k], offsets[k + 1] - offsets[k]),
+                     halo_offsets_[k], std::span(updates).subspan(n_before + offsets[k]));
     columns_.for_each([&](SideColumn column) {
         std::vector<double>& values = columns_[column];
         std::vector<std::vector<double>> values_out(n_partners);

@@ -79,7 +79,7 @@ public:
 
     /// `values` run along the own discs. Sends those of discs in other ranks' halos,
     /// and appends those of the own halo's discs. **Collective.**
-    template <Message T> void show(std::vector<T>& values) {
+    template <class Values> void show(Values& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
         transfer(exchange_, halo_plan_, values, values, n_threads_);

@@ -70,20 +70,20 @@ TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscSta
     return plan;
 }
 
-template <Message T>
+template <class Values>
 std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
-                                  const std::vector<T>& values, std::vector<T>& arrived,
-                                  int n_threads) {
-    return transfer_packed(exchange, plan, values, arrived, n_threads,
-                           [](const T& value, std::size_t, std::size_t) { return value; });
+                                  const Values& values, Values& arrived, int n_threads) {
+    return transfer_packed(
+        exchange, plan, values, arrived, n_threads,
+        [](const typename Values::value_type& value, std::size_t, std::size_t) { return value; });
 }
 
-#define CARROM_DEFINE(T)                                                                           \
+#define CARROM_DEFINE(Values)                                                                      \
     template std::vector<std::size_t> transfer(NeighbourExchange&, const TransferPlan&,            \
-                                               const std::vector<T>&, std::vector<T>&, int);
-CARROM_DEFINE(DiscState)
-CARROM_DEFINE(double)
-CARROM_DEFINE(std::uint64_t)
+                                               const Values&, Values&, int);
+CARROM_DEFINE(std::vector<DiscState>)
+CARROM_DEFINE(std::vector<double>)
+CARROM_DEFINE(RawVector<std::uint64_t>)
 #undef CARROM_DEFINE
 
 } // namespace carrom

@@ -81,10 +81,9 @@ Inside interior(const Domains& domains, int rank, double reach, const Periods& p
 /// Sends the values that `plan` names of an array along the own discs, and appends those that come
 /// to `arrived`, which may be the same array. Returns where each partner's values begin in what has
 /// come, and their number. For discs, numbers and hashes. **Collective.**
-template <Message T>
+template <class Values>
 std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
-                                  const std::vector<T>& values, std::vector<T>& arrived,
-                                  int n_threads);
+                                  const Values& values, Values& arrived, int n_threads);
 
 /// Sends discs as the images that the plan names. **Collective.**
 std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,

@@ -15,8 +15,9 @@
 
 namespace carrom {
 
-/// With fewer discs, threads cost more than they save.
-inline constexpr std::size_t least_for_threads = 4096;
+/// With fewer discs, threads cost more than they save. To plan for one takes several times as long
+/// as to pack it.
+inline constexpr std::size_t least_for_threads = 4096, least_planned_on_threads = 512;
 
 /// Calls visit(place) for the places first .. last - 1 of those that the ranges hold together.
 template <class Visit>
@@ -38,7 +39,7 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
                    const Visit& visit) {
     std::size_t n_searched = 0;
     for (const PlaceRange range : searched) n_searched += range.end - range.begin;
-    if (n_threads == 1 || n_searched < least_for_threads) {
+    if (n_threads == 1 || n_searched < least_planned_on_threads) {
         visit_places(searched, 0, n_searched, [&](LocalIndex place) { visit(place, plan); });
         return;
     }
@@ -62,11 +63,11 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
 }
 
 /// As `transfer`, but sends pack(value, k, i) for the i-th disc that goes to partner k.
-template <Message T, class Pack>
+template <class Values, class Pack>
 std::vector<std::size_t> transfer_packed(NeighbourExchange& exchange, const TransferPlan& plan,
-                                         const std::vector<T>& values, std::vector<T>& arrived,
-                                         int n_threads, const Pack& pack) {
-    std::vector<RawVector<T>> out(plan.partners.size());
+                                         const Values& values, Values& arrived, int n_threads,
+                                         const Pack& pack) {
+    std::vector<RawVector<typename Values::value_type>> out(plan.partners.size());
     for (std::size_t k = 0; k < out.size(); ++k) {
         const std::vector<LocalIndex>& leaving = plan.leaving[k];
         out[k].resize(leaving.size());

@@ -220,6 +220,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.fetch_halo(time_, fetched_reach(halo_depth_), nullptr);
     }
+    histories_.clear(); // nothing of it needs to be kept
     histories_.resize(discs_.all().size());
     halo_counts_.n_windows += 1;
     halo_counts_.n_own += discs_.n_own();
@@ -320,7 +321,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double l
 template <class Dynamics> void EventDrivenEngine<Dynamics>::drop_scratch() {
     Base::drop_scratch();
     std::vector<Block>().swap(blocks_);
-    std::vector<std::uint64_t>().swap(histories_);
+    RawVector<std::uint64_t>().swap(histories_);
 }
 
 template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_counts() const {

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/raw_vector.hpp"
 #include "engine/engine_base.hpp"
 #include "event_driven/block_cuts.hpp"
 #include "event_driven/block_run.hpp"
@@ -176,7 +177,7 @@ private:
     std::vector<Block> blocks_;
     std::vector<std::vector<BlockWork>> rounds_;
     HaloCounts halo_counts_;
-    std::vector<std::uint64_t> histories_;       ///< for each disc, own discs before the halo
+    RawVector<std::uint64_t> histories_;         ///< for each disc, own discs before the halo
     std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };
 

@@ -45,10 +45,11 @@ public:
 
     /// As exchange, but appends what comes to `values`, so that it need not be copied. Returns
     /// where each neighbour's items begin in what was appended, and their number. **Collective.**
-    template <class Items, Message T>
+    template <class Items, class Values>
     std::vector<std::size_t> append(std::span<const int> neighbours, const std::vector<Items>& out,
-                                    std::vector<T>& values) {
-        static_assert(std::is_same_v<typename Items::value_type, T>);
+                                    Values& values) {
+        using T = typename Values::value_type;
+        static_assert(Message<T> && std::is_same_v<typename Items::value_type, T>);
         ensure(out.size() == neighbours.size(),
                "a neighbour exchange needs one list of items per neighbour");
         clear_parcels();

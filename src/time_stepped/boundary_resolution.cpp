@@ -43,9 +43,8 @@ bool is_shared(const Candidate& c, const Population& population) {
 } // namespace
 
 void BoundaryResolution::resolve_boundary(const Population& population,
-                                          std::span<const int> neighbours,
-                                          std::vector<Candidate>& undecided,
-                                          std::vector<Candidate>& kept) {
+                                          std::span<const int> neighbours, Candidates& undecided,
+                                          Candidates& kept) {
     std::sort(undecided.begin(), undecided.end(), TotalOrder(population.discs));
     find_first(population, undecided);
     std::vector<Statement> mine;
@@ -84,8 +83,7 @@ void BoundaryResolution::resolve_boundary(const Population& population,
 
 /// Reports which of the undecided candidates, in total order, come first for all of
 /// their discs that this rank owns.
-void BoundaryResolution::find_first(const Population& population,
-                                    const std::vector<Candidate>& undecided) {
+void BoundaryResolution::find_first(const Population& population, const Candidates& undecided) {
     is_first_.clear();
     seen_.clear();
     for (const Candidate& c : undecided) {
@@ -99,8 +97,8 @@ void BoundaryResolution::find_first(const Population& population,
 /// Decides what follows on this rank from the discs `taken` and the candidates struck,
 /// which are dropped.
 void BoundaryResolution::walk_own(const Population& population, Marks& taken,
-                                  const std::vector<std::uint8_t>& is_struck,
-                                  std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
+                                  const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
+                                  Candidates& kept) {
     seen_.clear(); // discs that wait for another rank
     std::size_t n_left = 0;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
@@ -120,8 +118,8 @@ void BoundaryResolution::walk_own(const Population& population, Marks& taken,
 }
 
 void BoundaryResolution::decide(const Population& population, std::span<const int> neighbours,
-                                std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
-                                std::vector<Candidate>& kept) {
+                                Candidates& undecided, std::uint64_t n_conflicts,
+                                Candidates& kept) {
     for (int round = 0; round < rounds_before_sort && n_conflicts > 0; ++round) {
         resolve_boundary(population, neighbours, undecided, kept);
         n_conflicts = communicator_.sum(std::uint64_t{undecided.size()});
@@ -129,8 +127,8 @@ void BoundaryResolution::decide(const Population& population, std::span<const in
     if (n_conflicts > 0) sort(population, undecided, n_conflicts, kept);
 }
 
-void BoundaryResolution::sort(const Population& population, std::vector<Candidate>& undecided,
-                              std::uint64_t n_conflicts, std::vector<Candidate>& kept) {
+void BoundaryResolution::sort(const Population& population, Candidates& undecided,
+                              std::uint64_t n_conflicts, Candidates& kept) {
     std::vector<Conflict> mine;
     mine.reserve(undecided.size());
     for (std::size_t k = 0; k < undecided.size(); ++k) {

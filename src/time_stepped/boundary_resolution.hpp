@@ -34,13 +34,12 @@ public:
     /// its discs in theirs. Moves those of `undecided` that are final now to `kept` and drops those
     /// that are struck. **Collective.**
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
-                          std::vector<Candidate>& undecided, std::vector<Candidate>& kept);
+                          Candidates& undecided, Candidates& kept);
 
     /// Appends to `kept` those of this rank's `undecided` candidates that happen, and
     /// leaves none undecided. `n_conflicts` is their number over all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
-                std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
-                std::vector<Candidate>& kept);
+                Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
     int rounds_before_sort = 6;                ///< rounds of `decide`; affects the cost only
     std::uint64_t candidates_per_slice = 8192; ///< affects the cost only
@@ -49,12 +48,12 @@ private:
     struct Conflict;
     struct Statement;
     using Marks = std::unordered_set<LocalIndex>;
-    void find_first(const Population& population, const std::vector<Candidate>& undecided);
+    void find_first(const Population& population, const Candidates& undecided);
     void walk_own(const Population& population, Marks& taken,
-                  const std::vector<std::uint8_t>& is_struck, std::vector<Candidate>& undecided,
-                  std::vector<Candidate>& kept);
-    void sort(const Population& population, std::vector<Candidate>& undecided,
-              std::uint64_t n_conflicts, std::vector<Candidate>& kept);
+                  const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
+                  Candidates& kept);
+    void sort(const Population& population, Candidates& undecided, std::uint64_t n_conflicts,
+              Candidates& kept);
     std::vector<Conflict> walk(const std::vector<Conflict>& slice,
                                std::vector<DiscId>& taken) const;
 

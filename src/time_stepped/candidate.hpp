@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/disc_state.hpp"
+#include "core/raw_vector.hpp"
 #include "time_stepped/window.hpp"
 
 namespace carrom {
@@ -24,6 +25,7 @@ struct Candidate {
     bool is_wall() const { return q == wall_index; }
 };
 static_assert(sizeof(Candidate) == 16);
+using Candidates = RawVector<Candidate>;
 
 /// Orders by time, then id of P, then wall before pair, then id of Q: exactly, without a tolerance.
 class TotalOrder {

@@ -47,12 +47,20 @@ void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate
 
 } // namespace
 
-void LocalResolution::resolve(const Population& population, std::vector<Candidate>& live,
-                              Verdicts& verdicts) {
+/// All discs are free before and after a call, so nothing needs to be kept.
+void LocalResolution::make_room_for(std::size_t n_discs) {
+    if (first_.size() >= n_discs) return;
+    first_.clear();
+    first_.resize(n_discs);
+#pragma omp parallel for num_threads(n_threads_) schedule(static)
+    for (std::size_t i = 0; i < n_discs; ++i) first_[i] = free_disc;
+}
+
+void LocalResolution::resolve(const Population& population, Candidates& live, Verdicts& verdicts) {
     verdicts.kept.clear();
     verdicts.undecided.clear();
     verdicts.n_rounds = 0;
-    if (first_.size() < population.discs.size()) first_.resize(population.discs.size(), free_disc);
+    make_room_for(population.discs.size());
     kept_by_thread_.resize(static_cast<std::size_t>(n_threads_));
     live_by_thread_.resize(static_cast<std::size_t>(n_threads_));
     places_.resize(static_cast<std::size_t>(n_threads_));
@@ -70,7 +78,7 @@ void LocalResolution::resolve(const Population& population, std::vector<Candidat
     }
 }
 
-std::size_t LocalResolution::round_alone(const Population& population, std::vector<Candidate>& live,
+std::size_t LocalResolution::round_alone(const Population& population, Candidates& live,
                                          Verdicts& verdicts) {
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
@@ -106,7 +114,7 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
 }
 
 /// Makes room for what all threads have kept and left, and assigns each thread its part.
-void LocalResolution::join_lists(std::vector<Candidate>& live, Verdicts& verdicts) {
+void LocalResolution::join_lists(Candidates& live, Verdicts& verdicts) {
     std::size_t kept_end = verdicts.kept.size(), live_end = 0;
     for (std::size_t thread = 0; thread < kept_by_thread_.size(); ++thread) {
         places_[thread] = {kept_end, live_end};
@@ -117,15 +125,15 @@ void LocalResolution::join_lists(std::vector<Candidate>& live, Verdicts& verdict
     live.resize(live_end);
 }
 
-std::size_t LocalResolution::round_together(const Population& population,
-                                            std::vector<Candidate>& live, Verdicts& verdicts) {
+std::size_t LocalResolution::round_together(const Population& population, Candidates& live,
+                                            Verdicts& verdicts) {
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
     const auto n_live = static_cast<std::int64_t>(live.size());
 #pragma omp parallel num_threads(n_threads_)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
-        std::vector<Candidate>&kept = kept_by_thread_[thread], &rest = live_by_thread_[thread];
+        Candidates &kept = kept_by_thread_[thread], &rest = live_by_thread_[thread];
         kept.clear();
         rest.clear();
 #pragma omp for schedule(static)
@@ -177,8 +185,7 @@ std::size_t LocalResolution::round_together(const Population& population,
     return verdicts.kept.size() - old_kept;
 }
 
-void LocalResolution::walk(const Population& population, std::vector<Candidate>& live,
-                           Verdicts& verdicts) {
+void LocalResolution::walk(const Population& population, Candidates& live, Verdicts& verdicts) {
     std::sort(live.begin(), live.end(), TotalOrder(population.discs));
     touched_.clear();
     const auto mark_both = [&](const Candidate& candidate, std::uint32_t mark) {

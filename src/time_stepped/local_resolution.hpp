@@ -20,8 +20,8 @@
 namespace carrom {
 
 struct Verdicts {
-    std::vector<Candidate> kept;
-    std::vector<Candidate> undecided; ///< empty without a halo
+    Candidates kept;
+    Candidates undecided; ///< empty without a halo
     int n_rounds = 0;
 };
 
@@ -31,22 +31,22 @@ public:
     explicit LocalResolution(int n_threads) : n_threads_(n_threads) {}
 
     /// Decides `live`, which is used up. None of its discs is taken at the start.
-    void resolve(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts);
+    void resolve(const Population& population, Candidates& live, Verdicts& verdicts);
 
     int rounds_before_walk = 12; ///< affects the cost only; 0 walks at once
 
 private:
     // One round: keeps the candidates that are first for both discs, strikes their
     // rivals from `live`, and returns how many it has kept.
-    std::size_t round_alone(const Population&, std::vector<Candidate>& live, Verdicts&);
-    std::size_t round_together(const Population&, std::vector<Candidate>& live, Verdicts&);
-    void join_lists(std::vector<Candidate>& live, Verdicts&);
-    void walk(const Population&, std::vector<Candidate>& live, Verdicts&);
+    std::size_t round_alone(const Population&, Candidates& live, Verdicts&);
+    std::size_t round_together(const Population&, Candidates& live, Verdicts&);
+    void make_room_for(std::size_t n_discs);
+    void join_lists(Candidates& live, Verdicts&);
+    void walk(const Population&, Candidates& live, Verdicts&);
 
     int n_threads_;
-    std::vector<std::uint32_t>
-        first_; ///< by disc: the number of its first live candidate, or a mark
-    std::vector<std::vector<Candidate>> kept_by_thread_, live_by_thread_;
+    RawVector<std::uint32_t> first_; ///< by disc: the number of its first live candidate, or a mark
+    std::vector<Candidates> kept_by_thread_, live_by_thread_;
     std::vector<std::pair<std::size_t, std::size_t>>
         places_; ///< where a thread's kept and live candidates go
     std::vector<LocalIndex> touched_;

@@ -68,7 +68,7 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
 }
 
 /// Gives the list's memory away: the next window needs it again, and later lists grow before.
-std::vector<Candidate> SearchLists::take(std::size_t bucket, std::span<const WindowState> states) {
+Candidates SearchLists::take(std::size_t bucket, std::span<const WindowState> states) {
     MicroStepList& list = by_micro[bucket];
     most_candidates = std::max(most_candidates, list.candidates.size());
     list.drop_stale(states);
@@ -353,16 +353,16 @@ void Search<Dynamics>::predict_wall(const Population& population, const Window& 
 }
 
 template <class Dynamics>
-std::vector<Candidate> Search<Dynamics>::collect(const Window& window, int m,
-                                                 std::span<const WindowState> states) {
+Candidates Search<Dynamics>::collect(const Window& window, int m,
+                                     std::span<const WindowState> states) {
     const auto bucket = static_cast<std::size_t>(m - window.first_micro);
     if (n_threads_ == 1) return lists_[0].take(bucket, states);
-    std::vector<Candidate> live;
+    Candidates live;
     std::vector<std::size_t> ends(static_cast<std::size_t>(n_threads_) + 1, 0);
 #pragma omp parallel num_threads(n_threads_)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
-        const std::vector<Candidate> own = lists_[thread].take(bucket, states);
+        const Candidates own = lists_[thread].take(bucket, states);
         ends[thread + 1] = own.size();
 #pragma omp barrier
 #pragma omp single

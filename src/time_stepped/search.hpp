@@ -29,7 +29,7 @@ struct MicroStepList {
         WindowState seen = 0; ///< the last state of any disc at that time
         std::size_t begin = 0;
     };
-    std::vector<Candidate> candidates;
+    Candidates candidates;
     std::vector<Section> sections;
 
     void add(const Candidate& candidate, WindowState seen);
@@ -52,7 +52,7 @@ struct SearchLists {
     std::size_t n_pairs = 0;
 
     /// Moves the candidates that are still current out of the list.
-    std::vector<Candidate> take(std::size_t bucket, std::span<const WindowState> states);
+    Candidates take(std::size_t bucket, std::span<const WindowState> states);
 };
 
 template <class Dynamics> class Search {
@@ -80,8 +80,7 @@ public:
                        std::span<const WindowState> states);
 
     /// Returns the candidates of micro-step m that are still current; `states` is indexed by disc.
-    std::vector<Candidate> collect(const Window& window, int m,
-                                   std::span<const WindowState> states);
+    Candidates collect(const Window& window, int m, std::span<const WindowState> states);
 
 private:
     struct Bounds;

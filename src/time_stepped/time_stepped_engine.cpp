@@ -202,7 +202,7 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
     std::uint64_t n_candidates = 0;
     { // the list is freed before others grow
-        std::vector<Candidate> live = search_.collect(window, m, states_);
+        Candidates live = search_.collect(window, m, states_);
         n_candidates = count_ours(live);
         if (in_parts_) strike_taken(live);
         local_.resolve(population(), live, verdicts_);
@@ -237,8 +237,7 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
 
 /// Removes the candidates with a disc that an earlier part of this micro-step has
 /// taken. They still count as candidates.
-template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) const {
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::strike_taken(Candidates& live) const {
     const auto is_taken = [&](LocalIndex index) {
         return outcomes_[index].version() != population().discs[index].version();
     };
@@ -321,7 +320,7 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
                                                 std::vector<DiscState>& results) {
     constexpr std::int64_t prefetch_distance = 16;
     const bool is_last = m + 1 >= window.end_micro();
-    const std::vector<Candidate>& kept = verdicts_.kept;
+    const Candidates& kept = verdicts_.kept;
     const auto n_kept = static_cast<std::int64_t>(kept.size());
     hits_.resize(is_last ? 0 : 2 * kept.size());
     double fastest = 0;

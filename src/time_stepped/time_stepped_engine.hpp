@@ -58,7 +58,7 @@ private:
 
     bool run_micro_step(const Window& window, int m);
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
-    void strike_taken(std::vector<Candidate>& live) const;
+    void strike_taken(Candidates& live) const;
     void apply(const Window& window, int m);
     double collide_all(const Window& window, int m, std::vector<DiscState>& results);
     double collide(const Candidate& candidate, int m, std::vector<DiscState>& results,
@@ -99,7 +99,8 @@ private:
     LocalResolution local_;
     BoundaryResolution across_strips_;
     Verdicts verdicts_;
-    std::vector<LocalIndex> hits_, updates_;
+    RawVector<LocalIndex> hits_;
+    std::vector<LocalIndex> updates_;
     std::vector<DiscState>
         unhit_; ///< for the log: the first disc of each kept candidate, before it
     std::vector<DiscState> unhit_partners_; ///< second discs before it, if pairs are noted

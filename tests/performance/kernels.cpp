@@ -170,8 +170,8 @@ void local_resolution(benchmark::State& state) {
     window.n_micro = window_steps;
     search.predict_all(gas.population(), grid, window, reach_of_window());
     const std::vector<WindowState> states(gas.discs.size(), 0);
-    const std::vector<Candidate> all = search.collect(window, window_steps - 1, states);
-    std::vector<Candidate> live;
+    const Candidates all = search.collect(window, window_steps - 1, states);
+    Candidates live;
     LocalResolution resolution(1);
     Verdicts verdicts;
     for (auto _ : state) {

@@ -35,6 +35,8 @@ speed = 0.3
 [time]
 steps = 16
 method = "{method}"
+[output]
+averages_from_step = 16
 [box.left]
 kind = "{kind}"
 [box.right]
@@ -42,12 +44,12 @@ kind = "{kind}"
 """
 # name, method, packing, kind of the left and the right side, ranks, recorded share
 CASES = [
-    ("time-stepped, 1 rank", "time-stepped", 0.2, "wall", 1, 0.0022),
-    ("event-driven, 1 rank", "event-driven", 0.2, "wall", 1, 0.0024),
-    ("time-stepped, 2 ranks", "time-stepped", 0.2, "wall", 2, 0.0085),
-    ("event-driven, 2 ranks", "event-driven", 0.2, "wall", 2, 0.008),
-    ("time-stepped, 2 ranks, periodic", "time-stepped", 0.2, "periodic", 2, 0.0115),
-    ("event-driven, 2 ranks, periodic", "event-driven", 0.2, "periodic", 2, 0.0131),
+    ("time-stepped, 1 rank", "time-stepped", 0.2, "wall", 1, 0.0005),
+    ("event-driven, 1 rank", "event-driven", 0.2, "wall", 1, 0.0009),
+    ("time-stepped, 2 ranks", "time-stepped", 0.2, "wall", 2, 0.0039),
+    ("event-driven, 2 ranks", "event-driven", 0.2, "wall", 2, 0.0026),
+    ("time-stepped, 2 ranks, periodic", "time-stepped", 0.2, "periodic", 2, 0.0058),
+    ("event-driven, 2 ranks, periodic", "event-driven", 0.2, "periodic", 2, 0.0041),
 ]
 ADVANCE = "carrom::EngineBase*::advance_towards*"
 

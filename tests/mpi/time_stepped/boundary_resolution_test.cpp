@@ -104,7 +104,7 @@ Meetings decided(const Communicator& world, const Meetings& all, const Setting& 
             discs.emplace_back().id = id;
         }
     }
-    std::vector<Candidate> live;
+    Candidates live;
     for (const Meeting& m : all)
         if (is_ours(m))
             live.push_back({m.time, place.at(m.p), m.q == no_disc ? wall_index : place.at(m.q)});
@@ -167,7 +167,7 @@ TEST_CASE("Where discs of two ranks meet at all, one round of talk decides what 
     // with 3 do not happen.
     const std::vector<std::vector<DiscId>> ids = {{0, 1, 2}, {2, 3, 1}};
     std::vector<DiscState> discs(3);
-    std::vector<Candidate> undecided, kept;
+    Candidates undecided, kept;
     std::vector<int> other;
     if (world.rank() < 2) {
         const auto rank = static_cast<std::size_t>(world.rank());
