@@ -34,15 +34,23 @@ void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
     discs.insert(discs.end(), in.items.begin(), in.items.end());
 }
 
+DiscReader::InParts on_threads(int n_threads) {
+    return [n_threads](std::size_t n, const auto& work) {
+        const auto n_parts = static_cast<std::size_t>(n_threads);
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+        for (std::size_t k = 0; k < n_parts; ++k) work(n * k / n_parts, n * (k + 1) / n_parts);
+    };
+}
+
 std::vector<InputDisc> read_discs(const SceneParameters& scene, std::istream* lines,
-                                  const Communicator& communicator) {
+                                  const Communicator& communicator, int n_threads) {
     std::vector<InputDisc> discs, chunk;
     std::vector<Problem> problems;
     if (communicator.is_root()) {
         ensure(lines != nullptr, "listed discs need a stream on rank 0");
         DiscReader reader(*lines, scene);
         for (bool has_more = true; has_more;) {
-            has_more = reader.read(chunk, chunk_size);
+            has_more = reader.read(chunk, chunk_size, on_threads(n_threads));
             if (!communicator.any(has_more)) break;
             hand_out(chunk, scene, communicator, discs);
         }
@@ -169,7 +177,7 @@ std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream*
                                      const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::file) {
         std::vector<InputDisc> listed = scene.reads_disc_lines()
-                                            ? read_discs(scene, lines, communicator)
+                                            ? read_discs(scene, lines, communicator, n_threads)
                                             : listed_discs(scene, communicator);
         refuse_in_obstacles(scene, listed, communicator);
         return listed;

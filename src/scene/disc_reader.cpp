@@ -28,20 +28,47 @@ DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene)
       place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
       lines_(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
 
-bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit) {
+bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit, const InParts& in_parts) {
     chunk.clear();
-    std::string_view line;
-    while (chunk.size() < limit && n_problems_ < most_wrong_lines && lines_.next(line)) {
-        if (lines_.is_cut()) {
-            refuse(fmt::format("a line of more than {} characters", LineReader::longest_line));
-            continue;
-        }
-        if (lines_.line_number() == 1 && line.starts_with(byte_order_mark))
-            line.remove_prefix(byte_order_mark.size());
-        InputDisc disc;
-        if (!trimmed(line).empty() && parse(line, disc)) chunk.push_back(disc);
+    while (chunk.empty() && n_problems_ < most_wrong_lines && take_lines(limit)) {
+        in_parts(taken_.size(), [this](std::size_t first, std::size_t last) {
+            std::vector<std::string_view> words;
+            for (std::size_t k = first; k < last; ++k) parse(taken_[k], words);
+        });
+        for (Line& line : taken_)
+            if (n_problems_ < most_wrong_lines) judge(line, chunk);
     }
     return !chunk.empty();
+}
+
+/// Copies up to `limit` lines that are not empty, because the reader of lines keeps only one.
+/// False if there are none.
+bool DiscReader::take_lines(std::size_t limit) {
+    text_.clear();
+    taken_.clear();
+    std::string_view line;
+    while (taken_.size() < limit && lines_.next(line)) {
+        if (lines_.line_number() == 1 && line.starts_with(byte_order_mark))
+            line.remove_prefix(byte_order_mark.size());
+        if (!lines_.is_cut() && trimmed(line).empty()) continue;
+        Line& taken = taken_.emplace_back();
+        taken.is_cut = lines_.is_cut();
+        taken.number = lines_.line_number();
+        taken.begin = text_.size();
+        if (!taken.is_cut) text_.insert(text_.end(), line.begin(), line.end());
+        taken.end = text_.size();
+    }
+    return !taken_.empty();
+}
+
+/// Adds the line's disc to the chunk, or notes what is wrong as one problem.
+void DiscReader::judge(Line& line, std::vector<InputDisc>& chunk) {
+    if (line.is_cut)
+        return refuse(line,
+                      fmt::format("a line of more than {} characters", LineReader::longest_line));
+    if (std::string fault = note_id(line); !fault.empty()) return refuse(line, std::move(fault));
+    if (!line.fault.empty()) return refuse(line, std::move(line.fault));
+    chunk.push_back(line.disc);
 }
 
 std::vector<Problem> DiscReader::problems() const {
@@ -60,19 +87,23 @@ std::vector<Problem> DiscReader::problems() const {
     return all;
 }
 
-/// Whether the line is a disc. If not, notes its errors as one problem.
-bool DiscReader::parse(std::string_view line, InputDisc& disc) {
+/// Finds the disc, or the fault that follows its id.
+void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
+    if (line.is_cut) return;
     const std::vector<DiscColumn>& columns = scene_.disc_columns;
     const std::size_t n_words = 5 + columns.size();
-    split_words(line, n_words, words_);
-    const bool has_id = note_id(words_[0], disc.id);
-    if (!has_id) return false;
-    if (words_.size() < n_words) {
-        refuse(fmt::format("expected '{}', found only {} of the {} numbers", columns_text(columns),
-                           words_.size(), n_words));
-        return false;
+    split_words(text_of(line), n_words, words);
+    const auto id = parse_id(words[0]);
+    line.has_number = id && *id < most_discs();
+    if (!line.has_number) return;
+    InputDisc& disc = line.disc;
+    disc.id = *id;
+    if (words.size() < n_words) {
+        line.fault = fmt::format("expected '{}', found only {} of the {} numbers",
+                                 columns_text(columns), words.size(), n_words);
+        return;
     }
-    std::string text;
+    std::string& text = line.fault;
     const auto add = [&text](const std::string& fault) {
         text += (text.empty() ? "" : "; ") + fault;
     };
@@ -82,51 +113,46 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
     for (std::size_t k = 0; k < columns.size(); ++k)
         numbers[4 + k] = &number_of(columns[k], body, beside);
     for (std::size_t i = 0; i + 1 < n_words; ++i) {
-        const auto number = parse_double(words_[i + 1]);
+        const auto number = parse_double(words[i + 1]);
         if (number)
             *numbers[i] = *number;
         else
-            add(fmt::format("{} is not a number", in_quotes(words_[i + 1])));
+            add(fmt::format("{} is not a number", in_quotes(words[i + 1])));
     }
     const bool are_numbers = text.empty();
     for (std::size_t k = 0; k < columns.size() && are_numbers; ++k)
         if (const std::string fault = column_problem(columns[k], *numbers[4 + k]); !fault.empty())
             add(fault);
     if (text.empty()) text = disc_problem(disc, scene_, body.radius);
-    if (words_.size() > n_words)
-        add(fmt::format("{} after the {} numbers '{}'", in_quotes(words_[n_words]), n_words,
+    if (words.size() > n_words)
+        add(fmt::format("{} after the {} numbers '{}'", in_quotes(words[n_words]), n_words,
                         columns_text(columns)));
-    if (text.empty()) return true;
-    refuse(std::move(text));
-    return false;
 }
 
-bool DiscReader::note_id(std::string_view word, DiscId& id) {
-    const auto number = parse_id(word);
-    const auto integer = parse_integer(word);
-    if (!number && !integer) {
-        refuse(fmt::format("{} is not the id of a disc", in_quotes(word)));
-    } else if (!number || *number >= most_discs()) {
-        refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, most_discs() - 1));
-    } else if (has_seen(*number)) {
-        refuse(fmt::format("disc {} is listed twice", *number));
-    } else {
-        constexpr std::uint64_t most_without_n = std::uint64_t{1} << 27;
-        const std::uint64_t most_seen = scene_.n_discs > 0 ? scene_.n_discs : most_without_n;
-        if (*number >= seen_.size())
-            seen_.resize(std::min(most_seen, 2 * *number + 64)); // N may be a mistake
-        if (*number < seen_.size()) seen_[*number] = true;
-        n_seen_ += 1;
-        id = *number;
-        return true;
+/// Marks the disc as seen, or returns why it cannot be.
+std::string DiscReader::note_id(const Line& line) {
+    if (!line.has_number) {
+        std::vector<std::string_view> words;
+        split_words(text_of(line), 1, words);
+        return parse_id(words[0]) || parse_integer(words[0])
+                   ? fmt::format("disc {} is out of range: ids are 0 to {}", words[0],
+                                 most_discs() - 1)
+                   : fmt::format("{} is not the id of a disc", in_quotes(words[0]));
     }
-    return false;
+    const DiscId id = line.disc.id;
+    if (has_seen(id)) return fmt::format("disc {} is listed twice", id);
+    constexpr std::uint64_t most_without_n = std::uint64_t{1} << 27;
+    const std::uint64_t most_seen = scene_.n_discs > 0 ? scene_.n_discs : most_without_n;
+    if (id >= seen_.size()) seen_.resize(std::min(most_seen, 2 * id + 64)); // N may be a mistake
+    if (id < seen_.size()) seen_[id] = true;
+    n_seen_ += 1;
+    return "";
 }
 
-void DiscReader::refuse(std::string text) {
+void DiscReader::refuse(const Line& line, std::string text) {
     n_problems_ += 1;
     if (problems_.size() < most_problems)
-        problems_.push_back({place_, lines_.line_number(), std::move(text)});
+        problems_.push_back({place_, line.number, std::move(text)});
 }
 
 std::uint64_t DiscReader::most_discs() const {

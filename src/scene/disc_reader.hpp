@@ -2,13 +2,15 @@
 // Reads discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`,
 // which are checked here and kept by read_disc_columns) in any order of ids, in
 // bounded chunks, so that one rank can read more than it could hold. Takes up to N
-// bits to see that every id comes once, and less than a microsecond a line.
+// bits to see that every id comes once, and less than a microsecond a line, which threads share:
+// lines are parsed by all of them, and then ids are noted in the order of lines.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <istream>
 #include <string>
 #include <string_view>
@@ -26,22 +28,43 @@ public:
     static constexpr std::size_t most_wrong_lines =
         1'000'000; ///< reading ends there, because this is no list of discs
 
+    /// Calls work(first, last) for parts that are 0 .. n - 1 together, on any threads.
+    using InParts =
+        std::function<void(std::size_t n, const std::function<void(std::size_t, std::size_t)>&)>;
+
     /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the
     /// reader.
     DiscReader(std::istream& stream, const SceneParameters& scene);
 
     /// Replaces `chunk` by the next discs, at most `limit`; false if none are left.
-    bool read(std::vector<InputDisc>& chunk, std::size_t limit);
+    bool read(
+        std::vector<InputDisc>& chunk, std::size_t limit,
+        const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
     /// All errors of the lines, and ids that never came. To be called after `read` has
     /// returned false.
     std::vector<Problem> problems() const;
 
 private:
-    bool parse(std::string_view line, InputDisc& disc);
+    /// A line, and what is in it whatever other lines have.
+    struct Line {
+        std::size_t begin = 0, end = 0; ///< in `text_`
+        std::int64_t number = 0;
+        bool is_cut = false;
+        bool has_number = false; ///< of a disc; other faults are looked for only then
+        InputDisc disc;
+        std::string fault;
+    };
+
+    bool take_lines(std::size_t limit);
+    void parse(Line& line, std::vector<std::string_view>& words) const;
+    void judge(Line& line, std::vector<InputDisc>& chunk);
+    std::string_view text_of(const Line& line) const {
+        return std::string_view(text_.data() + line.begin, line.end - line.begin);
+    }
     bool has_seen(DiscId id) const { return id < seen_.size() && seen_[id]; }
-    bool note_id(std::string_view word, DiscId& id);
-    void refuse(std::string text);
+    std::string note_id(const Line& line);
+    void refuse(const Line& line, std::string text);
     std::string missing_ids() const;
     std::uint64_t most_discs()
         const; ///< N, or what it can be at most where the scene has no right one
@@ -52,7 +75,8 @@ private:
     LineReader lines_;
     std::vector<bool> seen_; ///< by id, as far as ids have come
     std::uint64_t n_seen_ = 0;
-    std::vector<std::string_view> words_;
+    std::vector<char> text_;
+    std::vector<Line> taken_;
     std::vector<Problem> problems_;
     std::uint64_t n_problems_ = 0;
 };

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <random>
 #include <sstream>
 #include <string>
@@ -38,13 +39,18 @@ struct Outcome {
     std::vector<Problem> problems;
 };
 
+/// Three parts in the wrong order, as threads may take them.
+void in_three_parts(std::size_t n, const std::function<void(std::size_t, std::size_t)>& work) {
+    for (std::size_t k = 3; k-- > 0;) work(n * k / 3, n * (k + 1) / 3);
+}
+
 Outcome read_all(const std::string& text, const SceneParameters& scene,
                  std::size_t chunk_size = 1000) {
     std::istringstream stream(text);
     DiscReader reader(stream, scene);
     Outcome outcome;
     std::vector<InputDisc> chunk;
-    while (reader.read(chunk, chunk_size)) {
+    while (reader.read(chunk, chunk_size, in_three_parts)) {
         CHECK(chunk.size() <= chunk_size);
         outcome.discs.insert(outcome.discs.end(), chunk.begin(), chunk.end());
     }
