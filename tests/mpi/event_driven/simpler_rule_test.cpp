@@ -142,10 +142,12 @@ TestScene random_rows(std::uint64_t seed) {
         const std::size_t n = 2 + random.index(6);
         const double y = 3 + 6.0 * row, x = random.uniform(7, 11);
         for (std::size_t i = 0; i < n; ++i) add_disc(scene, x + static_cast<double>(i), y);
-        add_disc(scene, x + static_cast<double>(n) + random.uniform(0.1, 2), y,
-                 -random.uniform(0.1, 0.5), 0);
-        add_disc(scene, random.uniform(1, 23), y + 3 - 4 * (row % 2) * 0.25,
-                 random.uniform(-0.5, 0.5), random.uniform(-0.1, 0.1));
+        // Numbers are drawn before calls, because compilers draw arguments in different orders.
+        const double speed = random.uniform(0.1, 0.5), gap = random.uniform(0.1, 2);
+        add_disc(scene, x + static_cast<double>(n) + gap, y, -speed, 0);
+        const double vy = random.uniform(-0.1, 0.1), vx = random.uniform(-0.5, 0.5),
+                     place = random.uniform(1, 23);
+        add_disc(scene, place, y + 3 - 4 * (row % 2) * 0.25, vx, vy);
     }
     return shuffled(scene, seed);
 }
