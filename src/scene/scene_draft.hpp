@@ -39,6 +39,12 @@ struct SceneDraft {
     void refuse(std::initializer_list<std::string_view> keys, std::string text) const {
         refuse_first(keys, std::move(text));
     }
+    /// Whether the scene has the time between syncs that was set, or the default. A wrong one is a
+    /// problem already, and the scene has the default then.
+    bool knows_syncs() const {
+        const Setting* every = settings.find("time.sync_every");
+        return !every || !every->is_wrong;
+    }
     /// Calls what(row, its number from 1, its place) for the valid rows of a list.
     template <class What> void for_each_row(std::string_view key, const What& what) const {
         const Setting* setting = settings.find(key);

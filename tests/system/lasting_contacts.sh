@@ -27,12 +27,19 @@ stress = report["pressure_tensor"]["yy"]["value"] * 80 * 60
 print("floor", floor, "stress", stress, "height less a radius", height - 4)
 assert abs(floor / 4 - 1) < 0.01, floor
 assert abs(stress / (height - 4) - 1) < 0.01, (stress, height - 4)
+# With friction two forces hold a disc in place and one keeps it from turning. A contact has two, so
+# a heap has at least 1.5 contacts a disc; discs of one size touch 3 each at most, walls apart.
+assert 1.5 * 400 <= report["lasting_contacts"] <= 3 * 400 + 100, report["lasting_contacts"]
+assert report["compressibility"]["value"] is None, report["compressibility"]
 END
 
 run 1 run "$heap" --quiet --steps 600 --report early.json
 expect_code 0 'the same on one rank'
 [ "$(json_value early.json pair_collisions)" = "$(json_value heap/report.json pair_collisions)" ] ||
     complain 'discs at rest collide'
+lasting() { json_value "$1" lasting_contacts; }
+[ "$(lasting early.json)" = "$(lasting heap/report.json)" ] ||
+    complain 'contacts at rest come and go'
 
 # Rows of exactly 30 discs. Without the effect their run takes hundreds of times as long, and warns.
 for ranks in 1 3; do
@@ -77,6 +84,16 @@ for every in 3 4; do
         --overwrite --set 'output.measurements.quantities=["thermo"]'
     [ "$(warned)" = $((every % 2)) ] || complain "samples after $every steps"
 done
+
+# One problem is named once, and none rests on a time between syncs that is wrong itself.
+for wrong in time.sync_every=0 effects.gravity.y=-1e10; do
+    run 1 run "$heap" --quiet --set $wrong
+    expect_code 2 "$wrong"
+    [ "$(wc -l <"$test_folder/err")" = 1 ] || complain "more than one message of $wrong"
+done
+run 1 run "$heap" --quiet --set time.sync_every=0 --set effects.gravity.y=-10
+expect_told "'time.sync_every' must be from 1" 'a wrong time between syncs'
+[ "$(wc -l <"$test_folder/err")" = 1 ] || complain 'more than one message of a wrong sync'
 
 for wrong in time.sync_every=64 effects.gravity.y=0 effects.contact.kind=elastic \
     box.bottom.kind=thermal; do

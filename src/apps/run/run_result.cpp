@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -36,7 +37,10 @@ void fill_end(RunResult& result, const Run& run) {
     const DiscSystem& system = run.system();
     result.last_step = system.step();
     result.end = system.totals();
+    result.end_numbers = end_numbers_of(run.scene(), system.kept_by_effects());
     result.averages = run.sampler().averages();
+    if (!reason_without_z(run.scene().effects).empty())
+        result.averages.compressibility = {.value = std::numeric_limits<double>::quiet_NaN()};
     result.tables = run.sampler().tables();
     result.runs = system.rollback_counts();
 }

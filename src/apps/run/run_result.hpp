@@ -10,6 +10,7 @@
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "run/run.hpp"
+#include "scene/effects/effect.hpp"
 #include "scene/scene_parameters.hpp"
 #include "simulation/disc_system.hpp"
 
@@ -19,6 +20,7 @@ namespace carrom {
 /// as each member says. The totals are the same for every shape.
 struct RunResult {
     Totals start, end;
+    std::vector<EndNumber> end_numbers; ///< of the scene's effects
     std::int64_t first_step = 0, last_step = 0;
     int ranks = 1;
     int threads = 1;         ///< per rank; the largest if ranks differ

@@ -91,8 +91,10 @@ std::string tensor_text(const TensorEstimate& tensor) {
                        estimate_text(tensor.xy), estimate_text(tensor.yy));
 }
 
-std::string state_text(const Averages& averages) {
+std::string state_text(const SceneParameters& scene, const Averages& averages) {
     std::string pressure = fmt::format("P = {}", estimate_text(averages.pressure));
+    const std::string reason = reason_without_z(scene.effects);
+    if (!reason.empty()) return fmt::format("{}; {}", pressure, reason);
     if (std::isnan(averages.compressibility.value)) return pressure;
     return fmt::format("{}, Z = P A / (N kT) = {}", pressure,
                        estimate_text(averages.compressibility));
@@ -179,7 +181,7 @@ std::string average_lines(const SceneParameters& scene, const Averages& averages
         text += labelled_line("frequency", collision_rate_text(averages));
     text += labelled_line("temperature",
                           fmt::format("kT = {}", estimate_text(averages.temperature)));
-    text += labelled_line("state", state_text(averages));
+    text += labelled_line("state", state_text(scene, averages));
     text += labelled_line("tensor", tensor_text(averages.pressure_tensor));
     if (!scene.effects.are_any())
         text += labelled_line("pressure", counted_pressure_text(averages));
@@ -212,6 +214,8 @@ std::string collision_lines(const SceneParameters& scene, const RunResult& resul
                     "start",
                     end.overlapping_pairs, overlapping_pairs_per_disc(result),
                     deepest_overlap(scene, result), result.start.overlapping_pairs));
+    for (const EndNumber& number : result.end_numbers)
+        text += labelled_line(number.label, fmt::format("{} {}", number.value, number.words));
     if (const std::string departed = departed_text(scene, end); !departed.empty())
         text += labelled_line("departed", departed);
     return text;

@@ -51,6 +51,29 @@ double usual_speed_of_effects(const SceneParameters& scene) {
     return speed;
 }
 
+/// Each effect at syncs has the count of its numbers before them, or `kept` is empty because no
+/// effect keeps any.
+std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
+                                      std::span<const std::int64_t> kept) {
+    std::vector<EndNumber> numbers;
+    for (const EffectDeclaration& effect : all_effects()) {
+        if (!effect.at_syncs || !effect.at_syncs(scene)) continue;
+        const auto n = kept.empty() ? 0 : static_cast<std::size_t>(kept.front());
+        if (!kept.empty()) kept = kept.subspan(1);
+        if (effect.at_end) numbers.push_back(effect.at_end(kept.first(n)));
+        kept = kept.subspan(n);
+    }
+    return numbers;
+}
+
+std::string reason_without_z(const Effects& effects) {
+    for (const EffectDeclaration& effect : all_effects()) {
+        std::string reason = effect.reason_without_z ? effect.reason_without_z(effects) : "";
+        if (!reason.empty()) return reason;
+    }
+    return {};
+}
+
 SyncEffects sync_effects_of(const SceneParameters& scene) {
     SyncEffects acting;
     for (const EffectDeclaration& effect : all_effects())

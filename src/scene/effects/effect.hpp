@@ -15,8 +15,10 @@
 // To add an effect: a file in this folder, and its name in the list of src/scene/CMakeLists.txt.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,14 @@ struct OtherEnergy {
     double Totals::* value;
 };
 
+/// A number of the state at the end of a run.
+struct EndNumber {
+    const char* name;  ///< in the report
+    const char* label; ///< of its line in the summary
+    const char* words; ///< in the summary, after its value
+    std::uint64_t value;
+};
+
 struct EffectDeclaration {
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
@@ -63,6 +73,10 @@ struct EffectDeclaration {
     double (*usual_speed)(const SceneParameters&) = nullptr;
     /// Nothing in a scene without it.
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
+    /// Of an effect at syncs, from what it keeps after the last one.
+    EndNumber (*at_end)(std::span<const std::int64_t> kept) = nullptr;
+    /// Why Z means nothing in a scene with the effect; empty if it means something.
+    std::string (*reason_without_z)(const Effects&) = nullptr;
 };
 
 /// In the order of the list, which is that of the reference.
@@ -77,6 +91,11 @@ CheckAllowance allowance_of(const Effects& effects);
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
 /// The largest of all effects'.
 double usual_speed_of_effects(const SceneParameters& scene);
+/// `kept` is DiscSystem::kept_by_effects.
+std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
+                                      std::span<const std::int64_t> kept);
+/// That of the first effect with a reason, or empty.
+std::string reason_without_z(const Effects& effects);
 /// In the order in which they act.
 SyncEffects sync_effects_of(const SceneParameters& scene);
 

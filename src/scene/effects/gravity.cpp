@@ -104,6 +104,7 @@ void shorten_sync(const SceneDraft& draft) {
 /// box's.
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
+    if (!draft.knows_syncs()) return;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
                                  {"effects.gravity.y", scene.effects.gravity.y}}) {
         if (!falls_too_far(scene, g)) continue;

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -21,6 +22,8 @@
 namespace carrom {
 
 namespace {
+
+constexpr std::size_t numbers_of_contact = 4; ///< in a checkpoint
 
 class LastingContacts final : public SyncEffect {
 public:
@@ -45,7 +48,7 @@ public:
 
     std::vector<std::int64_t> kept() const override {
         std::vector<std::int64_t> numbers;
-        numbers.reserve(4 * kept_.size());
+        numbers.reserve(numbers_of_contact * kept_.size());
         for (const KeptImpulse& one : kept_)
             numbers.insert(numbers.end(), {static_cast<std::int64_t>(one.a), one.b,
                                            std::bit_cast<std::int64_t>(one.normal),
@@ -54,7 +57,7 @@ public:
     }
     void go_on(std::span<const std::int64_t> kept) override {
         kept_.clear();
-        for (std::size_t k = 0; k + 4 <= kept.size(); k += 4)
+        for (std::size_t k = 0; k + numbers_of_contact <= kept.size(); k += numbers_of_contact)
             kept_.push_back({static_cast<DiscId>(kept[k]), kept[k + 1],
                              std::bit_cast<double>(kept[k + 2]),
                              std::bit_cast<double>(kept[k + 3])});
@@ -187,6 +190,9 @@ bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
     if (!(hop_of(scene) > 0.05 * radius)) return true;
+    // A fall by half the box from sync to sync, four hops, is gravity's own problem. It asks for
+    // each axis, so a fall askew is one from half the box times sqrt(2) on.
+    if (hop_of(scene) > std::numbers::sqrt2 / 8 * scene.box.longest()) return false;
     const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
                                    static_cast<double>(scene.sync_every));
     draft.refuse({"effects.lasting_contacts.speed", "time.sync_every"},
@@ -247,6 +253,7 @@ void check_samples_of_forces(const SceneDraft& draft) {
 
 void check_heap(const SceneDraft& draft) {
     if (!has_lasting(draft.scene) || !(smallest_radius_of(draft.scene) > 0)) return;
+    if (!draft.knows_syncs()) return;
     if (check_hops(draft)) check_speed(draft);
     check_samples_of_forces(draft);
 }
@@ -275,7 +282,20 @@ EffectDeclaration lasting_contacts() {
             .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
                 if (!has_lasting(s)) return nullptr;
                 return std::make_unique<LastingContacts>(s);
-            }};
+            },
+            .at_end =
+                [](std::span<const std::int64_t> kept) {
+                    return EndNumber{"lasting_contacts", "contacts",
+                                     "last at the end, of pairs and with walls and obstacles",
+                                     kept.size() / numbers_of_contact};
+                },
+            .reason_without_z =
+                [](const Effects& e) {
+                    return std::string(
+                        e.lasting_speed > 0
+                            ? "no Z, because discs at rest have a pressure but no temperature"
+                            : "");
+                }};
 }
 
 } // namespace effects
