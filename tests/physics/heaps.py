@@ -26,9 +26,8 @@ import subprocess
 import sys
 import tempfile
 
-G = 0.01
-RADII = (0.9, 1.1)
-RESTITUTION = 0.5
+from rough_heaps import G, RADII, RESTITUTION, discs_and_time, effects, surface, write_discs
+
 STIFFNESS = 3000
 MOST_SCATTERS = 1.5
 
@@ -53,8 +52,8 @@ def start_of(case, seed):
 
 
 def scene_of(case, friction, count, steps, speed):
-    rubs = f"tangential_restitution = 0\nfriction = {friction}\n"
-    obstacles = (f"[effects.obstacles]\nrestitution = {RESTITUTION}\n{rubs}"
+    rubs = surface(friction)
+    obstacles = (f"[effects.obstacles]\n{rubs}"
                  f"discs = {[list(map(float, body)) for body in case['fixed']]}\n"
                  if case["fixed"] else "")
     return f"""[box]
@@ -62,26 +61,9 @@ size = [{case["box"][0]}, {case["box"][1]}]
 left.restitution = {RESTITUTION}
 right.restitution = {RESTITUTION}
 [box.bottom]
-restitution = {RESTITUTION}
 {rubs}
-[discs]
-count = {count}
-generator = "file"
-file = "discs.txt"
-columns = ["radius", "mass"]
-[time]
-steps = {steps}
-method = "event-driven"
-sync_every = 1
-[effects.contact]
-kind = "rough"
-restitution = {RESTITUTION}
-contact_time = 0.001
-{rubs}
-[effects.gravity]
-y = {-G}
-[effects.lasting_contacts]
-speed = {speed}
+{discs_and_time(count, steps, sync_every=1)}
+{effects(friction, speed)}
 {obstacles}"""
 
 
@@ -91,9 +73,7 @@ def carrom(options, case, friction, discs):
         scene = os.path.join(folder, "scene.toml")
         with open(scene, "w", encoding="utf-8") as file:
             file.write(scene_of(case, friction, len(discs), case["steps"], options.speed))
-        with open(os.path.join(folder, "discs.txt"), "w", encoding="utf-8") as file:
-            for k, (x, y, radius) in enumerate(discs):
-                file.write(f"{k} {x:.17g} {y:.17g} 0 0 {radius} {radius ** 2:.17g}\n")
+        write_discs(os.path.join(folder, "discs.txt"), discs)
         report = os.path.join(folder, "report.json")
         done = subprocess.run([options.program, "run", scene, "--quiet", "--threads", "1",
                                "--report", report, "--set", "output.text=ends"],

@@ -27,7 +27,9 @@ import subprocess
 import sys
 import tempfile
 
-G, RADII, FRICTION, RESTITUTION = 0.01, (0.9, 1.1), 0.5, 0.5
+from rough_heaps import G, RADII, discs_and_time, effects, surface, write_discs
+
+FRICTION = 0.5
 DIAMETER = 2
 WIDTH, HEIGHT, FLOOR = 80, 150, 6
 COLUMNS, ROWS = 35, 60
@@ -35,61 +37,44 @@ OPENINGS, SEEDS = (8, 10, 12, 14), range(1, 4)  # openings in diameters
 FIRST, LAST = 0.2, 0.5  # shares that have left
 STRETCH, MOST_STEPS = 40, 4000
 
-SCENE = """[box]
-size = [{width}, {height}]
+
+def scene_of(count, opening):
+    rubs = surface(FRICTION)
+    left, right = ((WIDTH + side * opening * DIAMETER) / 2 for side in (-1, 1))
+    return f"""[box]
+size = [{WIDTH}, {HEIGHT}]
 bottom.kind = "open"
 [box.left]
-{surface}
+{rubs}
 [box.right]
-{surface}
-[discs]
-count = {count}
-generator = "file"
-file = "discs.txt"
-columns = ["radius", "mass"]
-[time]
-steps = {most_steps}
-method = "event-driven"
-sync_every = 2
-[effects.contact]
-kind = "rough"
-contact_time = 0.001
-{surface}
-[effects.gravity]
-y = {pull}
-[effects.lasting_contacts]
-speed = 0.05
+{rubs}
+{discs_and_time(count, MOST_STEPS, sync_every=2)}
+{effects(FRICTION, speed=0.05)}
 [effects.obstacles]
-{surface}
-segments = [[0, {floor}, {left}, {floor}], [{right}, {floor}, {width}, {floor}]]
+{rubs}
+segments = [[0, {FLOOR}, {left}, {FLOOR}], [{right}, {FLOOR}, {WIDTH}, {FLOOR}]]
 """
-SURFACE = f"restitution = {RESTITUTION}\ntangential_restitution = 0\nfriction = {FRICTION}"
 
 
-def write_discs(path, seed):
+def start_of(seed):
     """A shaken lattice, with as many small discs as large ones."""
     draw = random.Random(seed)
     places = [(1.3 + 2.25 * (column + row % 2 / 2) + draw.uniform(-0.02, 0.02),
                FLOOR + 1.2 + 2.24 * row + draw.uniform(-0.02, 0.02))
               for row in range(ROWS) for column in range(COLUMNS - row % 2)]
     draw.shuffle(places)
-    with open(path, "w", encoding="utf-8") as file:
-        for k, (x, y) in enumerate(places):
-            radius = RADII[2 * k // len(places)]
-            file.write(f"{k} {x:.17g} {y:.17g} 0 0 {radius} {radius ** 2:.17g}\n")
-    return len(places)
+    return [(x, y, RADII[2 * k // len(places)]) for k, (x, y) in enumerate(places)]
 
 
 def flow(program, opening, seed):
     """Discs that leave in a step."""
     with tempfile.TemporaryDirectory() as folder:
-        count = write_discs(os.path.join(folder, "discs.txt"), seed)
+        discs = start_of(seed)
+        count = len(discs)
+        write_discs(os.path.join(folder, "discs.txt"), discs)
         scene, run = os.path.join(folder, "scene.toml"), os.path.join(folder, "run")
-        half = opening * DIAMETER / 2
         with open(scene, "w", encoding="utf-8") as file:
-            file.write(SCENE.format(width=WIDTH, height=HEIGHT, count=count, pull=-G, floor=FLOOR,
-                                    surface=SURFACE, most_steps=MOST_STEPS,
-                                    left=WIDTH / 2 - half, right=WIDTH / 2 + half))
+            file.write(scene_of(count, opening))
         times, left = [0], [0]
         command = [program, "run", scene, "-o", run]
         while left[-1] < LAST * count:
