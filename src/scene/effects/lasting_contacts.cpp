@@ -237,16 +237,14 @@ void check_samples_of_forces(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements) return;
     const MeasurementOutput& samples = *scene.measurements;
-    const auto is_at_sync = [&scene](std::int64_t step) {
-        return step * scene.micro_steps % scene.sync_every == 0;
-    };
-    if (is_at_sync(samples.every_steps) && is_at_sync(samples.from_step)) return;
+    const std::int64_t steps = scene.sync_every / std::gcd(scene.sync_every, scene.micro_steps);
+    if (samples.every_steps % steps == 0 && samples.from_step % steps == 0) return;
     for (const char* name : {"wall_pressure", "wall_exchange", "pressure", "thermo"}) {
         if (!samples.measures(name)) continue;
         scene.warnings.push_back(fmt::format(
             "rows of \"{}\" have the forces of lasting contacts unevenly, because samples are not "
             "taken at syncs; let output.measurements.every_steps and from_step be multiples of {}",
-            name, scene.sync_every / std::gcd(scene.sync_every, scene.micro_steps)));
+            name, steps));
         return;
     }
 }
