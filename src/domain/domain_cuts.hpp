@@ -2,13 +2,16 @@
 // Cuts of a box into the domains of ranks: equal areas at first, equal weights later.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/axis.hpp"
 #include "domain/domains.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 
@@ -32,5 +35,36 @@ private:
     double length_;
     std::span<std::uint64_t> weights_;
 };
+
+/// Domains of about equal weights, `group_sizes[k]` of them in strip k. `for_each(visit)` calls
+/// visit(along, across, weight) for each of a rank's discs with its place in the box, and is
+/// called twice where strips are cut across. **Collective.**
+template <class ForEach>
+Domains domains_of_equal_weights(const Communicator& communicator, const Box& box, Axis axis,
+                                 const std::vector<int>& group_sizes, const ForEach& for_each) {
+    std::vector<std::uint64_t> weights(WeightBins::n_for(communicator.size()), 0);
+    WeightBins bins_along(along(axis, box), weights);
+    for_each([&](double place, double, std::uint64_t weight) { bins_along.add(place, weight); });
+    communicator.sum(weights);
+    Strips strips(bins_along.cuts(group_sizes), axis);
+    const int largest_group = *std::max_element(group_sizes.begin(), group_sizes.end());
+    if (largest_group == 1) return Domains(std::move(strips));
+    const std::size_t n_bins = WeightBins::n_for(largest_group);
+    std::vector<std::uint64_t> of_strips(n_bins * group_sizes.size(), 0);
+    std::vector<WeightBins> bins; // by strip
+    for (std::size_t k = 0; k < group_sizes.size(); ++k)
+        bins.emplace_back(along(other_axis(axis), box),
+                          std::span(of_strips).subspan(k * n_bins, n_bins));
+    for_each([&](double place, double across, std::uint64_t weight) {
+        bins[static_cast<std::size_t>(strips.owner(place))].add(across, weight);
+    });
+    communicator.sum(of_strips);
+    std::vector<Strips> groups;
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+        const std::vector<int> ones(static_cast<std::size_t>(group_sizes[k]), 1);
+        groups.emplace_back(bins[k].cuts(ones), other_axis(axis));
+    }
+    return Domains(std::move(strips), std::move(groups));
+}
 
 } // namespace carrom

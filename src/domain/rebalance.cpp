@@ -8,7 +8,6 @@
 // counted, and put right, at the next inspection. Price: one pass over the own discs, or two, and
 // sums of some thousand numbers for each direction and strip.
 #include <algorithm>
-#include <utility>
 
 #include "domain/domain_cuts.hpp"
 #include "domain/strip_discs.hpp"
@@ -59,36 +58,13 @@ void StripDiscs::rebalance(double time, double above, const RankWork& work) {
     const auto sum = static_cast<double>(all.sums[0]);
     if (all.largest * communicator_.size() <= above * sum || sum == 0) return;
     const double unit = sum / (static_cast<double>(n_total_) * units_of_disc);
-
-    const Axis axis = domains_.axis(), axis_across = other_axis(axis);
-    std::vector<std::uint64_t> weights(WeightBins::n_for(communicator_.size()), 0);
-    WeightBins bins_along(along(axis, box_), weights);
-    weigh(work, unit, [&](const DiscState& disc, std::uint64_t weight) {
-        bins_along.add(place_in_box(disc, time).first, weight);
-    });
-    communicator_.sum(weights);
-    const Strips strips(bins_along.cuts(group_sizes_), axis);
-    if (!domains_.are_cut_across()) {
-        domains_ = Domains(strips);
-        return;
-    }
-    const std::size_t n_bins = WeightBins::n_for(domains_.largest_group());
-    std::vector<std::uint64_t> of_strips(n_bins * group_sizes_.size(), 0);
-    std::vector<WeightBins> bins; // by strip
-    for (std::size_t k = 0; k < group_sizes_.size(); ++k)
-        bins.emplace_back(along(axis_across, box_),
-                          std::span(of_strips).subspan(k * n_bins, n_bins));
-    weigh(work, unit, [&](const DiscState& disc, std::uint64_t weight) {
-        const auto [place, across] = place_in_box(disc, time);
-        bins[static_cast<std::size_t>(strips.owner(place))].add(across, weight);
-    });
-    communicator_.sum(of_strips);
-    std::vector<Strips> groups;
-    for (std::size_t k = 0; k < bins.size(); ++k) {
-        const std::vector<int> ones(static_cast<std::size_t>(group_sizes_[k]), 1);
-        groups.emplace_back(bins[k].cuts(ones), axis_across);
-    }
-    domains_ = Domains(strips, std::move(groups));
+    domains_ = domains_of_equal_weights(
+        communicator_, box_, domains_.axis(), group_sizes_, [&](const auto& visit) {
+            weigh(work, unit, [&](const DiscState& disc, std::uint64_t weight) {
+                const auto [along, across] = place_in_box(disc, time);
+                visit(along, across, weight);
+            });
+        });
 }
 
 } // namespace carrom

@@ -37,6 +37,33 @@ std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks
     return choose_groups(needs);
 }
 
+/// The first domains. They have equal areas, unless discs crowd so much that a rank would get far
+/// more of them than the mean: it would have to hold them all before the first cuts by work.
+/// `owner_in(domains, disc)` and `place_of(disc)` are those at the disc's own time. **Collective.**
+template <class OwnerIn, class PlaceOf>
+Domains first_domains(const Communicator& communicator, const Box& box, const Domains& equal,
+                      const std::vector<int>& group_sizes, std::span<const DiscState> discs,
+                      const OwnerIn& owner_in, const PlaceOf& place_of) {
+    constexpr double most_crowded = 1.5; // what the fullest domain has, over the mean
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(communicator.size()), 0);
+    for (const DiscState& disc : discs) ++counts[owner_in(equal, disc)];
+    communicator.sum(counts);
+    std::uint64_t most = 0, all = 0;
+    for (const std::uint64_t count : counts) {
+        most = std::max(most, count);
+        all += count;
+    }
+    if (static_cast<double>(most) * communicator.size() <= most_crowded * static_cast<double>(all))
+        return equal;
+    return domains_of_equal_weights(communicator, box, equal.axis(), group_sizes,
+                                    [&](const auto& visit) {
+                                        for (const DiscState& disc : discs) {
+                                            const auto [along, across] = place_of(disc);
+                                            visit(along, across, 1);
+                                        }
+                                    });
+}
+
 } // namespace
 
 StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
@@ -51,10 +78,15 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
     columns_.resize(discs.size());
     columns_.for_each([&](SideColumn column) { departed_columns_.add(column); });
     if (communicator.size() > 1) {
-        const auto owner_of = [&](const DiscState& disc) {
-            const auto [along, across] = place_in_box(disc, disc.tau);
-            return static_cast<std::size_t>(domains_.owner(along, across));
+        const auto place_of = [&](const DiscState& disc) { return place_in_box(disc, disc.tau); };
+        const auto owner_in = [&](const Domains& domains, const DiscState& disc) {
+            const auto [along, across] = place_of(disc);
+            return static_cast<std::size_t>(domains.owner(along, across));
         };
+        domains_ = first_domains(communicator_, box, domains_, group_sizes_, discs, owner_in,
+                                 place_of);
+        redistributed_domains_ = domains_;
+        const auto owner_of = [&](const DiscState& disc) { return owner_in(domains_, disc); };
         columns_.for_each([&](SideColumn column) {
             hand_to_owners(communicator, columns_[column],
                            [&](std::size_t i) { return owner_of(discs[i]); });
