@@ -151,7 +151,8 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
 /// A wrong number of discs would otherwise end the run later without a reason. **Collective.**
 void check_memory(const SceneParameters& scene, const Communicator& ranks) {
     // Measured on one rank and on two by tests/performance/memory.py. Ranks that share a box keep
-    // halos and send discs to each other.
+    // halos and send discs to each other. Discs have not been read yet. If they crowd, the
+    // event-driven method takes up to twice as much, because it has more cells.
     const bool are_many = ranks.size() > 1;
     const double bytes_per_disc = scene.method == Method::event_driven ? (are_many ? 110 : 105)
                                                                        : (are_many ? 101 : 92);
