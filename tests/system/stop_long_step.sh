@@ -8,11 +8,21 @@ source "$(dirname "$0")/common.sh"
 most_seconds=4
 gas=("$CARROM_SOURCE_DIR/inputs/gas.toml" --quiet --set output.folder=kept)
 fast=(--set discs.count=5000 --set discs.speed=1e9 --steps 10)
-placed=(--set discs.count=4000000 --set discs.packing=0.5 --steps 10)
+placed=(--set discs.packing=0.5 --steps 10)
 compressed=(--set discs.count=2000 --set discs.packing=0.8 --set discs.generator=compressed
             --set discs.growth_rate=1e-6 --steps 10)
 heap=("$CARROM_SOURCE_DIR/inputs/rain.toml" --quiet --set output.folder=kept
       --set effects.contact.contact_time=1e-12)
+
+# heeds_signals PROGRAM: waits until the program catches TERM (bit 14)
+heeds_signals() {
+    local caught i
+    for ((i = 0; i < 300; ++i)); do
+        caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status" 2>/dev/null)
+        [ $((16#${caught:-0} & 16#4000)) -eq 0 ] || return
+        sleep 0.1
+    done
+}
 
 # given_up RANKS SIGNAL SECONDS WORD...: begins a run and sends the signal after some seconds.
 given_up() {
@@ -23,6 +33,7 @@ given_up() {
     "${launch[@]}" "$CARROM_PROGRAM" run "$@" >"$test_folder/out" \
         2>"$test_folder/err" &
     program=$!
+    [ "$ranks" -gt 1 ] || heeds_signals "$program"
     sleep "$seconds"
     begin=$(date +%s%N)
     kill -"$signal" "$program"
@@ -48,9 +59,10 @@ expect_kept() {
     rm -rf again
 }
 
-given_up 1 TERM 3 "${gas[@]}" "${placed[@]}"
+# On one core some seven seconds each: neither done before the signal, nor long to the next look.
+given_up 1 TERM 1 "${gas[@]}" "${placed[@]}" --set discs.count=2000000
 expect_told 'stopped on request while discs are placed at random' 'placing'
-given_up 3 USR1 3 "${gas[@]}" "${placed[@]}"
+given_up 3 USR1 3 "${gas[@]}" "${placed[@]}" --set discs.count=4000000
 expect_told 'stopped on request while discs are placed at random' 'placing on ranks'
 
 given_up 1 TERM 3 "${gas[@]}" "${compressed[@]}"
