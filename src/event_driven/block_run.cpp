@@ -333,13 +333,14 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     double spin = 0;
     if constexpr (Dynamics::has_spin) spin = columns[SideColumn::spin][slot];
     n_hit += past_events.history == 0 && is_own[slot] != 0;
+    const double now = dynamics.squared_speed(disc);
     if (ground.is_alone)
         past_events.history = 1;
     else
-        past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin);
+        past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin, speed_class(now));
     if (is_own[slot] != 0) {
+        largest_squared = std::max(largest_squared, now);
         const float before = lane_speed_squared(slot);
-        const double now = dynamics.squared_speed(disc);
         if (now > bound_squared || before > bound_lane_squared) [[unlikely]]
             hold_to_schedule(slot, event.time);
     }

@@ -41,6 +41,7 @@ struct BlockWindow {
     double speed_bound = 0;
 
     double duration() const { return end - begin; }
+    BlockWindow with_bound(double speed) const { return {begin, end, holds_begin, speed}; }
 };
 
 /// The largest distance that two discs can have at the start of a window in which they meet.
@@ -70,12 +71,22 @@ struct BlockGround {
     Extent extent{};                     ///< the box, for runs of the whole box
 };
 
-/// The event history of a disc of a block's ring. It is 0 if the disc had no event, and otherwise a
-/// hash of times, partners and results.
+/// The event history of a disc of a block's ring. It is 0 if the disc had no event. Otherwise it is
+/// a hash of times, partners and results, whose last byte says how fast the disc has become.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
 };
+
+/// The last byte of a history: after no event was the disc faster than the square root of
+/// `history & 255` / 200 of the window's speed bound. If it is 255, the disc may have any speed.
+using SpeedClass = std::uint8_t;
+inline constexpr std::uint64_t largest_speed_class = 255;
+inline constexpr double speed_classes_to_bound = 200;
+
+inline SpeedClass speed_class_of(std::uint64_t history) {
+    return static_cast<SpeedClass>(history & largest_speed_class);
+}
 
 /// A collision for the log. The time counts from the last sync, and the impulse is per micro-step.
 struct LoggedEvent {
@@ -138,6 +149,7 @@ struct BlockOutcome {
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
                             ///< has met, or 0
     double largest_speed_at_end = 0;
+    double largest_speed = 0;                     ///< no own disc was faster at any time of the run
     bool is_cascade = false;                      ///< the run was given up in a collision cascade
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;

@@ -19,14 +19,16 @@ namespace carrom {
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    std::uint64_t history = 0;      ///< hash of all events, or 0 if there was none
+    /// See HaloRecord.
+    std::uint64_t history = 0;
     std::uint32_t generation = 0;   ///< generation of the last collision
     std::uint32_t partner = nobody; ///< partner in the last collision
 
     /// Adds a collision: its time, the other's id and the velocities after it. The
     /// place follows from these and the state before.
     template <bool has_spin>
-    void add(double time, const DiscState& disc, std::uint64_t partner_id, double spin) {
+    void add(double time, const DiscState& disc, std::uint64_t partner_id, double spin,
+             SpeedClass speed) {
         const auto mixed = [](double value, std::uint64_t factor) {
             return std::rotl(std::bit_cast<std::uint64_t>(value) * factor, 31);
         };
@@ -36,7 +38,8 @@ struct EventHistory {
         std::uint64_t hash = (std::rotl(history, 17) ^ sum) * 0xff51afd7ed558ccdu;
         if constexpr (has_spin)
             hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(spin)) * 0xc4ceb9fe1a85ec53u;
-        history = (hash ^ (hash >> 32)) | 1;
+        const std::uint64_t fastest = std::max<std::uint64_t>(speed, speed_class_of(history));
+        history = ((hash ^ (hash >> 32)) & ~largest_speed_class) | fastest;
     }
 };
 static_assert(sizeof(EventHistory) == 16);
@@ -205,6 +208,10 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         return margins[own * levels.size() + other];
     }
 
+    SpeedClass speed_class(double squared_speed) const {
+        constexpr auto largest = static_cast<double>(largest_speed_class);
+        return static_cast<SpeedClass>(std::min(1 + squared_speed * classes_per_squared, largest));
+    }
     /// Null where discs do not turn.
     double* spin_of([[maybe_unused]] std::uint32_t slot) {
         if constexpr (Dynamics::has_spin) return &columns[SideColumn::spin][slot];
@@ -349,10 +356,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double cascade_begin = 0; ///< the begin of the present collision cascade, if there is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
-    StressTerms stress_terms;     ///< terms that wait to be added to the outcome's sums
-    double bound_squared = 0;     ///< square of the speed bound
-    float bound_lane_squared = 0; ///< the square of a slightly smaller bound, in cells per window
-    double too_fast = 0;          ///< see BlockOutcome
+    StressTerms stress_terms;       ///< terms that wait to be added to the outcome's sums
+    double bound_squared = 0;       ///< square of the speed bound
+    float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
+    double too_fast = 0;            ///< see BlockOutcome
+    double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
+    double classes_per_squared = 1; ///< classes of speeds for each unit of the squared speed
     // These are for discs of several sizes.
     std::vector<LevelCells> levels;                 ///< smallest discs first
     std::vector<std::vector<LocalIndex>> in_levels; ///< what is listed, by level

@@ -44,6 +44,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
         set_scales_of_levels();
     else
         set_scales();
+    largest_squared = 0;
     for (std::uint32_t slot = 0; slot < n; ++slot) {
         if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
         if (ghost_at(slot)) continue;
@@ -51,11 +52,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
         if (Dynamics::is_periodic && is_whole && indices[slot] >= ground.n_own)
             set_image(discs[slot], periods().home(discs[slot], ground.window.begin));
         place(slot, ground.window.begin);
+        largest_squared = std::max(largest_squared, dynamics.squared_speed(discs[slot]));
     }
     if (is_whole)
         for (const Ghost& ghost : layout.ghosts()) place_ghost(ghost);
     if constexpr (has_sizes) measure_radii();
     bound_squared = ground.window.speed_bound * ground.window.speed_bound;
+    classes_per_squared = bound_squared > 0 ? speed_classes_to_bound / bound_squared : 0x1p1000;
     const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
     too_fast = 0;
@@ -214,6 +217,7 @@ template <class Dynamics>
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
+    outcome->largest_speed = std::sqrt(largest_squared) * (1 + 0x1p-50);
     // Reserving the exact size saves memory, because all blocks keep their outcomes until the
     // window is validated.
     outcome->hit.resize(n_hit);

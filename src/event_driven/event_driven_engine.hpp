@@ -117,6 +117,8 @@ private:
     Verdict validate();
     void check_partners();
     void compare_histories(std::vector<LocalIndex>& foreign);
+    bool could_meet(const Block& block, const DiscState& disc, SpeedClass fastest) const;
+    double distance_from_own(const Block& block, const DiscState& disc) const;
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
     int halo_depth_for(const Block& block) const;
@@ -127,32 +129,27 @@ private:
 
     /// At least two, because the last own row of cells may end beyond the domain.
     int first_halo_depth() const { return std::max(2, choice_.halo); }
-    /// How far halos of that many reaches are fetched: half a reach more where the last own row of
-    /// cells may end beyond the domain, because block halos count from there.
-    double fetched_reach(int depth) const {
-        const Axis across = other_axis(discs_.domains().axis());
-        const bool has_part_row = discs_.domains().are_cut_across() ||
-                                  discs_.periods().along(across) != 0;
-        return (has_part_row ? depth + 0.5 : depth) * reach();
-    }
     /// The halo for which there are cells, so that halos can grow to it without other cells.
     int laid_depth() const { return std::max(common_depth_, 2 * choice_.halo); }
-    double reach() const {
-        return block_reach(window_, dynamics_.search_diameter() * dynamics_.growth_at(window_.end),
-                           dynamics_.box());
+    double reach() const { return block_reach(window_, contact_distance(), dynamics_.box()); }
+    /// The largest distance at which two discs meet in the window.
+    double contact_distance() const {
+        return dynamics_.search_diameter() * dynamics_.growth_at(window_.end);
     }
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
     double jumped_ = 0; ///< the frame's motion since the last migration, in directions of cuts
     double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
+    double rate_to_expect_ = 0; ///< the same, which goes down slowly, for the choice of windows
     double last_duration_ = 1;  ///< duration of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
                           ///< its blocks; equal on all ranks
-    double waited_ = 0;   ///< how long threads waited for these runs, in times of all runs
-    double n_rounds_ = 0; ///< of repeated runs in the last window
-    double rounds_lately_ = 0.2; ///< mean of `n_rounds_` in which older windows count less
-    double first_speed_ = 0;     ///< speed of growing discs when this interval or the engine began
+    double waited_ = 0; ///< how long others waited for the rank that repeats most, in times of its
+                        ///< first runs
+    double n_rounds_ = 0;         ///< of repeated runs in the last window
+    double rounds_lately_ = 0.05; ///< mean of `n_rounds_` in which older windows count less
+    double first_speed_ = 0;      ///< speed of growing discs when this interval or the engine began
     /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
     /// over own discs. Even gases have less than 1 for each, because discs keep others away.
     double crowding_ = 0;

@@ -86,7 +86,11 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
             Block& block = blocks_[static_cast<std::size_t>(k)];
             bool differs = block.outcome.is_cascade;
             for (const HaloRecord& record : block.outcome.ring) {
-                if (record.history == histories_[record.index]) continue;
+                const std::uint64_t of_owner = histories_[record.index];
+                if (record.history == of_owner) continue;
+                const SpeedClass fastest = std::max(speed_class_of(record.history),
+                                                    speed_class_of(of_owner));
+                if (!could_meet(block, discs_.all()[record.index], fastest)) continue;
                 differs = true;
                 differing.push_back(record.index);
             }
@@ -102,6 +106,45 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
     }
 }
 
+/// Whether a disc of the ring can have met an own disc of the block, in the block's run or in that
+/// of the disc's owner. If not, the run is right although it has got the disc wrong
+/// (docs/understanding/method.md, section 8.2).
+template <class Dynamics>
+bool EventDrivenEngine<Dynamics>::could_meet(const Block& block, const DiscState& disc,
+                                             SpeedClass fastest) const {
+    if (Dynamics::has_moving_images) return true; // a disc has several speeds
+    if (fastest == largest_speed_class) return true;
+    const double at_begin = std::sqrt(dynamics_.squared_speed(disc)),
+                 later = window_.speed_bound * std::sqrt(fastest / speed_classes_to_bound);
+    const double speeds = block.outcome.largest_speed + std::max(at_begin, later);
+    const double farthest = block_reach(window_.with_bound(speeds / 2), contact_distance(),
+                                        dynamics_.box());
+    return distance_from_own(block, disc) <= farthest;
+}
+
+/// How far a disc was from the nearest place where own discs of the block can have been at the
+/// window's begin.
+template <class Dynamics>
+double EventDrivenEngine<Dynamics>::distance_from_own(const Block& block,
+                                                      const DiscState& disc) const {
+    const GridGeometry& geometry = discs_.grid().geometry();
+    const Domain mine = discs_.domains().of(communicator_.rank());
+    const double rounding = 1e-6 * geometry.cell_width;
+    const auto away = [&](double place, double corner, const Strip& domain, int first, int end,
+                          int first_own, int end_own) {
+        const double low = first == first_own ? domain.low : corner + first * geometry.cell_width,
+                     high = end == end_own ? domain.high : corner + end * geometry.cell_width;
+        return std::max({low - place, place - high, rounding}) - rounding;
+    };
+    const auto [along, across] = turned(geometry.axis, discs_.periods().x_of(disc, window_.begin),
+                                        discs_.periods().y_of(disc, window_.begin));
+    const CellBlock& cells = block.cells;
+    return std::hypot(away(along, geometry.low, mine.along, cells.first_column, cells.end_column,
+                           own_cells_.first_column, own_cells_.end_column),
+                      away(across, geometry.across_low, mine.across, cells.first_row, cells.end_row,
+                           own_cells_.first_row, own_cells_.end_row));
+}
+
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
     const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
     const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1),
@@ -110,16 +153,22 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalInde
         .store(1, std::memory_order_relaxed);
 }
 
-/// Notes what it costs to run the marked blocks again. All threads wait for the slowest of them,
-/// whose halo is twice as deep. **Collective.**
+/// Notes what it costs to run the marked blocks again. All threads of all ranks wait for the rank
+/// that has most of them. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
     constexpr double deeper = 1.6; // the time of such a run divided by that of a first run
-    std::uint64_t n[] = {0, blocks_.size()};
-    for (const Block& block : blocks_) n[0] += block.is_marked;
+    std::uint64_t n_marked = 0;
+    for (const Block& block : blocks_) n_marked += block.is_marked;
+    const auto share_of = [](std::uint64_t n, std::uint64_t n_blocks) {
+        return static_cast<double>(n) / static_cast<double>(std::max<std::uint64_t>(n_blocks, 1));
+    };
+    const auto n_threads = static_cast<std::uint64_t>(tuning_.threads);
+    const std::uint64_t in_turn = (n_marked + n_threads - 1) / n_threads * n_threads;
+    const double longest = communicator_.max(deeper * share_of(in_turn, blocks_.size()));
+    if (communicator_.size() > 1 || n_threads > 1) waited_ += longest;
+    std::uint64_t n[] = {n_marked, blocks_.size()};
     communicator_.sum(n);
-    const auto n_blocks = static_cast<double>(std::max<std::uint64_t>(1, n[1]));
-    repeated_ += static_cast<double>(n[0]) / n_blocks;
-    waited_ += deeper * n_threads_of_all_ / n_blocks;
+    repeated_ += share_of(n[0], n[1]);
     n_rounds_ += 1;
 }
 
@@ -154,7 +203,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
         return true;
     }
     const PhaseClock::Scope exchange(phases_, Phase::exchange);
-    discs_.fetch_more_halo(time_, fetched_reach(common_depth_), fetched_reach(laid_depth()), wants);
+    discs_.fetch_more_halo(time_, common_depth_ * reach(), laid_depth() * reach(), wants);
     if (wants) halo_depth_ = laid_depth();
     histories_.resize(discs_.all().size());
     return false;
