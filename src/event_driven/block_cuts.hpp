@@ -84,6 +84,8 @@ public:
 
     /// Blocks that touch follow each other, as far as possible.
     const std::vector<CellBlock>& blocks() const { return blocks_; }
+    /// The expected work of each block with its halo, in any unit. Empty if cells were cut evenly.
+    const std::vector<double>& work() const { return work_; }
     /// The block that holds a cell of the strip.
     std::size_t block_of(int column, int row) const;
 
@@ -111,6 +113,7 @@ private:
     std::vector<CellBlock> blocks_;
     std::vector<std::size_t> numbers_; ///< by block: the first of the blocks that it is meant for
     std::vector<Node> nodes_;          ///< the first one is all cells
+    std::vector<double> work_;         ///< of the blocks cut by work
     std::vector<double> shares_; ///< own work of the blocks cut by work, compared with each other
 };
 

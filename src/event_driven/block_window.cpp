@@ -31,10 +31,11 @@ constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision r
 /// with their size, few chains of collisions lead further than that in a window.
 constexpr double thin_gas = 0.2;
 
-// Repeating a block's run with twice the halo costs as much as two or three runs. One more reach of
-// halo costs a tenth of a run (docs/log/performance.md).
-constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
+// Repeating a block's run with twice the halo costs as much as two or three runs.
+constexpr double runs_to_repeat = 2.5, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of the windows before the last one
+/// The same for waits: a single one is long, and says little about how often there are any.
+constexpr double memory_of_waits = 0.98;
 constexpr int most_more = 2;   ///< reaches
 constexpr int long_calm = 200; ///< windows without a repeated run before a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
@@ -110,6 +111,9 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     const double height = std::min(choice.block_side, needs.box.shortest());
     choice.own_discs = std::max(1.0, choice.block_side / spacing * (height / spacing));
     if (needs.n_threads > 0 && !needs.is_one_block) share_out(needs, choice);
+    BlockChoice deeper = choice;
+    deeper.halo += 1;
+    choice.price_of_reach = share_seen(needs, deeper) / share_seen(needs, choice) - 1;
     return choice;
 }
 
@@ -146,14 +150,15 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
     return best;
 }
 
-void Caution::learn(double repeated, double hits, double waited) {
-    lately_ = memory * lately_ + (1 - memory) * std::max(repeated, waited);
-    const bool is_mostly = repeated > mostly_repeated && more_halo_ == most_more;
-    most_hits_ = is_mostly ? std::max(least_hits, shorter * hits) : longer * most_hits_;
-    n_calm_ = repeated > 0 ? 0 : n_calm_ + 1;
-    if (lately_ > much_repeated && more_halo_ < most_more) {
+void Caution::learn(const Passed& window) {
+    lately_ += (1 - memory) * (runs_to_repeat * window.repeated - lately_);
+    waited_lately_ += (1 - memory_of_waits) * (window.waited - waited_lately_);
+    const bool is_mostly = window.repeated > mostly_repeated && more_halo_ == most_more;
+    most_hits_ = is_mostly ? std::max(least_hits, shorter * window.hits) : longer * most_hits_;
+    n_calm_ = window.repeated > 0 ? 0 : n_calm_ + 1;
+    if (std::max(lately_, waited_lately_) > window.price_of_reach && more_halo_ < most_more) {
         ++more_halo_;
-        lately_ = 0;
+        lately_ = waited_lately_ = 0;
     } else if (n_calm_ >= long_calm && more_halo_ > 0) {
         --more_halo_;
         n_calm_ = 0;

@@ -36,9 +36,10 @@ struct BlockNeeds {
 struct BlockChoice {
     double duration = 0; ///< length of the window in micro-steps
     double reach = 0;
-    int halo = 3;          ///< in reaches
-    double block_side = 0; ///< the engine rounds it to whole cells
-    double own_discs = 1;  ///< of a block, not those of its halo
+    int halo = 3;                ///< in reaches
+    double block_side = 0;       ///< the engine rounds it to whole cells
+    double own_discs = 1;        ///< of a block, not those of its halo
+    double price_of_reach = 0.1; ///< what one more reach of halo costs, of the time of all runs
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.
@@ -50,17 +51,23 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
 /// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:
-    /// Takes in a window with `hits` collisions per disc. `repeated` is the number of its block
-    /// runs that were repeated, divided by the number of its blocks. `waited` is the time that
-    /// threads without such a block waited, divided by that of all runs.
-    void learn(double repeated, double hits, double waited = 0);
+    /// A window has passed. All times are shares of that of its first runs.
+    struct Passed {
+        double hits = 0;             ///< collisions per disc
+        double repeated = 0;         ///< block runs that were repeated, over the number of blocks
+        double waited = 0;           ///< the time that others waited for the rank that repeats most
+        double price_of_reach = 0.1; ///< what one more reach of halo costs
+    };
+    void learn(const Passed& window);
     int more_halo() const { return more_halo_; }
     /// The largest number of collisions per disc that a window should have.
     double most_hits() const { return most_hits_; }
 
 private:
     int more_halo_ = 0, n_calm_ = 0;
-    double lately_ = 0; ///< mean of what repeated runs cost; older windows count less and less
+    /// Means of what repeated runs cost, and of what others waited for them. Older windows count
+    /// less and less.
+    double lately_ = 0, waited_lately_ = 0;
     double most_hits_ = std::numeric_limits<double>::infinity();
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,6 +24,10 @@ namespace {
 /// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
 /// as fast from a thin gas to the densest liquid.
 constexpr double jam_heating = 64;
+/// Share of a window's collision rate that is taken for the least of the next one. After random
+/// insertion discs meet half as often at first as a little later, and windows by that rate would be
+/// too long.
+constexpr double rate_kept = 0.9;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
 
@@ -175,10 +180,11 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     else if (const double largest = communicator_.max(largest_speed_); largest > 0)
         collision_rate_ = guessed_collision_rate(
             needs, survey_speeds(discs_.own(), largest, communicator_, tuning_.threads).mean());
-    needs.collision_rate = collision_rate_;
+    rate_to_expect_ = std::max(collision_rate_, rate_kept * rate_to_expect_);
+    needs.collision_rate = rate_to_expect_;
     needs.n_threads = n_threads_of_all_;
     needs.rounds = rounds_lately_;
-    caution_.learn(repeated_, collision_rate_ * last_duration_, waited_);
+    caution_.learn({collision_rate_ * last_duration_, repeated_, waited_, choice_.price_of_reach});
     needs.more_halo = caution_.more_halo();
     rounds_lately_ += 0.1 * (n_rounds_ - rounds_lately_);
     repeated_ = waited_ = n_rounds_ = 0;
@@ -218,7 +224,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     halo_depth_ = common_depth_;
     {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
-        discs_.fetch_halo(time_, fetched_reach(halo_depth_), nullptr);
+        discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);
     }
     histories_.clear(); // nothing of it needs to be kept
     histories_.resize(discs_.all().size());
@@ -248,21 +254,22 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              static_cast<double>(this->micro_steps_),
                              levels_,
                              extent()};
-    const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     std::vector<std::size_t> marked;
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+        if (blocks_[k].is_marked != 0) marked.push_back(k);
+    // The others wait less for a block with much work if it does not begin last.
+    if (const std::vector<double>& work = cuts_.work(); work.size() == blocks_.size())
+        std::ranges::stable_sort(marked, std::greater<>(), [&](std::size_t k) { return work[k]; });
     std::vector<BlockWork> round;
-    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    for (const std::size_t k : marked) {
         Block& block = blocks_[k];
-        if (block.is_marked == 0) continue;
         ++(block.has_run ? counts_.blocks_redone : counts_.blocks);
-        marked.push_back(k);
         round.push_back({0, 0, block.has_run});
         block.has_run = true;
     }
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
-    for (std::int64_t k = 0; k < n_blocks; ++k) {
-        Block& block = blocks_[static_cast<std::size_t>(k)];
-        if (block.is_marked == 0) continue;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        Block& block = blocks_[marked[i]];
         BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
         if (is_alone_ || (Dynamics::is_periodic && sees_all(block)))
             block_run.run_whole(ground, block.cells, histories_, block.outcome);

@@ -11,21 +11,30 @@ TEST_CASE("exact window: blocks look further while replays are repeated, then wi
           "and both come back") {
     Caution caution;
     for (int k = 0; k < 1000; ++k)
-        caution.learn(k % 20 == 0 ? 0.2 : 0,
-                      0.5); // a hundredth now and then costs nothing worth a reach
+        caution.learn({0.5, k % 20 == 0 ? 0.2 : 0}); // a hundredth costs nothing worth a reach
     CHECK(caution.more_halo() == 0);
     CHECK(std::isinf(caution.most_hits()));
-    for (int k = 0; k < 20; ++k) caution.learn(0.3, 0.5);
+    for (int k = 0; k < 20; ++k) caution.learn({0.5, 0.3});
     CHECK(caution.more_halo() == 2); // and no more than that
     CHECK(std::isinf(caution.most_hits()));
-    for (int k = 0; k < 5; ++k) caution.learn(0.9, 0.5);
+    for (int k = 0; k < 5; ++k) caution.learn({0.5, 0.9});
     CHECK(caution.more_halo() == 2);
     CHECK(caution.most_hits() == 0.7 * 0.5);
-    caution.learn(2, 0.01);
+    caution.learn({0.01, 2});
     CHECK(caution.most_hits() == 0.1);
-    for (int k = 0; k < 450; ++k) caution.learn(0, 0.1);
+    for (int k = 0; k < 450; ++k) caution.learn({0.1});
     CHECK(caution.more_halo() == 0);
     CHECK(caution.most_hits() > 1000);
+}
+
+TEST_CASE("exact window: blocks look further if ranks wait for others for longer than that costs") {
+    Caution rarely, often;
+    for (int k = 0; k < 300; ++k) {
+        rarely.learn({0.5, 0, k % 30 == 0 ? 1.6 : 0, 0.1}); // 0.05 of a window
+        often.learn({0.5, 0, k % 10 == 0 ? 1.6 : 0, 0.1});  // 0.16
+        CHECK(rarely.more_halo() == 0);
+    }
+    CHECK(often.more_halo() > 0);
 }
 
 TEST_CASE("exact window: the first window takes Enskog's collision rate") {
