@@ -64,7 +64,7 @@ Shared shared_by(int n_threads, std::size_t n_discs, Crowd kind) {
     const double side = std::sqrt(static_cast<double>(n_discs) * 3.14159265 / 0.5);
     const std::string text = fmt::format(
         "[box]\nsize = {}\n[discs]\ncount = {}\nradius = 1\nspeed = 0.5\n"
-        "[time]\nsteps = 8\nmethod = \"event-driven\"\n",
+        "[time]\nsteps = 32\nmethod = \"event-driven\"\n",
         side, n_discs);
     SceneParameters scene = read_scene(text, "gas.toml");
     const std::vector<InputDisc> inputs = crowded(initial_state(scene, nullptr, world), scene.box,

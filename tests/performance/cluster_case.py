@@ -17,10 +17,6 @@ RANKS_PER_NODE = 32
 # packing 0.2. A disc of a halo takes 33 ns to plan, pack and add.
 NS_COLLISION, NS_STEP, NS_HALO = 383.0, 31.4, 33.0
 SENT_TO_OWN = 2.1  # a disc that is sent over an own one, time-stepped (simulate.py)
-# Blocks look a reach further if ranks wait for repeated runs longer
-# than this share of a window, and than the reach costs; such a run takes REPEATED times as long as
-# a first one. The program does so for threads (Caution in src/event_driven/block_window.hpp).
-MUCH_WAITED, REPEATED = 0.08, 1.6
 # A window's bound over the largest speed (BlockTuning), and over what is expected of that: bounds
 # go down slowly, so that they are those of the fastest disc of many windows. The second one is
 # fitted to the bytes of halos.
@@ -77,18 +73,6 @@ def reach_of(counted, n_discs):
     return radii / math.sqrt(math.pi / counted.packing)
 
 
-def most_marked(ranks, marked, windows=20):
-    """Mean over windows of the block runs that the busiest rank repeats, from the total."""
-    chance = random.Random(39)
-    total = 0
-    for _ in range(windows):
-        counts = [0] * ranks
-        for _ in range(poisson(chance, marked)):
-            counts[chance.randrange(ranks)] += 1
-        total += max(counts)
-    return total / windows
-
-
 class Plan(NamedTuple):
     """What a case asks of its ranks."""
 
@@ -109,42 +93,44 @@ def gas_of(case):
     return cluster_plan.half_crowded_gas(case.n_discs)
 
 
-def depth_of(window, rows):
-    """Of a rank's halo: as far as blocks look, and half a reach more where the last row of cells
-    may end beyond the rank's rectangle.
-    """
-    return window.reach * (window.halo + (0.5 if rows > 1 else 0))
-
-
 def event_plan(case, counts):
+    """Blocks look a reach further if ranks wait longer for repeated runs than that costs (Caution in
+    src/event_driven/block_window.hpp).
+    """
+    plan, deeper = (plan_with_halo(case, counts, halo) for halo in (3, 4))
+    if waited_in(case, plan) <= sum(deeper.first) / sum(plan.first) - 1:
+        return plan
+    return deeper._replace(rollbacks=0)  # hardly any were counted with this halo
+
+
+def waited_in(case, plan, windows=20):
+    """Mean over windows of the time that ranks wait for the one that repeats most, over that of
+    first runs.
+    """
+    chance = random.Random(39)
+    longest = [max(again_in(case, plan, chance).values(), default=0) for _ in range(windows)]
+    return sum(longest) / windows * case.ranks / sum(plan.first)
+
+
+def plan_with_halo(case, counts, halo):
     counted = counts[case.is_even]
     gas = gas_of(case)
     box = cluster_plan.box_of(gas)
-    window = Window(counted.collisions, reach_of(counted, case.n_discs), 3)
+    window = Window(counted.collisions, reach_of(counted, case.n_discs), halo)
     small = cluster_plan.even_gas(1e5)
     even = Window(counts[True].collisions, reach_of(counts[True], 1e5), 3)
     ns = NS_COLLISION * 1e5 * even.collisions
     ns /= cluster_plan.blocks_of(small, cluster_plan.box_of(small), even).work
-    one = cluster_plan.blocks_of(gas, box, window)
+    one = cluster_plan.blocks_of(gas, box, window._replace(halo=3))
     cut = cluster_plan.cut_box(gas, case.ranks, case.rows, True, window)
     blocks = [cluster_plan.blocks_of(gas, part, window) for part in cut.rectangles()]
-    n_blocks = sum(b.n_blocks for b in blocks)
-    rollbacks = counted.rollbacks * sum(b.borders for b in blocks)
-    waited = REPEATED * most_marked(case.ranks, rollbacks * counted.marked) * case.ranks / n_blocks
-    deeper = [
-        cluster_plan.blocks_of(gas, part, window._replace(halo=4)) for part in cut.rectangles()
-    ]
-    cost_of_reach = sum(b.seen for b in deeper) / sum(b.seen for b in blocks) - 1
-    if waited > max(MUCH_WAITED, cost_of_reach):
-        window = window._replace(halo=4)
-        blocks, rollbacks = deeper, 0  # none were counted with this halo
-    halos = cluster_plan.halos(gas, cut, depth_of(window, case.rows))
+    halos = cluster_plan.halos(gas, cut, window.depth)
     return Plan(
         EVENT_PHASES,
         halos,
         [b.work * ns + NS_HALO * sum(h.values()) for b, h in zip(blocks, halos)],
         [b.repeated_work * ns for b in blocks],
-        rollbacks,
+        counted.rollbacks * sum(b.borders for b in blocks),
         counted.marked,
         one.work * ns / case.ranks,
         sum(b.seen for b in blocks) / sum(b.n_own for b in blocks),
@@ -194,19 +180,25 @@ def script_of(case, plan):
 
 
 def rollback_line(case, plan, chance):
-    """A rollback repeats blocks of a rank and of one of its partners, or of the rank alone."""
-    n = poisson(chance, plan.rollbacks)
-    if n == 0:
+    again = again_in(case, plan, chance)
+    if not again:
         return "-1"
+    return f"{len(again)} " + " ".join(f"{r} {t:.0f}" for r, t in sorted(again.items()))
+
+
+def again_in(case, plan, chance):
+    """Time of repeated runs in a window, by rank. A rollback repeats blocks of a rank and of one of
+    its partners, or of the rank alone.
+    """
     again = {}
-    for _ in range(n):
+    for _ in range(poisson(chance, plan.rollbacks)):
         rank = chance.randrange(case.ranks)
         beside = sorted(plan.halos[rank]) or [rank]
         n_marked = max(1, int(plan.marked + chance.random()))
         for k in range(n_marked):
             marked = rank if k % 2 == 0 else chance.choice([rank, chance.choice(beside)])
             again[marked] = again.get(marked, 0.0) + plan.again[marked]
-    return f"{len(again)} " + " ".join(f"{r} {t:.0f}" for r, t in sorted(again.items()))
+    return again
 
 
 def poisson(chance, mean):

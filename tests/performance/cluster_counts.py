@@ -36,31 +36,39 @@ def read_rows():
         return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
 
 
-def rollbacks_of(row):
-    """Rollbacks of a window for each mean distance of discs along borders of blocks."""
-    side = math.sqrt(row["discs"])
+def border_of(row):
+    """Length of the borders of blocks in mean distances of discs."""
     n_columns = row["ranks"] if row["across"] == 1 else math.sqrt(row["blocks"])
-    n_borders = n_columns - 1 + row["blocks"] / n_columns - 1
-    return row["windows_redone"] / (side * n_borders)
+    return math.sqrt(row["discs"]) * (n_columns - 1 + row["blocks"] / n_columns - 1)
 
 
-def counted_in(row, many):
+def rollbacks_in(rows):
+    """Rollbacks of a window for each mean distance of discs along borders, and block runs that one
+    repeats, over all windows of the rows.
+    """
+    n = sum(row["windows"] * row["windows_redone"] for row in rows)
+    borders = sum(row["windows"] * border_of(row) for row in rows)
+    repeated = sum(row["windows"] * row["repeated"] * row["blocks"] for row in rows)
+    return n / borders, repeated / n
+
+
+def counted_in(row, rollbacks=0.0, marked=0.0):
     share_dense = 1 if row["crowd"] == 0 else 0.5
     return Counted(
         row["collisions"] / share_dense,
         row["micro_steps"],
         row["packing"] * share_dense,
-        rollbacks_of(many),
-        many["repeated"] * many["blocks"] / many["windows_redone"],
+        rollbacks,
+        marked,
     )
 
 
 def read_counts():
     rows = read_rows()
-    many = next(r for r in rows if r["ranks"] > 1 and r["windows_redone"] > 0)
+    rollbacks = rollbacks_in([r for r in rows if r["crowd"] == 0 and r["discs"] > 1e5])
     return {
         is_even: counted_in(
-            next(r for r in rows if r["ranks"] == 1 and (r["crowd"] == 0) == is_even), many
+            next(r for r in rows if r["ranks"] == 1 and (r["crowd"] == 0) == is_even), *rollbacks
         )
         for is_even in (True, False)
     }
@@ -94,9 +102,9 @@ def counts_of(program, ranks, n_discs, steps, halo, crowd, across):
 
 SMALL_RUN = (16, 2e4, 16, 3, 0, 0)  # ranks, discs, steps, halo, crowd, ranks across (0: chosen)
 RUNS = (
-    (1, 2e5, 32, 3, 0, 0),
-    (16, 2e5, 96, 3, 0, 0),
-    (16, 2e5, 96, 3, 0, 1),
+    (1, 2e5, 384, 3, 0, 0),
+    (16, 2e5, 384, 3, 0, 0),
+    (16, 2e5, 384, 3, 0, 1),
     (16, 1e5, 96, 4, 0, 0),
     (1, 2e5, 64, 3, 2, 0),
     (16, 2e5, 64, 3, 2, 0),
@@ -105,7 +113,7 @@ RUNS = (
 
 
 def count(program):
-    """Runs the program's engine for real: a minute."""
+    """Runs the program's engine for real: three minutes."""
     write(COUNTS, [counts_of(program, *run) for run in RUNS])
 
 

@@ -30,7 +30,6 @@ import cluster_plan
 from cluster_case import (
     MICRO_STEPS,
     Case,
-    depth_of,
     event_plan,
     gas_of,
     reach_of,
@@ -185,14 +184,14 @@ def compare_model():
     for row in read_rows():
         if row["discs"] < 1e5:
             continue
-        counted = counted_in(row, row | {"windows_redone": 1})
+        counted = counted_in(row)
         case = Case("", int(row["ranks"]), row["discs"], is_even=row["crowd"] == 0)
         gas = gas_of(case)
         window = Window(counted.collisions, reach_of(counted, row["discs"]), int(row["halo"]))
         rows = int(row["across"])
         cut = cluster_plan.cut_box(gas, case.ranks, rows, True, window)
         blocks = [cluster_plan.blocks_of(gas, part, window) for part in cut.rectangles()]
-        halos = cluster_plan.halos(gas, cut, depth_of(window, rows))
+        halos = cluster_plan.halos(gas, cut, window.depth)
         n_halo = sum(sum(h.values()) for h in halos) / case.ranks
         name = f"model of {case.ranks} ranks, {rows} across, {row['discs']:.0f} discs"
         name += f", crowd {row['crowd']:.0f}"

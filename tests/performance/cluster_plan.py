@@ -58,6 +58,11 @@ class Window(NamedTuple):
     reach: float  # in mean distances of discs where the density is 1
     halo: int  # of a block, in reaches
 
+    @property
+    def depth(self):
+        """Of a halo, in mean distances of discs where the density is 1."""
+        return self.reach * self.halo
+
 
 def even_gas(n_discs):
     side = math.sqrt(n_discs)
@@ -200,7 +205,7 @@ class Blocks(NamedTuple):
 def blocks_of(gas, own, window):
     """A block is as large as the cache allows with its halo."""
     box = box_of(gas)
-    halo = window.halo * window.reach
+    halo = window.depth
     n_own = n_blocks = seen = collisions = work = borders = most_repeated = 0.0
     for piece in gas:
         part = piece.rectangle.within(own)
