@@ -227,6 +227,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);
     }
     histories_.clear(); // nothing of it needs to be kept
+    // With room for a wider halo. A list that grows is there twice for a while.
+    histories_.reserve(discs_.all().capacity());
     histories_.resize(discs_.all().size());
     halo_counts_.n_windows += 1;
     halo_counts_.n_own += discs_.n_own();

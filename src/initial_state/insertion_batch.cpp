@@ -42,10 +42,9 @@ std::uint64_t InsertionBatch::choose_rounds(std::uint64_t n_placed, std::uint64_
 }
 
 std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& unplaced,
-                                                   std::uint64_t first_round,
+                                                   std::uint64_t n_left, std::uint64_t first_round,
                                                    std::uint64_t n_rounds) {
-    box_.propose(unplaced, first_round, n_rounds, n_threads_, proposals_);
-    box_.deliver(proposals_, {}, n_threads_);
+    box_.propose({unplaced, n_left, first_round, n_rounds}, {}, n_threads_, proposals_);
     find_free();
     find_rivals();
     gather_on_all(free_);

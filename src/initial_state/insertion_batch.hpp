@@ -22,10 +22,11 @@ public:
                    PlacedDiscs& placed)
         : box_(box), communicator_(communicator), n_threads_(n_threads), placed_(placed) {}
 
-    /// Gives places to discs of `unplaced`, which are other discs on each rank, and takes them out
-    /// of the list. Returns the last round in which a place was found, counted from the first one.
+    /// Gives places to discs of `unplaced`, which are other discs on each rank, `n_left` together,
+    /// and takes them out of the list. Returns the last round in which a place was found, counted
+    /// from the first one.
     /// **Collective.**
-    std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced,
+    std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced, std::uint64_t n_left,
                                        std::uint64_t first_round, std::uint64_t n_rounds);
 
     /// How many rounds the next batch has, if the last one had `n_rounds` and gave places to

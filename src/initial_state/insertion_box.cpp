@@ -1,27 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "initial_state/insertion_box.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "parallel/exchange.hpp"
 
 namespace carrom {
 
-void InsertionBox::propose(std::span<const std::uint32_t> ids, std::uint64_t first_round,
-                           std::uint64_t n_rounds, int n_threads, RawVector<Notice>& made) const {
-    const std::size_t n = ids.size();
-    made.resize(n * n_rounds);
-#pragma omp parallel for num_threads(n_threads) schedule(static)
-    for (std::size_t k = 0; k < made.size(); ++k) {
-        const std::uint32_t id = ids[k % n];
-        const Point place = proposal(id, first_round + k / n);
-        made[k] = {place.x, place.y, id, static_cast<std::uint32_t>(k / n)};
+namespace {
+
+/// Ranks that have many discs exchange about this many proposals at once, because what is sent and
+/// what is received take as much memory as the proposals, each.
+constexpr double most_at_once = 1 << 17;
+
+} // namespace
+
+void InsertionBox::propose(const Proposers& proposers, std::span<const Notice> updates,
+                           int n_threads, RawVector<Notice>& concerning) const {
+    const std::uint64_t n = proposers.ids.size() * proposers.n_rounds;
+    concerning.clear();
+    if (communicator_.size() == 1) return make_proposals(proposers, 0, n, n_threads, concerning);
+    // A list that grows is there twice for a while. Room that is not used takes no memory.
+    concerning.reserve(static_cast<std::size_t>(1.1 * static_cast<double>(n + updates.size())) +
+                       1000);
+    const double n_of_rank = static_cast<double>(proposers.n_of_all * proposers.n_rounds) /
+                             communicator_.size(); // the same on all ranks
+    const auto n_parts = static_cast<std::uint64_t>(std::min(n_of_rank, share()) / most_at_once) +
+                         1;
+    RawVector<Notice> made;
+    for (std::uint64_t part = 0; part < n_parts; ++part) {
+        make_proposals(proposers, n * part / n_parts, n * (part + 1) / n_parts, n_threads, made);
+        const std::size_t first = updates.size() * part / n_parts,
+                          end = updates.size() * (part + 1) / n_parts;
+        deliver(made, updates.subspan(first, end - first), n_threads, concerning);
     }
 }
 
-void InsertionBox::deliver(RawVector<Notice>& notices, std::span<const Notice> updates,
-                           int n_threads) const {
-    if (communicator_.size() == 1) return;
+/// Makes the proposals `first` to `end` - 1, counted round by round.
+void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t first,
+                                  std::uint64_t end, int n_threads, RawVector<Notice>& made) const {
+    const std::size_t n = proposers.ids.size();
+    made.resize(end - first);
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        const std::size_t k = first + i;
+        const std::uint32_t id = proposers.ids[k % n];
+        const Point place = proposal(id, proposers.first_round + k / n);
+        made[i] = {place.x, place.y, id, static_cast<std::uint32_t>(k / n)};
+    }
+}
+
+/// Sends notices to the ranks that they concern, and appends what comes to `concerning`. A rank
+/// knows its own updates. **Collective.**
+void InsertionBox::deliver(std::span<const Notice> notices, std::span<const Notice> updates,
+                           int n_threads, RawVector<Notice>& concerning) const {
     std::vector<std::vector<Notice>> out(n_ranks());
     for (const Notice& update : updates)
         visit_concerned(update.x, [&](std::size_t rank) {
@@ -39,7 +72,7 @@ void InsertionBox::deliver(RawVector<Notice>& notices, std::span<const Notice> u
             out[rank].insert(out[rank].end(), mine[rank].begin(), mine[rank].end());
     }
     const std::vector<Notice> arrived = send_to_owners(communicator_, out).items;
-    notices.assign(arrived.begin(), arrived.end());
+    concerning.insert(concerning.end(), arrived.begin(), arrived.end());
 }
 
 } // namespace carrom

@@ -32,6 +32,13 @@ struct Notice {
     bool is_placed() const { return round == placed; }
 };
 
+/// The discs without a place that propose one, and the rounds in which they do.
+struct Proposers {
+    std::span<const std::uint32_t> ids; ///< other discs on each rank
+    std::uint64_t n_of_all = 0;         ///< their number over all ranks
+    std::uint64_t first_round = 0, n_rounds = 1;
+};
+
 class InsertionBox {
 public:
     InsertionBox(const SceneParameters& scene, const Communicator& communicator,
@@ -117,12 +124,10 @@ public:
                ObstacleContact::no_body;
     }
 
-    /// Makes the proposals of `ids` in rounds, by all threads.
-    void propose(std::span<const std::uint32_t> ids, std::uint64_t first_round,
-                 std::uint64_t n_rounds, int n_threads, RawVector<Notice>& made) const;
-    /// Replaces the notices of all ranks by those that concern this rank. What others have found,
-    /// `updates`, comes with them. **Collective.**
-    void deliver(RawVector<Notice>& notices, std::span<const Notice> updates, int n_threads) const;
+    /// Makes the proposals of all ranks, by all threads, and lists those that concern this rank.
+    /// What others have found, `updates`, comes with them. **Collective.**
+    void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
+                 RawVector<Notice>& concerning) const;
 
     /// Calls `visit(place)` for a notice and those of its images that discs across a seam are near,
     /// until it returns true. A grid files places beyond its ends in its last cells.
@@ -148,6 +153,10 @@ public:
     }
 
 private:
+    void make_proposals(const Proposers& proposers, std::uint64_t first, std::uint64_t end,
+                        int n_threads, RawVector<Notice>& made) const;
+    void deliver(std::span<const Notice> notices, std::span<const Notice> updates, int n_threads,
+                 RawVector<Notice>& concerning) const;
     Periods lying(const Periods& periods) const {
         const auto [x, y] = turned(axis_, periods.x, periods.y);
         return {x, y};

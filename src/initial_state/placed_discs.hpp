@@ -25,7 +25,7 @@ public:
         discs_.resize(first + found.size());
 #pragma omp parallel for num_threads(n_threads_) schedule(static) if (found.size() > 1000)
         for (std::size_t k = 0; k < found.size(); ++k) discs_[first + k] = found[k];
-        grid_.add_rest(discs_, n_threads_);
+        grid_->add_rest(discs_, n_threads_);
         if (refused_places_) map(first);
     }
 
@@ -44,7 +44,7 @@ public:
         if (refused_places_ && refused_places_->holds({notice.x, notice.y})) return true;
         if (box_.overlaps_obstacle(notice)) return true;
         return box_.for_images(notice, [&](Point at) {
-            return grid_.any_near(
+            return grid_->any_near(
                 at, [&](std::uint32_t k) { return box_.overlaps(notice.id, at, discs_[k]); });
         });
     }
@@ -53,9 +53,10 @@ public:
         if (refused_places_) refused_places_->prefetch({notice.x, notice.y});
     }
 
-    /// The discs in the own strip. They are not kept.
+    /// The discs in the own strip. They are not kept, and nothing can be added afterwards.
     std::vector<InputDisc> take_own() {
         refused_places_.reset();
+        grid_.reset();
         std::vector<InputDisc> own;
         own.reserve(discs_.size());
         for (const Notice& disc : discs_) {
@@ -77,7 +78,7 @@ private:
     const InsertionBox& box_;
     int n_threads_;
     RawVector<Notice> discs_;
-    PointGrid grid_;
+    std::optional<PointGrid> grid_;               ///< of these, until they are taken
     std::optional<RefusedPlaces> refused_places_; ///< once most proposals are refused
 };
 

@@ -33,6 +33,8 @@ public:
         columns_ = static_cast<std::uint64_t>(width * per_length_) + 1;
         rows_ = static_cast<std::uint64_t>(height * per_length_) + 1;
         heads_.assign(columns_ * rows_, none);
+        // A list that grows is there twice for a while. Room that is not used takes no memory.
+        next_.reserve(static_cast<std::size_t>(1.1 * n_points) + 100);
     }
 
     /// Adds the next point; its number is how many were added before.

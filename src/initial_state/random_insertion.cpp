@@ -88,8 +88,7 @@ private:
         proposal_grid_.emplace(box_.grid(box_.share()));
         for (double share_placed = 1;
              !rounds.are_over() && share_placed >= most_placed_in_batches;) {
-            box_.propose(unplaced_, rounds.next++, 1, n_threads_, proposals_);
-            exchange();
+            propose({unplaced_, rounds.n_left, rounds.next++});
             judge();
             const std::uint64_t n_before = std::exchange(rounds.n_left, n_unplaced());
             const std::uint64_t n_placed = n_before - rounds.n_left;
@@ -97,8 +96,8 @@ private:
             share_placed = static_cast<double>(n_placed) / static_cast<double>(n_before);
         }
         proposal_grid_.reset();
-        proposals_.clear();
-        exchange(); // the last updates
+        propose({}); // sends the last updates
+        RawVector<Notice>().swap(proposals_);
     }
 
     /// Judges many rounds at once. That takes one exchange, and is enough work for all threads.
@@ -109,7 +108,7 @@ private:
         InsertionBatch batch(box_, communicator_, n_threads_, placed_);
         std::uint64_t n_rounds = 1;
         while (!rounds.are_over()) {
-            const auto last_found = batch.judge(unplaced_, rounds.next, n_rounds);
+            const auto last_found = batch.judge(unplaced_, rounds.n_left, rounds.next, n_rounds);
             rounds.next += n_rounds;
             rounds.n_idle = last_found ? n_rounds - 1 - *last_found : rounds.n_idle + n_rounds;
             const std::uint64_t n_before = std::exchange(rounds.n_left, n_unplaced());
@@ -130,8 +129,8 @@ private:
 
     /// Sends proposals, together with the last round's updates, to the ranks that they concern.
     /// **Collective.**
-    void exchange() {
-        box_.deliver(proposals_, updates_, n_threads_);
+    void propose(const Proposers& proposers) {
+        box_.propose(proposers, updates_, n_threads_, proposals_);
         updates_.clear();
         const auto first_update = std::partition(proposals_.begin(), proposals_.end(),
                                                  [](const Notice& n) { return !n.is_placed(); });
@@ -143,7 +142,6 @@ private:
     /// columns of cells that are near in x are near in memory, which does not affect the verdicts.
     void judge() {
         const auto n_shares = static_cast<std::size_t>(n_threads_);
-        std::vector<std::vector<Notice>> accepted(n_shares);
         std::vector<std::vector<std::uint32_t>> refused(n_shares);
         const auto share_of = [&](std::size_t k) {
             const auto [first, last] = slab_of_rank(static_cast<int>(k), proposals_.size(),
@@ -155,20 +153,23 @@ private:
         proposal_grid_->add_rest(proposals_, n_threads_);
 #pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
         for (std::size_t k = 0; k < n_shares; ++k) {
-            for (const Notice& notice : share_of(k)) {
+            for (Notice& notice : share_of(k)) {
                 if (!box_.is_mine(notice)) continue;
                 if (placed_.overlaps(notice) || overlaps_earlier(notice))
                     refused[k].push_back(notice.id);
                 else
-                    accepted[k].push_back(notice);
+                    notice.round = Notice::placed; // other threads do not read it
             }
         }
         proposal_grid_->clear(proposals_, n_threads_);
         unplaced_.clear();
         for (std::size_t k = 0; k < n_shares; ++k) {
             unplaced_.insert(unplaced_.end(), refused[k].begin(), refused[k].end());
-            placed_.add(accepted[k]);
-            if (communicator_.size() > 1) note_updates(accepted[k]);
+            const std::span<Notice> share = share_of(k);
+            const auto end = std::partition(share.begin(), share.end(),
+                                            [](const Notice& n) { return n.is_placed(); });
+            placed_.add({share.begin(), end});
+            if (communicator_.size() > 1) note_updates({share.begin(), end});
         }
     }
 
@@ -182,11 +183,10 @@ private:
     }
 
     /// Lists the places that also concern other ranks.
-    void note_updates(const std::vector<Notice>& found) {
-        for (Notice notice : found) {
+    void note_updates(std::span<const Notice> found) {
+        for (const Notice& notice : found) {
             std::size_t n_concerned = 0;
             box_.visit_concerned(notice.x, [&n_concerned](std::size_t) { ++n_concerned; });
-            notice.round = Notice::placed;
             if (n_concerned > 1) updates_.push_back(notice);
         }
     }

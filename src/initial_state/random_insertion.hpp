@@ -7,7 +7,7 @@
 // strip of x holds them, which also hears of everything within a diameter of its strip. At a
 // packing of 0.3 some 150 rounds and 3 proposals a disc are needed, at 0.5 10,000 rounds and 66
 // proposals. The cost explodes towards 0.54, where random insertion jams. So rounds are judged in
-// batches once places are rare (insertion_batch.hpp), and all threads judge. About 80 bytes a disc,
+// batches once places are rare (insertion_batch.hpp), and all threads judge. About 75 bytes a disc,
 // shared out over the ranks.
 #pragma once
 
