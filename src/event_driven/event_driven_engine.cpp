@@ -220,6 +220,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         blocks_.front().is_marked = 1;
         return;
     }
+    // Where discs crowd there are many cells. The results of the last window would be there with
+    // them and with the sums by which blocks are cut, 30 bytes a disc at the peak.
+    if (mean_crowding_ > 1)
+        for (Block& block : blocks_) block.outcome = {};
     discs_.sort_cells(lay_cells(reach()), time_);
     halo_depth_ = common_depth_;
     {

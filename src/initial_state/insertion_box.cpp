@@ -12,7 +12,7 @@ namespace {
 
 /// Ranks that have many discs exchange about this many proposals at once, because what is sent and
 /// what is received take as much memory as the proposals, each.
-constexpr double most_at_once = 1 << 17;
+constexpr double most_at_once = 1 << 16;
 
 } // namespace
 
