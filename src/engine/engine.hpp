@@ -52,6 +52,8 @@ public:
     /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
 
+    /// What a disc takes beyond one of an even gas, because discs crowd. The same on all ranks.
+    virtual double bytes_for_crowds() const { return 0; }
     /// **Collective.**
     virtual RollbackCounts rollback_counts() const { return {}; }
 

@@ -42,6 +42,15 @@ double pairs_in_cells(const CellGrid& grid, const CellBlock& cells, int n_thread
     return static_cast<double>(n_pairs);
 }
 
+std::uint64_t discs_in(const CellGrid& grid, const CellBlock& cells) {
+    std::uint64_t n = 0;
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        const SlotRange run = grid.run(column, cells.first_row, cells.end_row - 1);
+        n += run.end - run.begin;
+    }
+    return n;
+}
+
 /// Whether the block with most discs has far more of them than the mean.
 bool are_uneven(const CellGrid& grid, const std::vector<CellBlock>& blocks, int n_threads) {
     std::uint64_t most = 0, all = 0;
@@ -50,16 +59,18 @@ bool are_uneven(const CellGrid& grid, const std::vector<CellBlock>& blocks, int 
     reduction(max : most)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
         const CellBlock& block = blocks[static_cast<std::size_t>(k)];
-        std::uint64_t n = 0;
-        for (int column = block.first_column; column < block.end_column; ++column) {
-            const SlotRange run = grid.run(column, block.first_row, block.end_row - 1);
-            n += run.end - run.begin;
-        }
+        const std::uint64_t n = discs_in(grid, block);
         most = std::max(most, n);
         all += n;
     }
     return static_cast<double>(most) * static_cast<double>(n_blocks) >
            uneven * static_cast<double>(all);
+}
+
+/// The cells of the block that hold discs, or one cell.
+CellBlock without_margins(const CellBlock& block, const CellSums& sums) {
+    if (sums.in(block) > 0) return sums.occupied(block);
+    return {block.first_column, block.first_column + 1, block.first_row, block.first_row + 1};
 }
 
 int cells_along(double length, double width) {
@@ -120,11 +131,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
     const double n_pairs = measure_crowding(own_cells_);
     const bool is_set = block_tuning_.block_side || block_tuning_.cuts_by_work.has_value();
     const bool has_threads = tuning_.threads > 1 && !is_set;
-    if (!has_threads) cut_evenly();
+    std::vector<CellBlock> blocks;
+    if (!has_threads) blocks = cut_evenly();
     if (block_tuning_.cuts_by_work.value_or(
             has_threads || (!is_set && are_uneven(discs_.grid(), cuts_.blocks(), tuning_.threads))))
-        cut_by_work(n_pairs);
-    const std::vector<CellBlock>& blocks = cuts_.blocks();
+        blocks = cut_by_work(n_pairs);
     const bool is_new = common_depth_ == first_halo_depth() || blocks_.size() != blocks.size();
     blocks_.resize(blocks.size());
     for (std::size_t k = 0; k < blocks.size(); ++k) {
@@ -134,7 +145,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
     }
 }
 
-template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_evenly() {
+template <class Dynamics> std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_evenly() {
     const GridGeometry& geometry = discs_.grid().geometry();
     const double side = block_tuning_.block_side
                             ? *block_tuning_.block_side * geometry.cell_width * geometry.n_reach
@@ -146,10 +157,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_evenly() {
     };
     cuts_.cut_evenly(own_cells_, cells_of_block(own_cells_.n_columns()),
                      cells_of_block(own_cells_.n_rows()));
+    return cuts_.blocks();
 }
 
 /// A disc costs more the denser it is around it, because it collides more often there.
-template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) {
+template <class Dynamics>
+std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) {
     const CellGrid& grid = discs_.grid();
     const GridGeometry& geometry = grid.geometry();
     const auto n_own = static_cast<double>(discs_.n_own());
@@ -166,6 +179,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::cut_by_work(double n
     sums.fill(own_cells_, tuning_.threads, work,
               [&grid](int column, int row) { return discs_before(grid, column, row); });
     cuts_.cut_by_work(own_cells_, needs, sums);
+    std::vector<CellBlock> blocks = cuts_.blocks();
+    // A run lists all cells of its block. So blocks do without the empty cells around their discs,
+    // unless rounding has put discs outside of the own cells, which no sum counts.
+    if (work.per_disc > 0 && discs_in(grid, own_cells_) == discs_.n_own())
+        for (CellBlock& block : blocks) block = without_margins(block, sums);
+    return blocks;
 }
 
 /// Learns the crowding before the first window, from cells that need not be those of a window.
@@ -193,10 +212,17 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_crowding(std::u
     mean_crowding_ = crowding > least_crowding ? std::min(crowding, most_crowding) : 1;
 }
 
+/// Each cell takes four bytes, and four more while blocks are cut.
+template <class Dynamics> double EventDrivenEngine<Dynamics>::bytes_for_crowds() const {
+    constexpr double cells_per_disc = 2; // of an even gas, where they are smallest
+    return cells_per_disc * 8 * (std::min(mean_crowding_, most_cells) - 1);
+}
+
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double);                          \
     template void EventDrivenEngine<Dynamics>::make_blocks();                                      \
+    template double EventDrivenEngine<Dynamics>::bytes_for_crowds() const;                         \
     template void EventDrivenEngine<Dynamics>::learn_crowding();                                   \
     template void EventDrivenEngine<Dynamics>::take_crowding(std::uint64_t);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)

@@ -66,6 +66,7 @@ public:
                       const BlockTuning& block_tuning = {});
 
     RollbackCounts rollback_counts() const override;
+    double bytes_for_crowds() const override;
 
     /// What the runs of this rank's blocks have done since the last call, round by round: a window
     /// has one round, and another one for each rollback.
@@ -105,8 +106,8 @@ private:
     void redistribute();
     GridGeometry lay_cells(double reach);
     void make_blocks();
-    void cut_evenly();
-    void cut_by_work(double n_pairs);
+    std::vector<CellBlock> cut_evenly();
+    std::vector<CellBlock> cut_by_work(double n_pairs);
     void learn_crowding();
     double measure_crowding(const CellBlock& cells);
     void take_crowding(std::uint64_t of_all);

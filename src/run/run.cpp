@@ -6,6 +6,7 @@
 #include "io/checkpoint.hpp"
 #include "run/failure_scene.hpp"
 #include "run/hard_cases.hpp"
+#include "run/memory_check.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "stored_scene/stored_scene.hpp"
 
@@ -35,6 +36,8 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
       system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_),
       heap_warning_(scene_, system_, ranks_, messages) {
+    if (const double more = system_.bytes_for_crowds(); more > 0 && !is_restart_)
+        check_memory(scene_, ranks_, more); // now that places are known
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (scene_.trajectory && scene_.trajectory->has_image) {
         images_.emplace(scene_.box, system_, ranks_);

@@ -343,6 +343,8 @@ Totals DiscSystem::energies() const {
     return totals;
 }
 
+double DiscSystem::bytes_for_crowds() const { return engine_->bytes_for_crowds(); }
+
 RollbackCounts DiscSystem::rollback_counts() const { return engine_->rollback_counts(); }
 
 PhaseSeconds DiscSystem::phase_seconds() const { return engine_->phase_seconds(); }

@@ -132,6 +132,8 @@ public:
     /// Number, energies and momentum alone, which takes two passes over the discs. **Collective.**
     Totals energies() const;
     RollbackCounts rollback_counts() const;
+    /// See Engine::bytes_for_crowds.
+    double bytes_for_crowds() const;
     PhaseSeconds phase_seconds() const;
 
 private:

@@ -22,6 +22,7 @@
 #include "run/files/outputs.hpp"
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
+#include "run/memory_check.hpp"
 #include "run/start/restart.hpp"
 #include "run/start/scene_source.hpp"
 #include "scene/effects/effect.hpp"
@@ -146,24 +147,6 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
         check_destinations(options, found);
     }
     found.agree(ranks);
-}
-
-/// A wrong number of discs would otherwise end the run later without a reason. **Collective.**
-void check_memory(const SceneParameters& scene, const Communicator& ranks) {
-    // Measured on one rank and on two by tests/performance/memory.py. Ranks that share a box keep
-    // halos and send discs to each other. Discs have not been read yet. If they crowd, the
-    // event-driven method takes up to twice as much, because it has more cells.
-    const bool are_many = ranks.size() > 1;
-    const double bytes_per_disc = scene.method == Method::event_driven ? (are_many ? 110 : 105)
-                                                                       : (are_many ? 101 : 92);
-    const double needed = static_cast<double>(scene.n_discs) * bytes_per_disc / ranks.size();
-    const auto available = static_cast<double>(ranks.min(memory_per_rank(ranks)));
-    if (needed <= available) return;
-    throw InputError({{scene.name, 0,
-                       fmt::format("discs.count = {} needs at least {:.3g} GB of memory on each of "
-                                   "{} ranks, and one has only {:.3g} GB; take "
-                                   "fewer discs, or ranks on more nodes",
-                                   scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
 /// The course program's own scenes are as fast. **Collective.**
