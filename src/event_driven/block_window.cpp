@@ -111,9 +111,6 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     const double height = std::min(choice.block_side, needs.box.shortest());
     choice.own_discs = std::max(1.0, choice.block_side / spacing * (height / spacing));
     if (needs.n_threads > 0 && !needs.is_one_block) share_out(needs, choice);
-    BlockChoice deeper = choice;
-    deeper.halo += 1;
-    choice.price_of_reach = share_seen(needs, deeper) / share_seen(needs, choice) - 1;
     return choice;
 }
 

@@ -36,10 +36,9 @@ struct BlockNeeds {
 struct BlockChoice {
     double duration = 0; ///< length of the window in micro-steps
     double reach = 0;
-    int halo = 3;                ///< in reaches
-    double block_side = 0;       ///< the engine rounds it to whole cells
-    double own_discs = 1;        ///< of a block, not those of its halo
-    double price_of_reach = 0.1; ///< what one more reach of halo costs, of the time of all runs
+    int halo = 3;          ///< in reaches
+    double block_side = 0; ///< the engine rounds it to whole cells
+    double own_discs = 1;  ///< of a block, not those of its halo
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.

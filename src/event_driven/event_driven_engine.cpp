@@ -184,7 +184,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.collision_rate = rate_to_expect_;
     needs.n_threads = n_threads_of_all_;
     needs.rounds = rounds_lately_;
-    caution_.learn({collision_rate_ * last_duration_, repeated_, waited_, choice_.price_of_reach});
+    caution_.learn({collision_rate_ * last_duration_, repeated_, waited_, price_of_reach_});
     needs.more_halo = caution_.more_halo();
     rounds_lately_ += 0.1 * (n_rounds_ - rounds_lately_);
     repeated_ = waited_ = n_rounds_ = 0;

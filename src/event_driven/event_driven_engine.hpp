@@ -124,6 +124,7 @@ private:
     bool widen_marked();
     int halo_depth_for(const Block& block) const;
     void note_rollback();
+    double price_of_reach() const;
     bool sees_all(const Block& block) const;
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
@@ -149,6 +150,8 @@ private:
     double waited_ = 0; ///< how long others waited for the rank that repeats most, in times of its
                         ///< first runs
     double n_rounds_ = 0;         ///< of repeated runs in the last window
+    double price_of_reach_ = 0.1; ///< what one more reach of halo cost in the last window that had
+                                  ///< a rollback, of the time of its first runs
     double rounds_lately_ = 0.05; ///< mean of `n_rounds_` in which older windows count less
     double first_speed_ = 0;      ///< speed of growing discs when this interval or the engine began
     /// How many times denser it is in the cell of an own disc than in the mean of the box, summed

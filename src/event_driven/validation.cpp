@@ -166,10 +166,24 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
     const std::uint64_t in_turn = (n_marked + n_threads - 1) / n_threads * n_threads;
     const double longest = communicator_.max(deeper * share_of(in_turn, blocks_.size()));
     if (communicator_.size() > 1 || n_threads > 1) waited_ += longest;
+    price_of_reach_ = communicator_.max(price_of_reach());
     std::uint64_t n[] = {n_marked, blocks_.size()};
     communicator_.sum(n);
     repeated_ += share_of(n[0], n[1]);
     n_rounds_ += 1;
+}
+
+/// How many more discs the blocks of this rank would see with a halo one reach deeper, as a share.
+template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() const {
+    const GridGeometry& geometry = discs_.grid().geometry();
+    const CellBlock frame{0, geometry.n_columns, 0, geometry.n_rows};
+    double now = 0, deeper = 0;
+    for (const Block& block : blocks_) {
+        const int halo = choice_.halo * geometry.n_reach;
+        now += block.cells.widened(halo).within(frame).area();
+        deeper += block.cells.widened(halo + geometry.n_reach).within(frame).area();
+    }
+    return now > 0 ? deeper / now - 1 : 0;
 }
 
 /// Doubles the halo of all marked blocks that do not have the whole box yet. Ranks whose halo must

@@ -94,8 +94,8 @@ def gas_of(case):
 
 
 def event_plan(case, counts):
-    """Blocks look a reach further if ranks wait longer for repeated runs than that costs (Caution in
-    src/event_driven/block_window.hpp).
+    """Blocks look a reach further if ranks wait longer for repeated runs than that costs
+    (Caution in src/event_driven/block_window.hpp).
     """
     plan, deeper = (plan_with_halo(case, counts, halo) for halo in (3, 4))
     if waited_in(case, plan) <= sum(deeper.first) / sum(plan.first) - 1:
