@@ -5,8 +5,8 @@
 //
 // A run does not know what happens beyond its halo, so its result may be wrong. Therefore it also
 // reports the event histories of the ring, which are the discs within one reach of its own cells.
-// The result is right if the owners of these discs have found the same histories, and if own discs
-// have collided with no disc from beyond the ring.
+// The result is right if own discs have collided with no disc from beyond the ring, and if the
+// owners of those discs of it that can have met an own disc have found the same histories.
 //
 // The run works on copies in the order of cells, 64 bytes and four floats a disc, so that they stay
 // in the L2 cache. Most pairs are rejected in single precision, many at a time. The predicate in

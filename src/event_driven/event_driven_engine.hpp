@@ -5,10 +5,10 @@
 //   redistribute  discs go to the ranks that own them, the halo comes from the neighbours, and
 //                 all are sorted into cells; the own cells are cut into blocks
 //   run           a free thread runs each block with its halo, without the other blocks
-//   validate      the histories of each block's ring are compared with those that the owners
-//                 found; own discs may have met no disc from beyond the ring, and none may have
-//                 got too far; otherwise the blocks that differ run again with twice the halo,
-//                 in the end with the whole box (rollback)
+//   validate      the histories of those discs of each block's ring that can have met an own disc
+//                 are compared with those that their owners found; own discs may have met no disc
+//                 from beyond the ring, and none may have got too far; otherwise the blocks that
+//                 differ run again with twice the halo, in the end with the whole box (rollback)
 //   commit        the discs that were hit get their new states
 //
 // A rollback costs only the repeated run, because no state changes before the commit. A single run
