@@ -84,10 +84,10 @@ private:
     };
     /// The state of a thread while it brings its share of the places into order.
     struct Carrier {
-        std::vector<DiscState> passed;     ///< a ring with the discs of the places just passed
-        std::vector<DiscState> travellers; ///< discs that come from afar, set aside beforehand
-        std::vector<LocalIndex> arrivals;  ///< their new places, ascending, with an end
-        std::vector<LocalIndex> sent;      ///< new places of travellers that leave, in no order
+        DiscStates passed;                ///< a ring with the discs of the places just passed
+        DiscStates travellers;            ///< discs that come from afar, set aside beforehand
+        std::vector<LocalIndex> arrivals; ///< their new places, ascending, with an end
+        std::vector<LocalIndex> sent;     ///< new places of travellers that leave, in no order
     };
 
     void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);

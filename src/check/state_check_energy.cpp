@@ -261,7 +261,7 @@ double StateCheck::energy_left() const {
 double StateCheck::energy_of(std::span<const DiscState> own) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
-    std::vector<DiscState> seen;
+    DiscStates seen;
     std::vector<double> spins;
     if (scene_.effects.are_any()) {
         for (const Known& known : known_) {

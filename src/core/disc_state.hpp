@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "core/raw_vector.hpp"
+
 #ifdef __FAST_MATH__
 #error "-ffast-math changes results from one compiler to the next; build Carrom without it"
 #endif
@@ -53,6 +55,10 @@ struct alignas(64) DiscState {
     }
 };
 static_assert(sizeof(DiscState) == 64);
+
+/// Many states. Growing it writes nothing: whoever resizes writes every new state, or gives a value
+/// to fill with.
+using DiscStates = RawVector<DiscState>;
 
 inline double squared_speed_of(const DiscState& disc) {
     return disc.vx * disc.vx + disc.vy * disc.vy;

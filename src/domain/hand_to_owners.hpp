@@ -13,9 +13,9 @@ namespace carrom {
 /// Moves each value to the rank `owner_of(place)`, which may read the value: it still stands in its
 /// place then. Values go in rounds, and what comes takes the places of what has left. With all at
 /// once, every rank would need the memory of its discs two or three times. **Collective.**
-template <Message T, class Owner>
-void hand_to_owners(const Communicator& communicator, std::vector<T>& values,
-                    const Owner& owner_of) {
+template <class Values, class Owner>
+void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {
+    using T = typename Values::value_type;
     constexpr std::size_t n_rounds = 32;
     const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
     std::vector<T> waiting; // for a place: where more has come than left

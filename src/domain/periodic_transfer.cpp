@@ -193,7 +193,7 @@ TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<cons
     return plan;
 }
 
-void append_images(const TransferPlan& plan, std::vector<DiscState>& values, int n_threads) {
+void append_images(const TransferPlan& plan, DiscStates& values, int n_threads) {
     for (std::size_t k = 0; k < plan.partners.size(); ++k) {
         const std::size_t first = values.size(), n = plan.leaving[k].size();
         values.resize(first + n);
@@ -204,8 +204,8 @@ void append_images(const TransferPlan& plan, std::vector<DiscState>& values, int
 }
 
 std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
-                                         const std::vector<DiscState>& values,
-                                         std::vector<DiscState>& arrived, int n_threads) {
+                                         const DiscStates& values, DiscStates& arrived,
+                                         int n_threads) {
     return transfer_packed(exchange, plan, values, arrived, n_threads,
                            [&plan](const DiscState& disc, std::size_t k, std::size_t i) {
                                return as_image(disc, plan.images[k][i]);

@@ -66,9 +66,9 @@ Domains first_domains(const Communicator& communicator, const Box& box, const Do
 
 } // namespace
 
-StripDiscs::StripDiscs(const Communicator& communicator, const Box& box,
-                       std::vector<DiscState> discs, const Periods& periods, SideColumns columns,
-                       int n_threads, const GroupChoice& choice)
+StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, DiscStates discs,
+                       const Periods& periods, SideColumns columns, int n_threads,
+                       const GroupChoice& choice)
     : communicator_(communicator), n_threads_(n_threads), box_(box), periods_(periods),
       n_total_(communicator.sum(std::uint64_t{discs.size()})), n_with_departed_(n_total_),
       group_sizes_(group_sizes(box, periods, communicator.size(), n_total_, choice)),
@@ -126,7 +126,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-void StripDiscs::migrate(double time, double farthest, std::vector<DiscState>* companion) {
+void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     forget_halo();
     if (companion) companion->resize(n_own_);
     if (periods_.are_any()) set_home_images(time, farthest, companion);
@@ -142,8 +142,8 @@ void StripDiscs::migrate(double time, double farthest, std::vector<DiscState>* c
 }
 
 /// Sends the values of the discs that leave, and appends those of the discs that come.
-template <Message T> void StripDiscs::move_along(const TransferPlan& plan, std::vector<T>& values) {
-    std::vector<T> arrived;
+template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Values& values) {
+    Values arrived;
     transfer(exchange_, plan, values, arrived, n_threads_);
     remove_leaving(plan, values);
     values.insert(values.end(), arrived.begin(), arrived.end());
@@ -169,7 +169,7 @@ std::vector<PlaceRange> StripDiscs::places_outside(const Inside& inner) const {
     return places;
 }
 
-Companions StripDiscs::companions(std::vector<DiscState>* states) {
+Companions StripDiscs::companions(DiscStates* states) {
     forget_halo();
     Companions with;
     if (states) with.states = std::span(*states).first(n_own_);
@@ -178,7 +178,7 @@ Companions StripDiscs::companions(std::vector<DiscState>* states) {
 }
 
 void StripDiscs::sort(const GridGeometry& geometry, double anchor, double time, double duration,
-                      std::vector<DiscState>* companion) {
+                      DiscStates* companion) {
     const Companions with = companions(companion);
     grid_.sort(own(), geometry, anchor, time, duration, n_threads_, periods_, with);
     is_sorted_ = true;
@@ -198,7 +198,7 @@ void StripDiscs::drop_grid() {
 /// A disc's companion stands for the same image, wherever the disc's own state takes
 /// it. Discs far from all sides at the time of sorting still have the right image.
 /// This holds because no frame may jump along a periodic axis (scene/rules.cpp).
-void StripDiscs::set_home_images(double time, double farthest, std::vector<DiscState>* companion) {
+void StripDiscs::set_home_images(double time, double farthest, DiscStates* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
                        inside.y_high - farthest};
@@ -241,7 +241,7 @@ void StripDiscs::forget_images() {
     has_images_ = false;
 }
 
-void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* companion) {
+void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {
     if (has_no_halo()) return;
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 0;
@@ -250,7 +250,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
     halo_plan_ = plan_of_halo(time, {reach});
     other_partners_ = halo_plan_.partners;
     std::erase(other_partners_, communicator_.rank());
-    for (std::vector<DiscState>* values : {&discs_, companion}) {
+    for (DiscStates* values : {&discs_, companion}) {
         if (!values) continue;
         if (communicator_.size() == 1) {
             append_images(halo_plan_, *values, n_threads_);
@@ -263,6 +263,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<DiscState>* c
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     for (std::size_t& offset : halo_offsets_) offset += n_own_;
+    is_shown_.reserve(discs_.capacity()); // so that it grows as rarely as they do
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 1;

@@ -46,26 +46,26 @@ public:
     /// In a periodic box own discs get the images in the box when they migrate, and
     /// the halo has images of own discs, too. `columns` run along the discs; missing
     /// numbers are 0. **Collective.**
-    StripDiscs(const Communicator& communicator, const Box& box, std::vector<DiscState> discs,
+    StripDiscs(const Communicator& communicator, const Box& box, DiscStates discs,
                const Periods& periods, SideColumns columns, int n_threads,
                const GroupChoice& choice);
 
     /// Forgets the halo and sends each own disc to the rank whose domain holds it at `time`. No
     /// disc has moved by more than `farthest` since the last migration. `companion` runs along the
     /// own discs, or is null. **Collective.**
-    void migrate(double time, double farthest, std::vector<DiscState>* companion);
+    void migrate(double time, double farthest, DiscStates* companion);
 
     /// Brings the own discs, and all arrays along them, into the order of their cells
     /// at `anchor` (CellGrid::sort), without a halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
-              std::vector<DiscState>* companion);
+              DiscStates* companion);
     /// Sorts into cells without flights.
     void sort_cells(const GridGeometry& geometry, double time);
 
     /// Appends to the own discs those of other ranks within `reach` of the own domain at `time`,
     /// and puts them into cells. The own discs have migrated and been sorted for the same time.
     /// **Collective.**
-    void fetch_halo(double time, double reach, std::vector<DiscState>* companion);
+    void fetch_halo(double time, double reach, DiscStates* companion);
 
     /// Adds the discs within `reach` to the halos of those ranks that `want` it. Their halos hold
     /// the discs within `beyond` already, which keep their places. Until discs are sorted again,
@@ -101,7 +101,7 @@ public:
     CellGrid& grid() { return grid_; }
     /// Frees the memory of the cells.
     void drop_grid();
-    std::vector<DiscState>& all() { return discs_; }
+    DiscStates& all() { return discs_; }
     std::span<const DiscState> own() const { return std::span(discs_).first(n_own_); }
     std::span<DiscState> own() { return std::span(discs_).first(n_own_); }
     /// Along all discs, own and halo.
@@ -157,8 +157,8 @@ private:
         std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
     };
 
-    template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
-    void set_home_images(double time, double farthest, std::vector<DiscState>* companion);
+    template <class Values> void move_along(const TransferPlan& plan, Values& values);
+    void set_home_images(double time, double farthest, DiscStates* companion);
     TransferPlan migration_plan(double time, double farthest) const;
     template <class Visit> void weigh(const RankWork& work, double unit, const Visit& visit) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
@@ -166,7 +166,7 @@ private:
     TransferPlan plan_of_halo(double time, const HaloDepth& depth) const;
     void report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
                      std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
-    Companions companions(std::vector<DiscState>* states);
+    Companions companions(DiscStates* states);
 
     /// A disc's new state, and its place in the neighbour's halo.
     struct Update {
@@ -181,13 +181,13 @@ private:
     int n_threads_;
     Box box_;
     Periods periods_;
-    std::vector<DiscState> discs_; ///< own, then halo
-    SideColumns columns_;          ///< along `discs_`
+    DiscStates discs_;    ///< own, then halo
+    SideColumns columns_; ///< along `discs_`
     std::size_t n_own_ = 0;
     std::uint64_t n_total_, n_with_departed_;
-    std::vector<DiscState> departed_; ///< discs at the places where they have left
-    SideColumns departed_columns_;    ///< along `departed_`
-    std::vector<int> group_sizes_;    ///< by strip
+    DiscStates departed_;          ///< discs at the places where they have left
+    SideColumns departed_columns_; ///< along `departed_`
+    std::vector<int> group_sizes_; ///< by strip
     Domains domains_,
         redistributed_domains_; ///< the cuts now, and those of the last migration
     NeighbourExchange exchange_;

@@ -81,7 +81,7 @@ std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPla
 #define CARROM_DEFINE(Values)                                                                      \
     template std::vector<std::size_t> transfer(NeighbourExchange&, const TransferPlan&,            \
                                                const Values&, Values&, int);
-CARROM_DEFINE(std::vector<DiscState>)
+CARROM_DEFINE(DiscStates)
 CARROM_DEFINE(std::vector<double>)
 CARROM_DEFINE(RawVector<std::uint64_t>)
 #undef CARROM_DEFINE

@@ -87,14 +87,14 @@ std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPla
 
 /// Sends discs as the images that the plan names. **Collective.**
 std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
-                                         const std::vector<DiscState>& values,
-                                         std::vector<DiscState>& arrived, int n_threads);
+                                         const DiscStates& values, DiscStates& arrived,
+                                         int n_threads);
 
 /// Appends the images that a rank without others sends to itself.
-void append_images(const TransferPlan& plan, std::vector<DiscState>& values, int n_threads);
+void append_images(const TransferPlan& plan, DiscStates& values, int n_threads);
 
 /// Removes the discs that have left, and fills the gaps from the end.
-template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {
+template <class Values> void remove_leaving(const TransferPlan& plan, Values& values) {
     std::vector<LocalIndex> all;
     for (const std::vector<LocalIndex>& leaving : plan.leaving)
         all.insert(all.end(), leaving.begin(), leaving.end());

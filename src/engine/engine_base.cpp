@@ -165,7 +165,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
 /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
 template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     discs_.forget_halo();
-    std::vector<DiscState>& discs = discs_.all();
+    DiscStates& discs = discs_.all();
     const auto n = static_cast<std::int64_t>(discs.size());
     const bool frame_moves = dynamics_.frame_at(time_).is_moving;
     const FlightIntegral flight = flight_integral();

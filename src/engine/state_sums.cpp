@@ -46,8 +46,7 @@ void measure_departures(std::span<const DiscState> own, const Box& box,
 }
 
 std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
-                                        const Extent& box, double time,
-                                        std::vector<DiscState>& kept) {
+                                        const Extent& box, double time, DiscStates& kept) {
     if (!effects.have_open_boundaries()) return discs;
     std::copy_if(discs.begin(), discs.end(), std::back_inserter(kept), [&](const DiscState& disc) {
         const double x = disc.x_at(time), y = disc.y_at(time);

@@ -32,8 +32,7 @@ void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_
 /// Returns the discs themselves, or, if `effects` open sides, copies in `kept` of
 /// those whose centres are in the box at `time`.
 std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
-                                        const Extent& box, double time,
-                                        std::vector<DiscState>& kept);
+                                        const Extent& box, double time, DiscStates& kept);
 
 /// Fills in the energy of spins; moments of inertia are `inertia` m r^2. **Collective.**
 void measure_rotation(std::span<const DiscState> own, std::span<const double> spins,

@@ -13,7 +13,7 @@ namespace carrom {
 /// Discs as they are stored at the end of a step: velocities per micro-step, times since the last
 /// sync. `micro_steps_done` counts from the scene's start.
 struct StoredState {
-    std::vector<DiscState> discs;
+    DiscStates discs;
     std::int64_t micro_steps_done = 0;
     SideColumns columns{}; ///< along the discs; missing numbers are 0
     /// What effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.

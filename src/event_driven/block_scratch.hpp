@@ -338,7 +338,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::size_t cell_rows = 0;              ///< entries of `cell_starts` for a column
     std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
-    std::vector<DiscState> discs;
+    DiscStates discs;
     SideColumns columns = side_columns_of<Dynamics>();
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;

@@ -87,8 +87,8 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
 
 struct Checkpoint {
     CheckpointHeader header;
-    std::vector<DiscState> discs; ///< this rank's share of the ids, see slabs.hpp
-    SideColumns columns;          ///< along the discs
+    DiscStates discs;    ///< this rank's share of the ids, see slabs.hpp
+    SideColumns columns; ///< along the discs
     StoredSamples samples;
 };
 

@@ -239,8 +239,8 @@ private:
 };
 
 /// Unpacks some discs at a time, so that they stay in cache. Throws FileError.
-std::vector<DiscState> read_discs(const WholeFile& file, const Slab& share) {
-    std::vector<DiscState> discs(share.size());
+DiscStates read_discs(const WholeFile& file, const Slab& share) {
+    DiscStates discs(share.size(), DiscState{});
     std::vector<std::uint64_t> numbers(std::min(rows_per_piece, share.size()));
     for (std::uint64_t begin = 0; begin < share.size(); begin += rows_per_piece) {
         const auto wanted = std::span(numbers).first(

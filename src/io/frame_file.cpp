@@ -289,7 +289,7 @@ void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) c
     const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();
     const double clock = header.clock(), unit = static_cast<double>(header.micro_steps);
-    std::vector<DiscState> discs(end - begin);
+    DiscStates discs(end - begin, DiscState{});
     std::vector<std::uint64_t> bits(discs.size());
     for (const StateColumn& column : disc_columns) {
         const h5::Dataset dataset = h5::open_checked(file, path_of(column),

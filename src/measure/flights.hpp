@@ -43,7 +43,7 @@ private:
     std::vector<std::array<double, 2>> first_places_; ///< for this rank's run of ids
     std::vector<std::array<double, 2>> first_velocities_;
     std::optional<ImageCounts> lengths_; ///< since the beginning, in a periodic box
-    std::vector<DiscState> flown_;
+    DiscStates flown_;
 };
 
 } // namespace carrom

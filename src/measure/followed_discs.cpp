@@ -25,8 +25,7 @@ void FollowedDiscs::begin() {
 
 const FollowedStates& FollowedDiscs::now() {
     const double time = run_.system.clock(), unit = run_.system.velocity_unit();
-    const std::vector<DiscState> flown = lengths_ ? flown_on(run_.system)
-                                                  : std::vector<DiscState>{};
+    const DiscStates flown = lengths_ ? flown_on(run_.system) : DiscStates{};
     const std::span<const DiscState> discs = lengths_ ? std::span<const DiscState>(flown)
                                                       : run_.system.shown();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()

@@ -9,10 +9,10 @@
 
 namespace carrom {
 
-std::vector<DiscState> flown_on(const DiscSystem& system) {
+DiscStates flown_on(const DiscSystem& system) {
     Frame frame = system.frame();
     frame.periods = {};
-    std::vector<DiscState> discs;
+    DiscStates discs;
     discs.reserve(system.discs().size());
     for (const DiscState& disc : system.discs())
         discs.push_back(frame.in_box(disc, system.clock()));
@@ -63,7 +63,7 @@ void ImageCounts::store(std::vector<FirstPlace>& places, double FirstPlace::* x,
 std::vector<DiscImage> ImageCounts::now() {
     static_cast<void>(counts());
     std::vector<DiscImage> images = counts_;
-    const std::vector<DiscState> flown = flown_on(system_);
+    const DiscStates flown = flown_on(system_);
     const std::span<const DiscState> shown = system_.shown();
     std::vector<Crossing> in_flight;
     for (std::size_t i = 0; i < flown.size(); ++i)

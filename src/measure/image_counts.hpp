@@ -18,7 +18,7 @@
 namespace carrom {
 
 /// The own discs where they would be if no sync had brought them back since the last one.
-std::vector<DiscState> flown_on(const DiscSystem& system);
+DiscStates flown_on(const DiscSystem& system);
 
 class ImageCounts {
 public:

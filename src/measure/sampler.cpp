@@ -111,7 +111,7 @@ void Sampler::sample(std::int64_t step) {
     state.n_discs = run_.ranks.sum(std::uint64_t{state.shown.size()});
     state.box = extent_at(scene.effects, scene.box, static_cast<double>(step));
     state.is_first = run_.counts.n_samples == 0;
-    std::vector<DiscState> kept;
+    DiscStates kept;
     state.inside = discs_in_box(state.shown, scene.effects, state.box, run_.system.clock(), kept);
     run_.counts.n_discs += run_.ranks.sum(std::uint64_t{state.inside.size()});
     run_.counts.area += (state.box.x_high - state.box.x_low) * (state.box.y_high - state.box.y_low);

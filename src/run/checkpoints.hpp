@@ -54,7 +54,7 @@ public:
 private:
     struct Copy {
         CheckpointHeader header;
-        std::vector<DiscState> discs;
+        DiscStates discs;
         SideColumns columns;
         StoredSamples samples;
     };

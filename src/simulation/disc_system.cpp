@@ -51,7 +51,7 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
     for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap shrinks
         for (const InputDisc& input : parts.back()) {
-            DiscState& disc = state.discs.emplace_back();
+            DiscState& disc = state.discs.emplace_back(DiscState{});
             disc.id = input.id;
             disc.x = input.x;
             disc.y = input.y;

@@ -157,8 +157,8 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
-    mutable std::vector<DiscState> shown_;  ///< under gravity
-    mutable std::vector<DiscState> stored_; ///< once discs have left the box
+    mutable DiscStates shown_;              ///< under gravity
+    mutable DiscStates stored_;             ///< once discs have left the box
     mutable SideColumns stored_columns_;    ///< once discs have left the box
     std::vector<Collision>* log_ = nullptr; ///< the user's log, while the check has its own
 };

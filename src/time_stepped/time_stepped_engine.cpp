@@ -246,7 +246,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::strike_taken(Candida
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& window, int m) {
-    std::vector<DiscState>& results = in_parts_ ? outcomes_ : discs_.all();
+    DiscStates& results = in_parts_ ? outcomes_ : discs_.all();
     {
         const PhaseClock::Scope scope(phases_, Phase::move);
         if (this->is_followed()) note_velocities(results);
@@ -263,8 +263,9 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
 }
 
 template <class Dynamics>
-[[gnu::always_inline]] inline void TimeSteppedEngine<Dynamics>::prefetch(
-    const Candidate& candidate, const std::vector<DiscState>& results, bool is_last) const {
+[[gnu::always_inline]] inline void TimeSteppedEngine<Dynamics>::prefetch(const Candidate& candidate,
+                                                                         const DiscStates& results,
+                                                                         bool is_last) const {
     for (const LocalIndex index : {candidate.p, candidate.q}) {
         if (index == wall_index) continue;
         __builtin_prefetch(&results[index], 1);
@@ -275,9 +276,10 @@ template <class Dynamics>
 /// Returns the square of the largest speed afterwards; mirror walls do not change it. If
 /// two ranks carry out the collision, the owner of the first disc adds it to the sums.
 template <class Dynamics>
-[[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
-    const Candidate& c, int m, std::vector<DiscState>& results, StressTerms& terms,
-    StressSums& stress) {
+[[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(const Candidate& c, int m,
+                                                                          DiscStates& results,
+                                                                          StressTerms& terms,
+                                                                          StressSums& stress) {
     DiscState& p = results[c.p];
     const bool is_summed = this->stress_ && c.p < discs_.n_own();
     if (c.is_wall()) {
@@ -316,8 +318,7 @@ template <class Dynamics>
 /// Carries out the kept candidates and returns the largest speed afterwards. Notes the
 /// discs for another search, unless the window ends here.
 template <class Dynamics>
-double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
-                                                std::vector<DiscState>& results) {
+double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m, DiscStates& results) {
     constexpr std::int64_t prefetch_distance = 16;
     const bool is_last = m + 1 >= window.end_micro();
     const Candidates& kept = verdicts_.kept;

@@ -54,17 +54,16 @@ private:
     void agree_on_speed();
     void migrate_at(double time);
     void sort(const Window& window, double reach, double usual_reach);
-    std::vector<DiscState>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
+    DiscStates* companion() { return in_parts_ ? &outcomes_ : nullptr; }
 
     bool run_micro_step(const Window& window, int m);
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(Candidates& live) const;
     void apply(const Window& window, int m);
-    double collide_all(const Window& window, int m, std::vector<DiscState>& results);
-    double collide(const Candidate& candidate, int m, std::vector<DiscState>& results,
-                   StressTerms& terms, StressSums& stress);
-    void prefetch(const Candidate& candidate, const std::vector<DiscState>& results,
-                  bool is_last) const;
+    double collide_all(const Window& window, int m, DiscStates& results);
+    double collide(const Candidate& candidate, int m, DiscStates& results, StressTerms& terms,
+                   StressSums& stress);
+    void prefetch(const Candidate& candidate, const DiscStates& results, bool is_last) const;
     void update_flight(LocalIndex index, const DiscState& disc) {
         if constexpr (Dynamics::is_periodic)
             discs_.grid().update_flight_of_image(index, disc);
@@ -80,8 +79,7 @@ private:
     void note_velocities(std::span<const DiscState> results);
     void log_collisions(std::span<const DiscState> results, int m);
 
-    std::vector<DiscState>
-        outcomes_;               ///< runs along discs_.all() while a micro-step is cut into parts
+    DiscStates outcomes_;        ///< runs along discs_.all() while a micro-step is cut into parts
     bool in_parts_ = false;      ///< whether the present micro-step is cut
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
 
@@ -101,10 +99,9 @@ private:
     Verdicts verdicts_;
     RawVector<LocalIndex> hits_;
     std::vector<LocalIndex> updates_;
-    std::vector<DiscState>
-        unhit_; ///< for the log: the first disc of each kept candidate, before it
-    std::vector<DiscState> unhit_partners_; ///< second discs before it, if pairs are noted
-    RawVector<WindowState> states_;         ///< by disc
+    DiscStates unhit_;          ///< for the log: the first disc of each kept candidate, before it
+    DiscStates unhit_partners_; ///< second discs before it, if pairs are noted
+    RawVector<WindowState> states_; ///< by disc
 
     // Candidates whose first disc is own.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;

@@ -56,8 +56,8 @@ struct Job {
     int halo = 0, across = 0;
     Crowd crowd = Crowd::none;
     std::vector<Tally> tallies{};
-    std::vector<InputDisc> inputs{};             ///< of all ranks, which share this memory
-    std::vector<std::vector<DiscState>> dealt{}; ///< by the rank whose strip they begin in
+    std::vector<InputDisc> inputs{}; ///< of all ranks, which share this memory
+    std::vector<DiscStates> dealt{}; ///< by the rank whose strip they begin in
 
     /// Steps that are not counted: from a lattice to a gas, or until cuts have followed the crowd.
     std::int64_t n_first() const { return crowd == Crowd::none ? 32 : 256; }
@@ -74,8 +74,7 @@ SceneParameters gas(const Job& job) {
 
 /// The discs that begin in this rank's strip. They get there through memory, because a run's start
 /// is not what is counted. **Collective.**
-std::vector<DiscState> discs_of(Job& job, std::size_t rank, SceneParameters& scene,
-                                const Communicator& world) {
+DiscStates discs_of(Job& job, std::size_t rank, SceneParameters& scene, const Communicator& world) {
     const std::vector<InputDisc> share = initial_state(scene, nullptr, world);
     job.inputs.insert(job.inputs.end(), share.begin(), share.end());
     world.barrier();

@@ -30,7 +30,7 @@ public:
 
     void sample(const SampledState& state) override {
         std::vector<DensityModes> modes;
-        for (const std::vector<DiscState>& discs : by_species(state.shown))
+        for (const DiscStates& discs : by_species(state.shown))
             modes.push_back(waves_.modes(run_, discs));
         std::vector<double> now;
         for (std::size_t b = 0; b < n_species_; ++b) {
@@ -74,8 +74,8 @@ public:
     }
 
 private:
-    std::vector<std::vector<DiscState>> by_species(std::span<const DiscState> discs) const {
-        std::vector<std::vector<DiscState>> all(n_species_);
+    std::vector<DiscStates> by_species(std::span<const DiscState> discs) const {
+        std::vector<DiscStates> all(n_species_);
         for (const DiscState& disc : discs) {
             std::size_t species = 0;
             for (DiscId end = count_of(0); disc.id >= end; end += count_of(species)) ++species;

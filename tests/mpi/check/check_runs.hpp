@@ -26,8 +26,8 @@ namespace carrom::test {
 
 inline constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-inline std::vector<DiscState> share_of(const TestScene& scene, const Communicator& world) {
-    std::vector<DiscState> mine;
+inline DiscStates share_of(const TestScene& scene, const Communicator& world) {
+    DiscStates mine;
     for (const DiscState& disc : reference::stored_states(scene.setting, scene.discs)) {
         if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
             mine.push_back(disc);

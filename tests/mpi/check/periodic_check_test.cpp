@@ -53,9 +53,9 @@ StateHash hash_after(const TestScene& test, Method method, bool is_checked,
 /// there.
 std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
     const SceneParameters scene = scene_of(test, Method::time_stepped);
-    std::vector<DiscState> before, now;
+    DiscStates before, now;
     for (const InputDisc& input : share_of(test.discs, world)) {
-        DiscState& disc = before.emplace_back();
+        DiscState& disc = before.emplace_back(DiscState{});
         disc.id = input.id;
         disc.x = input.x, disc.y = input.y, disc.vx = input.vx;
         now.push_back(disc);

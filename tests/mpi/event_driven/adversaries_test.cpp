@@ -6,8 +6,6 @@
 #include <string>
 
 #include "catch.hpp"
-#include <omp.h>
-
 #include "event_driven_runs.hpp"
 #include "scene_tools.hpp"
 #include "shape_parts.hpp"
@@ -117,15 +115,6 @@ std::vector<TestScene> adversaries() {
                                      break_shot(20, 0.5, 15, 0.2)};
     for (std::uint64_t seed = 1; seed <= 12; ++seed) scenes.push_back(struck_lines(seed));
     return scenes;
-}
-
-Shape small_blocks(double window, int halo, double side) {
-    Shape shape;
-    shape.tuning.threads = omp_get_max_threads();
-    shape.tuning.window = window;
-    shape.exact.halo = halo;
-    shape.exact.block_side = side;
-    return shape;
 }
 
 } // namespace

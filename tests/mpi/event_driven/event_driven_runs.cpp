@@ -59,10 +59,9 @@ EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
     return expected;
 }
 
-std::vector<DiscState> dealt_discs(const TestScene& scene, const Communicator& world,
-                                   unsigned seed) {
+DiscStates dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed) {
     std::mt19937 random(seed);
-    std::vector<DiscState> mine;
+    DiscStates mine;
     for (const DiscState& disc : reference::stored_states(scene.setting, scene.discs)) {
         if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
             mine.push_back(disc);
@@ -96,6 +95,16 @@ Shape shape_number(std::size_t number, double diameter_time) {
     shape.exact.speed_allowance = number % 7 == 3 ? 1.001 : 1.2;
     shape.tuning.rebalance_above = rebalances[number / 3 % std::size(rebalances)];
     shape.tuning.ranks_across = 1 + static_cast<int>(number % 3);
+    return shape;
+}
+
+Shape small_blocks(double window, int halo, double side) {
+    Shape shape;
+    shape.tuning.threads = omp_get_max_threads();
+    shape.tuning.discs_per_thread = 1;
+    shape.tuning.window = window;
+    shape.exact.halo = halo;
+    shape.exact.block_side = side;
     return shape;
 }
 

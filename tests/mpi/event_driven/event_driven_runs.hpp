@@ -35,13 +35,15 @@ struct Shape {
 /// combinations.
 Shape shape_number(std::size_t number, double diameter_time);
 
+/// Windows of `window` micro-steps, and blocks of `side` reaches that look `halo` reaches further.
+Shape small_blocks(double window, int halo, double side);
+
 /// A run from arbitrary shares of the discs, in an arbitrary order. **Collective.**
 EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape,
                                    const Communicator& world, unsigned seed);
 
 /// The share of rank `world.rank()` when discs are dealt at random.
-std::vector<DiscState> dealt_discs(const TestScene& scene, const Communicator& world,
-                                   unsigned seed);
+DiscStates dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed);
 
 /// The time in which the fastest disc goes one diameter, in micro-steps; a 60th of the run if that
 /// is longer.

@@ -7,8 +7,6 @@
 #include <string>
 
 #include "catch.hpp"
-#include <omp.h>
-
 #include "core/state_hash.hpp"
 #include "event_driven.hpp"
 #include "event_driven_runs.hpp"
@@ -48,12 +46,7 @@ TestScene hot_floor(std::uint64_t seed) {
 }
 
 StateHash hash_by_engine(const TestScene& scene, const Communicator& world) {
-    Shape shape;
-    shape.tuning.threads = omp_get_max_threads();
-    shape.tuning.discs_per_thread = 1;
-    shape.tuning.window = 1.5;
-    shape.exact.halo = 2;
-    shape.exact.block_side = 3;
+    const Shape shape = small_blocks(1.5, 2, 3);
     EventDrivenEngine<InelasticDynamics> engine(scene_of(scene), {dealt_discs(scene, world, 7), 0},
                                                 world, shape.tuning, shape.exact);
     while (engine.micro_steps_done() < scene.steps) engine.advance_towards(scene.steps);

@@ -8,8 +8,6 @@
 #include <string>
 
 #include "catch.hpp"
-#include <omp.h>
-
 #include "event_driven_runs.hpp"
 #include "scene_tools.hpp"
 
@@ -58,12 +56,7 @@ TEST_CASE("exact: discs of the ring that are wrong count if they can meet an own
         TestScene scene = rows_that_meet(seed);
         const EventDrivenResult expected = expected_of(scene, world, 3000000);
         CHECK(expected.pair_collisions > 0);
-        Shape shape;
-        shape.tuning.threads = omp_get_max_threads();
-        shape.tuning.discs_per_thread = 1;
-        shape.tuning.window = 1;
-        shape.exact.halo = 1;
-        shape.exact.block_side = 1;
+        const Shape shape = small_blocks(1, 1, 1);
         INFO(scene.name);
         CHECK(run_event_driven(scene, shape, world, 1) == expected);
     }

@@ -14,8 +14,6 @@
 #include <vector>
 
 #include "catch.hpp"
-#include <omp.h>
-
 #include "event_driven.hpp"
 #include "event_driven_runs.hpp"
 #include "scene_tools.hpp"
@@ -154,12 +152,7 @@ TestScene random_rows(std::uint64_t seed) {
 
 /// A run of the engine that searches `halo` reaches around blocks of `side` reaches.
 EventDrivenResult by_engine(const TestScene& scene, int halo, double side) {
-    Shape shape;
-    shape.tuning.threads = omp_get_max_threads();
-    shape.tuning.discs_per_thread = 1;
-    shape.tuning.window = 1;
-    shape.exact.halo = halo;
-    shape.exact.block_side = side;
+    const Shape shape = small_blocks(1, halo, side);
     return run_event_driven(scene, shape, Communicator::world(), 1);
 }
 
