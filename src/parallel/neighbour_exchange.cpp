@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/raw_vector.hpp"
 #include "parallel/handle.hpp"
 
 namespace carrom {
@@ -47,7 +48,7 @@ struct NeighbourExchange::State {
     std::uint64_t n_begun = 0;
     std::vector<int> neighbours;
     std::vector<std::span<const std::byte>> parcels;
-    std::vector<std::byte> firsts; ///< the first messages to receive, then those to send
+    RawVector<std::byte> firsts; ///< the first messages to receive, then those to send
     std::vector<std::size_t> offsets;
     Requests receives, sends;
 };

@@ -40,6 +40,15 @@ bool is_shared(const Candidate& c, const Population& population) {
     return c.p >= population.n_own || (!c.is_wall() && c.q >= population.n_own);
 }
 
+void insert(const Candidate& c, DiscSet& set) {
+    set.insert(c.p);
+    if (!c.is_wall()) set.insert(c.q);
+}
+
+bool has_disc_of(const Candidate& c, const DiscSet& set) {
+    return set.contains(c.p) || (!c.is_wall() && set.contains(c.q));
+}
+
 } // namespace
 
 void BoundaryResolution::resolve_boundary(const Population& population,
@@ -63,7 +72,7 @@ void BoundaryResolution::resolve_boundary(const Population& population,
               [](const Statement& a, const Statement& b) { return a.key() < b.key(); });
 
     std::vector<std::uint8_t> is_struck(undecided.size(), 0);
-    Marks taken;
+    taken_.clear();
     for (std::size_t begin = 0, end = 0; begin < mine.size(); begin = end) {
         bool are_first = true;
         for (end = begin; end < mine.size() && mine[end].key() == mine[begin].key(); ++end)
@@ -71,14 +80,16 @@ void BoundaryResolution::resolve_boundary(const Population& population,
         const bool is_named_by_both = end - begin >= 2; // else one of the ranks has struck it
         for (std::size_t k = begin; k < end; ++k) {
             if (mine[k].is_mine == 0 || (is_named_by_both && !are_first)) continue;
-            const Candidate& c = undecided[mine[k].number];
             is_struck[mine[k].number] = 1;
-            if (!is_named_by_both) continue;
-            kept.push_back(c);
-            taken.insert({c.p, c.q});
+            if (is_named_by_both) keep(undecided[mine[k].number], kept);
         }
     }
-    walk_own(population, taken, is_struck, undecided, kept);
+    walk_own(population, is_struck, undecided, kept);
+}
+
+void BoundaryResolution::keep(const Candidate& candidate, Candidates& kept) {
+    kept.push_back(candidate);
+    insert(candidate, taken_);
 }
 
 /// Reports which of the undecided candidates, in total order, come first for all of
@@ -89,29 +100,26 @@ void BoundaryResolution::find_first(const Population& population, const Candidat
     for (const Candidate& c : undecided) {
         bool is_first = true;
         for (const LocalIndex index : {c.p, c.q})
-            if (index < population.n_own && !seen_.insert(index).second) is_first = false;
+            if (index < population.n_own && !seen_.insert(index)) is_first = false;
         is_first_.push_back(is_first ? 1 : 0);
     }
 }
 
-/// Decides what follows on this rank from the discs `taken` and the candidates struck,
+/// Decides what follows on this rank from the discs that are taken and the candidates struck,
 /// which are dropped.
-void BoundaryResolution::walk_own(const Population& population, Marks& taken,
+void BoundaryResolution::walk_own(const Population& population,
                                   const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
                                   Candidates& kept) {
     seen_.clear(); // discs that wait for another rank
     std::size_t n_left = 0;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate c = undecided[k];
-        if (is_struck[k] != 0 || taken.contains(c.p) || (!c.is_wall() && taken.contains(c.q)))
-            continue;
-        if (is_shared(c, population) || seen_.contains(c.p) ||
-            (!c.is_wall() && seen_.contains(c.q))) {
+        if (is_struck[k] != 0 || has_disc_of(c, taken_)) continue;
+        if (is_shared(c, population) || has_disc_of(c, seen_)) {
             undecided[n_left++] = c;
-            seen_.insert({c.p, c.q});
+            insert(c, seen_);
         } else {
-            kept.push_back(c);
-            taken.insert({c.p, c.q});
+            keep(c, kept);
         }
     }
     undecided.resize(n_left);

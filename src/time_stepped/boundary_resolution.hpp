@@ -15,12 +15,12 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
 #include "parallel/communicator.hpp"
 #include "parallel/neighbour_exchange.hpp"
 #include "time_stepped/candidate.hpp"
+#include "time_stepped/disc_set.hpp"
 #include "time_stepped/search.hpp"
 
 namespace carrom {
@@ -47,11 +47,10 @@ public:
 private:
     struct Conflict;
     struct Statement;
-    using Marks = std::unordered_set<LocalIndex>;
     void find_first(const Population& population, const Candidates& undecided);
-    void walk_own(const Population& population, Marks& taken,
-                  const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
-                  Candidates& kept);
+    void walk_own(const Population& population, const std::vector<std::uint8_t>& is_struck,
+                  Candidates& undecided, Candidates& kept);
+    void keep(const Candidate& candidate, Candidates& kept);
     void sort(const Population& population, Candidates& undecided, std::uint64_t n_conflicts,
               Candidates& kept);
     std::vector<Conflict> walk(const std::vector<Conflict>& slice,
@@ -60,7 +59,7 @@ private:
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
     std::vector<std::uint8_t> is_first_; ///< by undecided candidate
-    Marks seen_;
+    DiscSet seen_, taken_;
 };
 
 } // namespace carrom

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A set of discs that is filled and emptied several times a window. Emptying it costs nothing and
+// frees nothing, and there is no memory to get for each disc.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/disc_state.hpp"
+
+namespace carrom {
+
+/// Open addressing. A slot is in use if it was filled in the present round.
+class DiscSet {
+public:
+    void clear() {
+        n_ = 0;
+        if (++round_ == 0) { // slots of 2^32 rounds ago would count as used
+            slots_.assign(slots_.size(), {});
+            round_ = 1;
+        }
+    }
+
+    /// False if the disc was in the set before.
+    bool insert(LocalIndex disc) {
+        Slot& slot = slots_[place_of(disc)];
+        if (slot.round == round_) return false;
+        slot = {disc, round_};
+        if (++n_ > slots_.size() / 2) grow();
+        return true;
+    }
+
+    bool contains(LocalIndex disc) const { return slots_[place_of(disc)].round == round_; }
+
+private:
+    struct Slot {
+        LocalIndex disc = 0;
+        std::uint32_t round = 0;
+    };
+
+    /// The slot of the disc, or the free one that it would get. At least half of them are free.
+    std::size_t place_of(LocalIndex disc) const {
+        constexpr std::uint32_t golden_section = 0x9E3779B9; // of 2^32: scatters what is in a row
+        std::size_t place = disc * golden_section >> (32 - n_bits_);
+        while (slots_[place].round == round_ && slots_[place].disc != disc)
+            place = (place + 1) & (slots_.size() - 1);
+        return place;
+    }
+
+    void grow() {
+        n_bits_ += 1;
+        const std::vector<Slot> before = std::exchange(
+            slots_, std::vector<Slot>(std::size_t{1} << n_bits_));
+        for (const Slot& slot : before)
+            if (slot.round == round_) slots_[place_of(slot.disc)] = slot;
+    }
+
+    int n_bits_ = 6;
+    std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << n_bits_);
+    std::size_t n_ = 0;
+    std::uint32_t round_ = 1;
+};
+
+} // namespace carrom
