@@ -8,64 +8,16 @@
 
 #include "dynamics/obstacles.hpp"
 #include "initial_state/legacy_discs.hpp"
+#include "initial_state/listed_discs.hpp"
 #include "initial_state/random_insertion.hpp"
 #include "initial_state/velocities.hpp"
 #include "lattices/lattice.hpp"
 #include "lattices/triangular.hpp"
 #include "parallel/agreement.hpp"
-#include "parallel/exchange.hpp"
-#include "parallel/slabs.hpp"
-#include "scene/disc_reader.hpp"
 
 namespace carrom {
 
 namespace {
-
-constexpr std::size_t chunk_size = std::size_t{1} << 16;
-
-/// Sends rank 0's chunk to the ranks whose share of ids holds its discs. **Collective.**
-void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
-              const Communicator& communicator, std::vector<InputDisc>& discs) {
-    std::vector<std::vector<InputDisc>> out(static_cast<std::size_t>(communicator.size()));
-    for (const InputDisc& disc : chunk)
-        out[static_cast<std::size_t>(slab_of(disc.id, scene.n_discs, communicator.size()))]
-            .push_back(disc);
-    const Received<InputDisc> in = send_to_owners(communicator, out);
-    discs.insert(discs.end(), in.items.begin(), in.items.end());
-}
-
-DiscReader::InParts on_threads(int n_threads) {
-    return [n_threads](std::size_t n, const auto& work) {
-        const auto n_parts = static_cast<std::size_t>(n_threads);
-#pragma omp parallel for num_threads(n_threads) schedule(static)
-        for (std::size_t k = 0; k < n_parts; ++k) work(n * k / n_parts, n * (k + 1) / n_parts);
-    };
-}
-
-std::vector<InputDisc> read_discs(const SceneParameters& scene, std::istream* lines,
-                                  const Communicator& communicator, int n_threads) {
-    std::vector<InputDisc> discs, chunk;
-    std::vector<Problem> problems;
-    if (communicator.is_root()) {
-        ensure(lines != nullptr, "listed discs need a stream on rank 0");
-        DiscReader reader(*lines, scene);
-        for (bool has_more = true; has_more;) {
-            has_more = reader.read(chunk, chunk_size, on_threads(n_threads));
-            if (!communicator.any(has_more)) break;
-            hand_out(chunk, scene, communicator, discs);
-        }
-        problems = reader.problems();
-    } else {
-        while (communicator.any(false)) hand_out(chunk, scene, communicator, discs);
-    }
-    agree_on_problems(communicator, problems);
-    return discs;
-}
-
-/// The ids that this rank makes if places are functions of the id.
-Slab share_of(const SceneParameters& scene, const Communicator& communicator) {
-    return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
-}
 
 std::vector<InputDisc> listed_discs(const SceneParameters& scene,
                                     const Communicator& communicator) {
@@ -139,10 +91,11 @@ std::vector<InputDisc> legacy_discs(const SceneParameters& scene,
     }
     agree_on_problems(communicator, problems);
     std::vector<InputDisc> discs, chunk;
-    for (DiscId first = 0; first < scene.n_discs; first += chunk_size) {
+    for (DiscId first = 0; first < scene.n_discs; first += discs_at_once) {
         chunk.clear();
         if (communicator.is_root())
-            for (DiscId id = first; id < std::min<DiscId>(first + chunk_size, scene.n_discs); ++id)
+            for (DiscId id = first; id < std::min<DiscId>(first + discs_at_once, scene.n_discs);
+                 ++id)
                 chunk.push_back(legacy_disc(scene, random, id, places[id]));
         hand_out(chunk, scene, communicator, discs);
     }
@@ -177,7 +130,8 @@ std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream*
                                      const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::file) {
         std::vector<InputDisc> listed = scene.reads_disc_lines()
-                                            ? read_discs(scene, lines, communicator, n_threads)
+                                            ? read_listed_discs(scene, lines, communicator,
+                                                                n_threads)
                                             : listed_discs(scene, communicator);
         refuse_in_obstacles(scene, listed, communicator);
         return listed;

@@ -28,6 +28,10 @@ DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene)
       place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
       lines_(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
 
+DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part)
+    : scene_(scene), species_(scene.effects.species, scene.radius), place_(discs_path(scene)),
+      lines_(stream, part.is_first ? 0 : 1, part.n_bytes), are_ids_noted_(false) {}
+
 bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit, const InParts& in_parts) {
     chunk.clear();
     while (chunk.empty() && n_problems_ < most_wrong_lines && take_lines(limit)) {
@@ -139,6 +143,7 @@ std::string DiscReader::note_id(const Line& line) {
                                  most_discs() - 1)
                    : fmt::format("{} is not the id of a disc", in_quotes(words[0]));
     }
+    if (!are_ids_noted_) return "";
     const DiscId id = line.disc.id;
     if (has_seen(id)) return fmt::format("disc {} is listed twice", id);
     constexpr std::uint64_t most_without_n = std::uint64_t{1} << 27;

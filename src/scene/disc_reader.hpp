@@ -36,14 +36,26 @@ public:
     /// reader.
     DiscReader(std::istream& stream, const SceneParameters& scene);
 
+    /// The lines of a file that begin in some of its bytes.
+    struct Part {
+        bool is_first = true;
+        std::uint64_t n_bytes = 0;
+    };
+    /// Reads a part, at whose first line `stream` stands. Whether ids come once is not its matter.
+    DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part);
+
     /// Replaces `chunk` by the next discs, at most `limit`; false if none are left.
     bool read(
         std::vector<InputDisc>& chunk, std::size_t limit,
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
     /// All errors of the lines, and ids that never came. To be called after `read` has
-    /// returned false.
+    /// returned false, but not for a part: it does not know the numbers of lines.
     std::vector<Problem> problems() const;
+    /// Whether no line of a part is wrong as far as it was read.
+    bool is_flawless() const {
+        return n_problems_ == 0 && !lines_.is_endless() && !lines_.has_failed();
+    }
 
 private:
     /// A line, and what is in it whatever other lines have.
@@ -73,6 +85,7 @@ private:
     SpeciesTable species_;
     std::string place_;
     LineReader lines_;
+    bool are_ids_noted_ = true;
     std::vector<bool> seen_; ///< by id, as far as ids have come
     std::uint64_t n_seen_ = 0;
     std::vector<char> text_;

@@ -10,12 +10,12 @@ namespace {
 constexpr std::size_t block = std::size_t{1} << 18;
 }
 
-LineReader::LineReader(std::istream& stream, std::int64_t lines_before)
-    : stream_(stream), buffer_(block), line_number_(lines_before) {}
+LineReader::LineReader(std::istream& stream, std::int64_t lines_before, std::uint64_t n_bytes)
+    : stream_(stream), buffer_(block), line_number_(lines_before), bytes_left_(n_bytes) {}
 
 bool LineReader::next(std::string_view& line) {
     if (is_cut_) skip_rest_of_line();
-    if (is_endless_) return false;
+    if (is_endless_ || bytes_left_ == 0) return false;
     std::size_t searched = 0;
     for (;;) {
         const std::size_t available = end_ - begin_;
@@ -23,18 +23,23 @@ bool LineReader::next(std::string_view& line) {
         if (length < available || available > longest_line) {
             is_cut_ = length > longest_line;
             line = {buffer_.data() + begin_, std::min(length, longest_line)};
-            begin_ += is_cut_ ? longest_line : length + 1;
+            take(is_cut_ ? longest_line : length + 1);
             break;
         }
         searched = available;
         if (refill()) continue;
         if (available == 0) return false;
         line = {buffer_.data() + begin_, available}; // the last line has no end
-        begin_ = end_;
+        take(available);
         break;
     }
     line_number_ += 1;
     return true;
+}
+
+void LineReader::take(std::size_t n_bytes) {
+    begin_ += n_bytes;
+    bytes_left_ -= std::min<std::uint64_t>(n_bytes, bytes_left_);
 }
 
 /// The number of characters before the first line end in the buffer, or of all. The
@@ -52,11 +57,11 @@ void LineReader::skip_rest_of_line() {
     for (std::size_t skipped = 0; !is_endless_; is_endless_ = skipped > most_skipped) {
         const std::size_t length = find_line_end(0);
         if (length < end_ - begin_) {
-            begin_ += length + 1;
+            take(length + 1);
             return;
         }
         skipped += length;
-        begin_ = end_;
+        take(length);
         if (!refill()) return;
     }
 }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <istream>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -15,10 +16,11 @@ class LineReader {
 public:
     static constexpr std::size_t longest_line = 4096;
     static constexpr std::size_t most_skipped = std::size_t{64} << 20;
+    static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
     /// `lines_before` lines of the stream have been read before, which counts for line
-    /// numbers. The stream must outlive the reader.
-    LineReader(std::istream& stream, std::int64_t lines_before);
+    /// numbers. Lines that begin after `n_bytes` are left out. The stream must outlive the reader.
+    LineReader(std::istream& stream, std::int64_t lines_before, std::uint64_t n_bytes = no_limit);
 
     /// The next line without its end; false at the end of the stream. `line` is valid
     /// until the next call. A line longer than `longest_line` is cut there and the rest is
@@ -38,11 +40,13 @@ private:
     bool refill();
     std::size_t find_line_end(std::size_t searched) const;
     void skip_rest_of_line();
+    void take(std::size_t n_bytes);
 
     std::istream& stream_;
     std::vector<char> buffer_;
     std::size_t begin_ = 0, end_ = 0;
     std::int64_t line_number_;
+    std::uint64_t bytes_left_; ///< in which lines may begin
     bool is_cut_ = false, is_endless_ = false;
 };
 
