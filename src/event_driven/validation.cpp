@@ -117,6 +117,7 @@ bool EventDrivenEngine<Dynamics>::could_meet(const Block& block, const DiscState
     const double at_begin = std::sqrt(dynamics_.squared_speed(disc)),
                  later = window_.speed_bound * std::sqrt(fastest / speed_classes_to_bound);
     const double speeds = block.outcome.largest_speed + std::max(at_begin, later);
+    // A reach counts with two discs of the bound, of which each makes half of the sum.
     const double farthest = block_reach(window_.with_bound(speeds / 2), contact_distance(),
                                         dynamics_.box());
     return distance_from_own(block, disc) <= farthest;
@@ -130,19 +131,25 @@ double EventDrivenEngine<Dynamics>::distance_from_own(const Block& block,
     const GridGeometry& geometry = discs_.grid().geometry();
     const Domain mine = discs_.domains().of(communicator_.rank());
     const double rounding = 1e-6 * geometry.cell_width;
-    const auto away = [&](double place, double corner, const Strip& domain, int first, int end,
-                          int first_own, int end_own) {
-        const double low = first == first_own ? domain.low : corner + first * geometry.cell_width,
-                     high = end == end_own ? domain.high : corner + end * geometry.cell_width;
+    const auto away = [&](double place, double corner, const Strip& domain, double period,
+                          int first, int end, int first_own, int end_own) {
+        double low = first == first_own ? domain.low : corner + first * geometry.cell_width,
+               high = end == end_own ? domain.high : corner + end * geometry.cell_width;
+        if (period != 0) { // own discs are the images in the box
+            low = std::max(low, 0.0);
+            high = std::min(high, period);
+        }
         return std::max({low - place, place - high, rounding}) - rounding;
     };
     const auto [along, across] = turned(geometry.axis, discs_.periods().x_of(disc, window_.begin),
                                         discs_.periods().y_of(disc, window_.begin));
+    const auto [period_along, period_across] = turned(geometry.axis, discs_.periods().x,
+                                                      discs_.periods().y);
     const CellBlock& cells = block.cells;
-    return std::hypot(away(along, geometry.low, mine.along, cells.first_column, cells.end_column,
-                           own_cells_.first_column, own_cells_.end_column),
-                      away(across, geometry.across_low, mine.across, cells.first_row, cells.end_row,
-                           own_cells_.first_row, own_cells_.end_row));
+    return std::hypot(away(along, geometry.low, mine.along, period_along, cells.first_column,
+                           cells.end_column, own_cells_.first_column, own_cells_.end_column),
+                      away(across, geometry.across_low, mine.across, period_across, cells.first_row,
+                           cells.end_row, own_cells_.first_row, own_cells_.end_row));
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
