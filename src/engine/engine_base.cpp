@@ -90,26 +90,51 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
     discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
-    redistribute_now();
+    redistribute_now(0, Covered::domain); // whose cells show how discs crowd
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
     if (dynamics_.has_open_sides()) discs_.set_departed_aside();
 }
 
-template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double least_reach) {
+template <class Dynamics>
+void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered) {
     set_departed_aside();
     migrate();
     const double radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
     const double touching = reach_of(
         {dynamics_.box(), radius, static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
-    const Extent seen = discs_.extent_seen(extent(), reach);
+    Extent seen = discs_.extent_seen(extent(), reach);
+    if (covered == Covered::discs) seen = where_discs_are(seen, reach);
     const GridGeometry geometry = make_sparse_geometry(seen, discs_.domains().axis(), reach,
                                                        discs_.n_own());
     discs_.sort_cells(geometry, time_);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
     discs_.fetch_halo(time_, reach, nullptr);
+}
+
+/// The part of `seen` that own discs and their partners within `reach` are in, if it is small.
+/// What is beyond it counts to the cells at its edge.
+template <class Dynamics>
+Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) const {
+    constexpr double small = 0.25; // of the area
+    const std::span<const DiscState> discs = own();
+    if (discs.empty()) return seen;
+    Extent part = {seen.x_high, seen.x_low, seen.y_high, seen.y_low};
+    double &x_low = part.x_low, &x_high = part.x_high, &y_low = part.y_low, &y_high = part.y_high;
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static)                             \
+    reduction(min : x_low, y_low) reduction(max : x_high, y_high)
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const double x = discs[i].x_at(time_), y = discs[i].y_at(time_);
+        x_low = std::min(x_low, x);
+        x_high = std::max(x_high, x);
+        y_low = std::min(y_low, y);
+        y_high = std::max(y_high, y);
+    }
+    part = {std::max(seen.x_low, x_low - reach), std::min(seen.x_high, x_high + reach),
+            std::max(seen.y_low, y_low - reach), std::min(seen.y_high, y_high + reach)};
+    return part.size().area() < small * seen.size().area() ? part : seen;
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::refuse_long_flights(double speed) const {

@@ -62,9 +62,12 @@ protected:
 
     /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
     void distribute();
+    /// What cells cover: all that the rank sees, or the part of it where its discs are. Where they
+    /// crowd, cells of all that it sees would hold hundreds of discs each.
+    enum class Covered { domain, discs };
     /// Redistributes discs, halo and cells as they are now, for partners within a diameter or
     /// `least_reach`. No state changes. **Collective.**
-    void redistribute_now(double least_reach = 0);
+    void redistribute_now(double least_reach = 0, Covered covered = Covered::discs);
     /// Takes departed discs out of the arrays, where they stay until then. **Collective.**
     void set_departed_aside();
 
@@ -109,6 +112,7 @@ private:
     void sync();
     double restart_states();
     void wrap(DiscState& disc);
+    Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;
     std::int64_t flight_length() const;
 

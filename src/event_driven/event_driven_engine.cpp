@@ -47,12 +47,13 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     const auto threads = static_cast<double>(communicator_.max(std::int64_t{tuning_.threads}));
     if (threads > 1) n_threads_of_all_ = threads * communicator_.size();
     this->distribute();
+    learn_crowding();
+    if (mean_crowding_ > 1) this->redistribute_now(); // the cells of before hold too many discs
     // A later state is checked only if its dynamics part overlapping discs, because in other
     // dynamics the run itself may have made discs overlap.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_, scene.name);
-    learn_crowding();
     discs_.forget_images();
     phases_ = {};
 }
