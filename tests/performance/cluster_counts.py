@@ -38,7 +38,8 @@ def read_rows():
 
 def border_of(row):
     """Length of the borders of blocks in mean distances of discs."""
-    n_columns = row["ranks"] if row["across"] == 1 else math.sqrt(row["blocks"])
+    are_strips = row["ranks"] > 1 and row["across"] == 1
+    n_columns = row["ranks"] if are_strips else math.sqrt(row["blocks"])
     return math.sqrt(row["discs"]) * (n_columns - 1 + row["blocks"] / n_columns - 1)
 
 
