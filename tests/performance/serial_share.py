@@ -46,10 +46,10 @@ kind = "{kind}"
 CASES = [
     ("time-stepped, 1 rank", "time-stepped", 0.2, "wall", 1, 0.0005),
     ("event-driven, 1 rank", "event-driven", 0.2, "wall", 1, 0.0007),
-    ("time-stepped, 2 ranks", "time-stepped", 0.2, "wall", 2, 0.0039),
-    ("event-driven, 2 ranks", "event-driven", 0.2, "wall", 2, 0.0024),
-    ("time-stepped, 2 ranks, periodic", "time-stepped", 0.2, "periodic", 2, 0.0058),
-    ("event-driven, 2 ranks, periodic", "event-driven", 0.2, "periodic", 2, 0.0038),
+    ("time-stepped, 2 ranks", "time-stepped", 0.2, "wall", 2, 0.0020),
+    ("event-driven, 2 ranks", "event-driven", 0.2, "wall", 2, 0.0010),
+    ("time-stepped, 2 ranks, periodic", "time-stepped", 0.2, "periodic", 2, 0.0027),
+    ("event-driven, 2 ranks, periodic", "event-driven", 0.2, "periodic", 2, 0.0015),
 ]
 ADVANCE = "carrom::EngineBase*::advance_towards*"
 
