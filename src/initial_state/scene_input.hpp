@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 reads a scene's text and what a list of discs has beyond places and velocities, and the other
-// ranks get it from there. Of the discs in a list each rank reads a part (listed_discs.hpp).
+// Rank 0 reads a scene's text and what a list of discs has beyond places and velocities, and the
+// other ranks get it from there. Of the discs in a list each rank reads a part (listed_discs.hpp).
 #pragma once
 
 #include <istream>
