@@ -69,7 +69,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double target) {
     this->set_departed_aside();
     migrate();
-    refuse_jam();
+    note_first_speed();
     window_ = choose(target);
     common_depth_ = first_halo_depth();
     redistribute();
@@ -82,6 +82,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
         if (verdict == Verdict::repeat) note_rollback();
     }
+    if (reduced_.sums[3] >= jam_unit) refuse_jam();
     commit();
     travel_speed_ = window_.speed_bound;
     time_ = window_.end;
@@ -136,22 +137,33 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
            (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
 }
 
-/// Ends the run if discs grow into a jam: they become ever faster and collide ever more often, so
-/// that the step would never end. **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() {
-    const double growth = dynamics_.growth_at(time_);
+/// Of growing discs. The interval's first speed is 0 otherwise. **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::note_first_speed() {
     const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
-    if (!(per_micro_step > 0)) return;
-    const double fastest = largest_of_all();
-    if (time_ == 0 || n_windows_ == 0)
-        first_speed_ = std::max(fastest, dynamics_.diameter() * per_micro_step);
-    if (fastest <= jam_heating * first_speed_) return;
+    if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
+    first_speed_ = std::max(largest_of_all(), dynamics_.diameter() * per_micro_step);
+}
+
+/// Whether discs have grown into a jam: they become ever faster and collide ever more often, so
+/// that the step would never end. All speeds of the window count, not only those at its end, so
+/// that every cut into windows and blocks gives the same answer.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
+    if (first_speed_ == 0) return false;
+    return std::ranges::any_of(blocks_, [&](const Block& block) {
+        return block.outcome.largest_speed > jam_heating * first_speed_;
+    });
+}
+
+/// Ends the run. Where in the step the discs jam is told in few digits, because windows differ.
+/// **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
     throw CollectiveError(fmt::format(
-        "discs jam at step {:.9g}, as radii have grown to {:.9g} times the first: since the last "
+        "discs jam at step {:.4g}, as radii have grown to {:.4g} times the first: since the last "
         "sync speeds have become {} times as large; let them grow less, or set time.sync_every to "
         "less",
-        (static_cast<double>(this->last_sync()) + time_) / static_cast<double>(this->micro_steps_),
-        growth, jam_heating));
+        (static_cast<double>(this->last_sync()) + window_.end) /
+            static_cast<double>(this->micro_steps_),
+        dynamics_.growth_at(window_.end), jam_heating));
 }
 
 /// The numbers for the choice of the next window, some of them learned from the last one.

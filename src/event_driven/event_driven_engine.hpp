@@ -101,7 +101,9 @@ private:
     BlockNeeds block_needs(double speed_bound);
     double speed_bound_until(double target) const;
     double largest_of_all() const;
-    void refuse_jam();
+    void note_first_speed();
+    bool are_jammed() const;
+    [[noreturn]] void refuse_jam() const;
     void shorten();
     void redistribute();
     GridGeometry lay_cells(double reach);
@@ -160,8 +162,10 @@ private:
     double mean_crowding_ = 1;    ///< over all discs, or 1 if it is near 1; equal on all ranks
     double n_threads_of_all_ = 0; ///< threads of all ranks, or 0 if each has one
     /// What validation has reduced for the window: how many ranks found a disc too fast, blocks to
-    /// run again, cascades, requests to stop, events, crowding; and the largest speed at its end.
+    /// run again, cascades, requests to stop and ranks with jammed discs, events, crowding; and the
+    /// largest speed at its end.
     JointReduction reduced_;
+    static constexpr std::uint64_t jam_unit = std::uint64_t{1} << 32; ///< of a rank with a jam
     static constexpr double crowding_unit = 1024; ///< sums of whole numbers have no order
     bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
     Caution caution_;

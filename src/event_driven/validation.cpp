@@ -41,7 +41,7 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     reduced_.sums = {is_too_fast ? 1u : 0u,
                      n_marked,
                      n_cascades,
-                     is_stop_overdue() ? 1u : 0u,
+                     (is_stop_overdue() ? 1u : 0u) + (are_jammed() ? jam_unit : 0u),
                      n_events,
                      static_cast<std::uint64_t>(crowding_unit * crowding_)};
     if (communicator_.size() > 1) {
@@ -49,7 +49,7 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
         reduce(reduced_, communicator_);
     }
     const auto& sums = reduced_.sums;
-    if (sums[3] > 0) throw StopRequested("stopped on request inside a step");
+    if (sums[3] % jam_unit > 0) throw StopRequested("stopped on request inside a step");
     if (sums[0] > 0) return Verdict::too_fast;
     if (sums[2] > 0) fail_on_cascade();
     if (!block_tuning_.is_validated || sums[1] + sums[2] == 0) return Verdict::exact;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Growing discs: what can be worked out by hand, and the bits of the method's plain statement.
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "catch.hpp"
@@ -129,4 +131,44 @@ TEST_CASE("growth: discs that have no more room end the run with a sentence") {
     }
     INFO(text);
     CHECK(text.find("radii have grown to 1.2 times the first") != std::string::npos);
+}
+
+namespace {
+
+/// Whether the scene's discs have no more room at that rate of growth.
+bool do_jam(TestScene scene, double growth, const Communicator& ranks,
+            const std::optional<double>& window) {
+    scene.setting.effects.growth = growth;
+    Tuning tuning;
+    tuning.window = window;
+    try {
+        run(scene, Method::event_driven, ranks, tuning);
+    } catch (const CollectiveError& error) {
+        INFO(growth << ": " << error.what());
+        const std::string text = error.what();
+        const bool is_named = text.find("discs jam") != std::string::npos ||
+                              text.find("collides without end") != std::string::npos;
+        CHECK(is_named);
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("growth: windows, ranks and threads agree on whether discs jam") {
+    const Communicator world = Communicator::world(), alone = Communicator::of_this_rank();
+    TestScene scene = gas(12, 0.5, 2, 7);
+    scene.steps = 8;
+    scene.setting.sync_every = 8 * scene.setting.micro_steps;
+    double none = 0.01, jam = 0.08; // rates of growth
+    for (int k = 0; k < 10; ++k) {
+        const double between = (none + jam) / 2;
+        (do_jam(scene, between, alone, std::nullopt) ? jam : none) = between;
+    }
+    INFO("they do between growths of " << none << " and " << jam);
+    for (const auto& window : {std::optional<double>(), std::optional(0.3), std::optional(0.01)}) {
+        CHECK(!do_jam(scene, none, world, window));
+        CHECK(do_jam(scene, jam, world, window));
+    }
 }
