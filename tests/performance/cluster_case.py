@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What a case of cluster_model.py asks of its ranks: from counted figures and cluster_plan.py to
 the script that replay_cluster.cpp replays.

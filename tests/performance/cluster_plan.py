@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What each rank of a large cluster would do in a window: arithmetic on counted figures.
 

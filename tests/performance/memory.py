@@ -7,6 +7,7 @@ where discs of which half of the area is R times as large take too many bytes be
   tests/performance/memory.py build/carrom [mpiexec]
 """
 
+import argparse
 import json
 import math
 import os
@@ -96,7 +97,13 @@ def bytes_of_crowds(program, mpiexec, folder):
 
 
 def main():
-    program, mpiexec = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "mpiexec"
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("program", help="carrom, as built")
+    parser.add_argument("mpiexec", nargs="?", default="mpiexec", help="how ranks are started")
+    options = parser.parse_args()
+    program, mpiexec = options.program, options.mpiexec
     failed = False
     with tempfile.TemporaryDirectory() as folder:
         for method, bound in BOUNDS.items():

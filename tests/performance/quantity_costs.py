@@ -16,6 +16,7 @@ disc, and `per_ten`, the default, where it is taken after ten. There are so many
 correlations have most of their lags. `megabytes` is what the largest memory of a run of 1e5 discs
 grows by, with a sample after each of 40 steps. It takes some ten minutes.
 """
+import argparse
 import math
 import os
 import re
@@ -93,7 +94,14 @@ def instructions(program, discs, steps, kind, name="", every=1):
 
 def main():
     """Print the table."""
-    program, names = sys.argv[1], sys.argv[2:] or QUANTITIES
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("program", metavar="CARROM", help="the program, as built")
+    parser.add_argument("names", metavar="QUANTITY", nargs="*", default=QUANTITIES,
+                        help="all of the table, if none is named")
+    options = parser.parse_args()
+    program, names = options.program, options.names
     kinds = {name: "wall" if name.startswith("wall") else "periodic" for name in names}
     whole = {kind: (instructions(program, MANY, PLAIN_STEPS, kind), megabytes(program, kind))
              for kind in set(kinds.values())}
