@@ -6,8 +6,8 @@
 
 Both begin from a crystal. The colour is the real part of psi6 of each disc, turned by the mean.
 """
+import argparse
 import math
-import sys
 
 import matplotlib
 
@@ -33,16 +33,21 @@ def last_frame(program, packing, steps=16_000):
 
 
 def main():
-    program, picture = sys.argv[1:]
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("program", metavar="CARROM")
+    parser.add_argument("picture", metavar="PICTURE")
+    options = parser.parse_args()
     figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.2), layout="constrained")
     for ax, packing, name in zip(axes, (0.69, 0.73), ("liquid", "solid")):
-        frame = last_frame(program, packing)
+        frame = last_frame(options.program, packing)
         psi6 = frame.psi6
         mean = psi6.mean()
         colour = (psi6 * np.conj(mean) / abs(mean)).real
         carrom.plot.frame(frame, colour=colour, label="Re psi6", cmap="coolwarm", limits=(-1, 1), bar=ax is axes[1], ax=ax)
         ax.set_title(f"{name}, packing {packing}: |mean of psi6| = {abs(mean):.2f}", fontsize="medium")
-    figure.savefig(picture, dpi=100)
+    figure.savefig(options.picture, dpi=100)
 
 
 if __name__ == "__main__":

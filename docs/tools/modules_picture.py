@@ -9,6 +9,7 @@ A line of the list is a module and, behind a colon, the modules that its target 
 one row above the highest of them. A line of the picture that would only repeat a way over other
 modules is left out.
 """
+import argparse
 import sys
 from pathlib import Path
 
@@ -132,14 +133,20 @@ def svg(links):
 
 
 def main():
-    picture = svg(read(sys.argv[1]))
-    if len(sys.argv) < 4:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("modules", help="the list that CMake has written")
+    parser.add_argument("--check", metavar="FILE")
+    options = parser.parse_args()
+    picture = svg(read(options.modules))
+    if not options.check:
         sys.stdout.write(picture)
         return 0
-    if Path(sys.argv[3]).read_text() == picture:
+    if Path(options.check).read_text() == picture:
         return 0
-    print(f"{sys.argv[3]} is not the picture of the modules as they are linked; try: python3 "
-          f"docs/tools/modules_picture.py {sys.argv[1]} > {sys.argv[3]}")
+    print(f"{options.check} is not the picture of the modules as they are linked; try: "
+          f"docs/tools/modules_picture.py {options.modules} > {options.check}")
     return 1
 
 
