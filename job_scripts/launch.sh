@@ -1,31 +1,36 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the Slurm scripts share: the program, modules, how ranks are started and bound. They source
-# it with MODULES, PROGRAM, LAUNCHER and LAUNCHER_OPTIONS set. SRUN_MPI may name the plugin of `srun
-# --mpi` (default: pmix for Open MPI, pmi2 for MPICH).
+# What the Slurm scripts share: modules, how ranks are started and bound, rows of tables. It ends a
+# script that Slurm does not run, so scripts source it before they use variables of Slurm.
 #
 # Slurm runs a copy of the script from another folder. Paths begin where it was submitted: at the
 # checkout's top.
 
 say() { printf '%s\n' "$*" >&2; }
-die() { say "${SLURM_JOB_NAME:-job script}: $*"; exit 2; }
+die() { say "${SLURM_JOB_NAME:-$(basename "$0")}: $*"; exit 2; }
 
-[ -n "${SLURM_JOB_ID:-}" ] || die \
-    "submit this with sbatch; ./job_scripts/run_local.sh runs without Slurm"
-if [ -n "$MODULES" ]; then
+[ -n "${SLURM_JOB_ID:-}" ] || die "submit this with sbatch from the top of the checkout;" \
+    "./job_scripts/run_local.sh runs without Slurm"
+source job_scripts/mpi.sh
+
+# load_modules: those of MODULES
+load_modules() {
+    [ -n "$MODULES" ] || return 0
     set +u # module systems use variables that are not set
     module load $MODULES
     set -u
-fi
-source job_scripts/mpi.sh
-[ -x "$PROGRAM" ] || die \
-    "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
+}
 
-# launch_with RANKS THREADS: sets `launch`, the words that come before the program. Each rank is
-# bound to THREADS cores of its own, and each of its threads to one of them, because a thread that
-# moves leaves its memory behind; ranks fill one node after the other. OMP_PLACES and OMP_PROC_BIND
-# may be set to something else.
+# launch_with RANKS THREADS: loads modules and sets `launch`, the words that come before the
+# program. Uses MODULES, PROGRAM, LAUNCHER, LAUNCHER_OPTIONS and, if it is set, SRUN_MPI, the plugin
+# of `srun --mpi` (default: pmix for Open MPI, pmi2 for MPICH). Each rank is bound to THREADS cores
+# of its own, and each of its threads to one of them, because a thread that moves leaves its memory
+# behind; ranks fill one node after the other. OMP_PLACES and OMP_PROC_BIND may be set to something
+# else.
 launch_with() {
     local ranks=$1 threads=$2
+    load_modules
+    [ -x "$PROGRAM" ] || die \
+        "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
     export OMP_NUM_THREADS=$threads
     export OMP_PLACES=${OMP_PLACES:-cores} OMP_PROC_BIND=${OMP_PROC_BIND:-close}
     case $LAUNCHER in
