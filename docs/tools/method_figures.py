@@ -65,6 +65,7 @@ def domains_and_halos(folder):
     """Seven ranks in groups of two, two and three; the halo of the middle rank of the last group."""
     size, radius, depth, cuts = 12.0, 0.32, 1.3, (3.4, 6.8)
     groups, chosen = ((6.9,), (4.6,), (3.6, 7.9)), 5
+    colours = [STRIP[k] for k in (1, 0, 0, 2, 2, 1, 0)]  # neighbours differ
     domains = []
     for strip, across in enumerate(groups):
         x = ((0.0,) + cuts + (size,))[strip : strip + 2]
@@ -74,18 +75,25 @@ def domains_and_halos(folder):
     def owner(x, y):
         return next(k for k, (a, b, c, d) in enumerate(domains) if a <= x < b and c <= y < d)
 
+    labels = [(a + 0.9, c + 0.25) for a, _, c, _ in domains]
+
+    def hides_label(x, y):
+        return any(abs(x - a) < 0.65 + radius and -radius - 0.1 < y - b < 0.35 + radius for a, b in labels)
+
     figure, axes = plt.subplots(figsize=(6.4, 5.2), layout="constrained")
     left, right, low, high = domains[chosen]
     axes.add_patch(Rectangle((left - depth, low - depth), size - left + depth, high - low + 2 * depth, color="#e8e8e8", linewidth=0))
     axes.add_patch(Rectangle((left, low), right - left, high - low, color="white", linewidth=0))
-    for x, y in random_places(75, size, radius, 4):
+    for x, y in random_places(85, size, radius, 4):
+        if hides_label(x, y):
+            continue
         rank = owner(x, y)
         is_halo = rank != chosen and x >= left - depth and low - depth <= y <= high + depth
-        axes.add_patch(Circle((x, y), radius, facecolor=STRIP[rank % 3], alpha=1 if rank == chosen or is_halo else 0.35,
+        axes.add_patch(Circle((x, y), radius, facecolor=colours[rank], alpha=1 if rank == chosen or is_halo else 0.35,
                               edgecolor="black", linewidth=1.3 if is_halo else 0))
     for rank, (a, b, c, d) in enumerate(domains):
         axes.add_patch(Rectangle((a, c), b - a, d - c, fill=False, linewidth=1.5, edgecolor="black"))
-        axes.text((a + b) / 2, c + 0.2, f"rank {rank}", ha="center", fontsize=9, backgroundcolor="white")
+        axes.text(*labels[rank], f"rank {rank}", ha="center", fontsize=9)
     axes.text(size / 2, -1.0, f"grey: halo of rank {chosen}", ha="center", fontsize=9)
     axes.set(xlim=(0, size), ylim=(0, size), aspect="equal", xticks=[], yticks=[])
     save(figure, folder, "domains_and_halos.svg")
