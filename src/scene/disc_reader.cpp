@@ -180,8 +180,9 @@ std::string DiscReader::missing_ids() const {
                                 first == id ? fmt::format("{}", id)
                                             : fmt::format("{}-{}", first, id));
     }
-    return fmt::format("{} of {} discs are missing: {}", scene_.n_discs - n_seen_, scene_.n_discs,
-                       list);
+    const std::uint64_t n_missing = scene_.n_discs - n_seen_;
+    return fmt::format("{} of {} discs {} missing: {}", n_missing, scene_.n_discs,
+                       n_missing == 1 ? "is" : "are", list);
 }
 
 std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene) {

@@ -107,7 +107,7 @@ refuse_text 'a word for a number' "${header}0 3 3 1 0\n1 7 seven 0 0\n" 'bad.in:
 refuse_text 'an id twice' "${header}0 3 3 1 0\n0 7 7 0 0\n" 'bad.in:7: disc 0 is listed twice'
 refuse_text 'an id out of range' "${header}0 3 3 1 0\n2 7 7 0 0\n" \
     'bad.in:7: disc 2 is out of range'
-refuse_text 'a missing disc' "${header}0 3 3 1 0\n" '1 of 2 discs are missing: 1'
+refuse_text 'a missing disc' "${header}0 3 3 1 0\n" '1 of 2 discs is missing: 1'
 refuse_text 'a line too many' "${header}0 3 3 1 0\n1 7 7 0 0\n2 5 5 0 0\n" 'bad.in:8: '
 refuse_text 'problems on several lines' "${header}0 3 3 1\n1 99 7 0 0\n" $'bad.in:6: \nbad.in:7: '
 

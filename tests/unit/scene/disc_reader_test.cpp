@@ -124,6 +124,8 @@ TEST_CASE("Of many problems the first 20 are listed and the rest are counted") {
 TEST_CASE("Missing ids are summed up as ranges") {
     CHECK(read_all("", scene_of(7)).problems ==
           std::vector<Problem>{{"t.in", 0, "7 of 7 discs are missing: 0-6"}});
+    CHECK(read_all("0 5 5 0 0\n2 5 5 0 0\n", scene_of(3)).problems ==
+          std::vector<Problem>{{"t.in", 0, "1 of 3 discs is missing: 1"}});
     CHECK(read_all("1 5 5 0 0\n3 5 5 0 0\n", scene_of(7)).problems ==
           std::vector<Problem>{{"t.in", 0, "5 of 7 discs are missing: 0, 2, 4-6"}});
     std::string text;
