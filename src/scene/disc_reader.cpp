@@ -26,6 +26,7 @@ std::string columns_text(const std::vector<DiscColumn>& columns) {
 DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene)
     : scene_(scene), species_(scene.effects.species, scene.radius),
       place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
+      has_lines_(scene.discs_from.empty()),
       lines_(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
 
 DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part)
@@ -80,7 +81,8 @@ std::vector<Problem> DiscReader::problems() const {
     if (n_problems_ > problems_.size())
         all.push_back(
             {place_, 0,
-             fmt::format("and {} more lines with problems{}", n_problems_ - problems_.size(),
+             fmt::format("and {} more {} with problems{}", n_problems_ - problems_.size(),
+                         has_lines_ ? "lines" : "discs",
                          n_problems_ < most_wrong_lines ? "" : "; it was not read beyond them")});
     if (lines_.is_endless())
         all.push_back(
@@ -156,8 +158,10 @@ std::string DiscReader::note_id(const Line& line) {
 
 void DiscReader::refuse(const Line& line, std::string text) {
     n_problems_ += 1;
-    if (problems_.size() < most_problems)
-        problems_.push_back({place_, line.number, std::move(text)});
+    if (problems_.size() == most_problems) return;
+    if (!has_lines_ && !text.starts_with("disc "))
+        text = fmt::format("disc {}: {}", line.disc.id, text);
+    problems_.push_back({place_, has_lines_ ? line.number : 0, std::move(text)});
 }
 
 std::uint64_t DiscReader::most_discs() const {

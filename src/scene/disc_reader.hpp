@@ -84,6 +84,7 @@ private:
     const SceneParameters& scene_;
     SpeciesTable species_;
     std::string place_;
+    bool has_lines_; ///< false for `discs.from`, whose lines nobody sees: problems name the discs
     LineReader lines_;
     bool are_ids_noted_ = true;
     std::vector<bool> seen_; ///< by id, as far as ids have come

@@ -101,6 +101,20 @@ refuse 'another number of discs' 'has 300 discs, and the scene is of 7' next.tom
     --set discs.count=7
 refuse 'discs that have grown' 'is not inside the box' next.toml --set discs.radius=0.8
 refuse 'a smaller box' "$checkpoint" next.toml --set box.size=30
+# A checkpoint has no lines, so messages name its discs.
+grep -qE "$checkpoint: disc [0-9]+ at .* is not inside the box" "$test_folder/err" ||
+    { complain 'a disc without its id'; show; }
+grep -qE "$checkpoint:[0-9]|lines" "$test_folder/err" &&
+    { complain 'a line of a checkpoint'; show; }
+# Which of two sources is meant is unknown, so the discs of neither are read.
+for other in 'file = "left"' 'list = [[3, 3, 0, 0]]'; do
+    next_scene "radius = $radius
+from = \"$checkpoint\"
+$other" >both.toml
+    refuse "from and $other" "and 'discs.from' exclude each other" both.toml
+    run 1 run both.toml --quiet # no mpiexec, which prints lines of its own
+    [ "$(wc -l <"$test_folder/err")" -eq 1 ] || { complain "more than one error: $other"; show; }
+done
 refuse 'a step without a file' "'discs.from_step' has no meaning" gas.toml \
     --set discs.from_step=3
 

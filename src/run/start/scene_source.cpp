@@ -30,6 +30,15 @@ template <class Read> Problems problems_of(const Read& read) {
     return {};
 }
 
+/// Whether discs come from `discs.from`. Beside a file or a list of discs it is a problem of the
+/// scene, and the discs of neither are read, because which ones are meant is unknown.
+bool takes_discs_from(const SceneParameters& scene) {
+    return !scene.discs_from.empty() && scene.discs_file.empty() && scene.listed_discs.empty();
+}
+bool takes_discs_of_file(const SceneParameters& scene) {
+    return !scene.discs_file.empty() && scene.discs_from.empty();
+}
+
 /// Replaces the lines after the scene's text by the discs of `discs.from`. Returns the
 /// settings that say so, the same on every rank. **Collective.**
 std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
@@ -71,13 +80,13 @@ SceneParameters read_with_files(SceneSource& source, std::vector<std::string> se
         scene = read_scene(source.text, settings, found);
     };
     read_again();
-    if (!scene.discs_from.empty()) {
+    if (takes_discs_from(scene)) {
         const auto more = follow_with_discs_from(scene, source.stream, of_root, ranks);
         settings.insert(settings.end(), more.begin(), more.end());
         source.text.discs_follow = true;
         if (!more.empty()) read_again();
     }
-    const bool has_file = !scene.discs_file.empty() || !scene.discs_from.empty();
+    const bool has_file = takes_discs_of_file(scene) || takes_discs_from(scene);
     if (!scene.disc_columns.empty() && has_file) {
         source.text.columns = load_columns(scene, source.stream.get(), ranks);
         read_again();
@@ -110,10 +119,10 @@ Problems disc_line_problems_of(const SceneParameters& scene, std::istream* strea
     Problems problems;
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;
-               if (!scene.discs_file.empty()) {
+               if (takes_discs_of_file(scene)) {
                    std::ifstream file = open_input(discs_path(scene));
                    problems = disc_line_problems(file, scene);
-               } else if (stream && scene.discs_follow) {
+               } else if (stream && scene.discs_follow && scene.discs_file.empty()) {
                    problems = disc_line_problems(*stream, scene);
                }
            }));

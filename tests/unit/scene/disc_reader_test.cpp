@@ -113,6 +113,22 @@ TEST_CASE("A file of discs counts its lines from its own start and is named with
     CHECK(places_of(read_all("\n0 5 5\n", scene).problems) == Texts{"folder/d.txt:2"});
 }
 
+TEST_CASE("Discs of another run have no lines, so problems name the discs") {
+    SceneParameters scene = scene_of(4);
+    scene.name = "folder/s.toml";
+    scene.lines_before_discs = 0;
+    scene.discs_from = "c.h5";
+    const Outcome outcome = read_all("0 5 5 0 0\n1 nan 5 0 0\n2 5 0.5 0 0\n3 5 5 0 inf\n", scene);
+    CHECK(places_of(outcome.problems) == Texts{"folder/c.h5", "folder/c.h5", "folder/c.h5"});
+    CHECK(mentions(outcome.problems, "disc 1: the position nan is not a finite number"));
+    CHECK(mentions(outcome.problems, "disc 2 at (5, 0.5) is not inside the box"));
+    CHECK(mentions(outcome.problems, "disc 3: the velocity inf is not a finite number"));
+    std::string text;
+    for (int i = 0; i < 30; ++i) text += fmt::format("{} 0 0 0 0\n", i);
+    scene.n_discs = 30;
+    CHECK(read_all(text, scene).problems.back().text == "and 10 more discs with problems");
+}
+
 TEST_CASE("Of many problems the first 20 are listed and the rest are counted") {
     std::string text;
     for (int i = 0; i < 1000; ++i) text += fmt::format("{} 0 0 0 0\n", i);
