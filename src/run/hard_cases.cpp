@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -59,6 +60,29 @@ void refuse_blurred_places(const SceneParameters& scene, double speed) {
                       speed / scene.radius, radii, std::ceil(radii))}});
 }
 
+/// The most ranks, at least 1, whose domains have no more discs in their halos than inside. At a
+/// packing of 0.5 a rank fetches discs from up to h = 8 mean distances away: 16 strips of 1250
+/// discs, 8.8 wide, have 1.65 halo discs for each own one (tests/performance/rank_loads.csv). A
+/// strip of width w sees a width of w + 2 h, and a square of side s sees (s + 2 h)^2. So a strip
+/// owns half of what it sees at w = 2 h = 16, and a square at s = 2 h / (sqrt(2) - 1) = 39, with
+/// 1500 discs.
+double most_ranks_of(const SceneParameters& scene) {
+    constexpr double both_sides = 2 * 8;
+    constexpr double least_square = both_sides / (std::numbers::sqrt2 - 1);
+    const double n_discs = static_cast<double>(scene.n_discs);
+    const double length = std::sqrt(n_discs * scene.box.longest() / scene.box.shortest());
+    return std::max({1.0, std::floor(length / both_sides),
+                     std::floor(n_discs / (least_square * least_square))});
+}
+
+/// The least number of threads, from `least` on, that divides the number of cores, so that no core
+/// is left without a thread.
+int threads_that_fill(int n_cores, int least) {
+    int threads = least;
+    while (n_cores % threads != 0) threads += 1;
+    return threads;
+}
+
 } // namespace
 
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
@@ -78,23 +102,16 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
 }
 
 std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads) {
-    // Halos are 10 mean distances of discs deep. A strip of 20 has as many discs in its halo, and
-    // so has a square of 48 (docs/how-to/cluster.md). A few ranks are rather a test, or all that a
-    // small machine has.
-    constexpr double least_width = 20, least_square = 48;
-    constexpr int few_ranks = 8;
-    const double spacings = std::sqrt(static_cast<double>(scene.n_discs) * scene.box.longest() /
-                                      scene.box.shortest());
-    const double most_squares = static_cast<double>(scene.n_discs) / (least_square * least_square);
-    const double most_ranks = std::max(
-        {1.0, std::floor(spacings / least_width), std::floor(most_squares)});
+    constexpr int few_ranks = 8; // so few are rather a test, or all that a small machine has
+    const double most_ranks = most_ranks_of(scene);
     if (scene.method != Method::event_driven || n_ranks < few_ranks || n_ranks <= most_ranks)
         return "";
-    const double n_cores = static_cast<double>(n_ranks) * n_threads;
-    const double threads = std::ceil(n_cores / most_ranks);
+    const int n_cores = n_ranks * n_threads;
+    const int threads = threads_that_fill(n_cores,
+                                          static_cast<int>(std::ceil(n_cores / most_ranks)));
     return fmt::format("{} ranks cut {} discs into small domains, so more than half of the work is "
-                       "done twice; try: {:.0f} ranks with --threads {:.0f}",
-                       n_ranks, scene.n_discs, std::max(1.0, std::floor(n_cores / threads)),
+                       "done twice; try: {} rank{} with --threads {}",
+                       n_ranks, scene.n_discs, n_cores / threads, n_cores == threads ? "" : "s",
                        threads);
 }
 
