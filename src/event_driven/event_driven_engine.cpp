@@ -290,7 +290,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     for (std::size_t i = 0; i < marked.size(); ++i) {
         Block& block = blocks_[marked[i]];
         BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
-        if (is_alone_ || (Dynamics::is_periodic && sees_all(block)))
+        block.saw_all = sees_all(block);
+        if (is_alone_ || (Dynamics::is_periodic && block.saw_all))
             block_run.run_whole(ground, block.cells, histories_, block.outcome);
         else
             block_run.run(ground, block.cells, block.halo * discs_.grid().geometry().n_reach,

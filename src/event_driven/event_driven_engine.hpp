@@ -87,6 +87,7 @@ private:
         int halo = 0;               ///< in reaches
         std::uint8_t is_marked = 0; ///< the block has to run
         bool has_run = false;       ///< it has run before in this window
+        bool saw_all = false;       ///< its last run had the whole box
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };

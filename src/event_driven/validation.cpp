@@ -66,7 +66,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     for (Block& block : blocks_) {
         BlockOutcome& outcome = block.outcome;
         if (!(outcome.far_partner > 0)) continue;
-        if (sees_all(block))
+        if (block.saw_all)
             outcome.too_fast = std::max(outcome.too_fast, outcome.far_partner);
         else
             block.is_marked = 1;
@@ -193,19 +193,21 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() c
     return now > 0 ? deeper / now - 1 : 0;
 }
 
-/// Doubles the halo of all marked blocks that do not have the whole box yet. Ranks whose halo must
-/// then become deeper get more of it, as far as there are cells for it. Returns true if the halos
-/// of all ranks must become deeper than that, so that all blocks have to run again. **Collective.**
+/// Doubles the halo of all marked blocks that do not have the whole box yet. A block may have it
+/// now without having had it in its run, because the rank's halo has grown for other blocks. Ranks
+/// whose halo must then become deeper get more of it, as far as there are cells for it. Returns
+/// true if the halos of all ranks must become deeper than that, so that all blocks have to run
+/// again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
     JointReduction wanted;
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
-        if (sees_all(block)) {
+        if (block.saw_all) {
             block.is_marked = 0; // another run would have the same result
             continue;
         }
-        block.halo *= 2;
+        if (!sees_all(block)) block.halo *= 2;
         ++wanted.sums[0];
         deepest = std::max(deepest, halo_depth_for(block));
     }
@@ -313,7 +315,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
     std::string text;
     for (const Block& block : blocks_) {
         const BlockOutcome& outcome = block.outcome;
-        if (!outcome.is_cascade || !sees_all(block)) continue;
+        if (!outcome.is_cascade || !block.saw_all) continue;
         const std::string partner = outcome.cascade_partner == outcome.cascade_disc
                                         ? "a wall"
                                         : fmt::format("disc {}", outcome.cascade_partner);
