@@ -71,6 +71,7 @@ public:
     virtual double energy_given() const { return 0; }
     virtual std::vector<std::int64_t> kept_by_effects() const { return {}; } ///< in StoredState
     virtual PhaseSeconds phase_seconds() const = 0;
+    virtual int most_ranks_across() const = 0; ///< that share a strip, the same on all ranks
 
     /// See DiscSystem::log_to. Engines append what they carry out while `log_` is not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }

@@ -43,6 +43,7 @@ public:
     double energy_given() const final { return sync_action_.energy_given(); }
     std::vector<std::int64_t> kept_by_effects() const final { return sync_action_.kept(); }
     PhaseSeconds phase_seconds() const final { return phases_.seconds(); }
+    int most_ranks_across() const final { return discs_.domains().largest_group(); }
 
 protected:
     /// Takes over the state. The method distributes it when its own members are ready.

@@ -72,8 +72,6 @@ public:
     /// has one round, and another one for each rollback.
     std::vector<std::vector<BlockWork>> take_work() { return std::exchange(rounds_, {}); }
     const HaloCounts& halo_counts() const { return halo_counts_; }
-    /// The number of ranks that share a strip, at most.
-    int most_ranks_across() const { return discs_.domains().largest_group(); }
 
 private:
     using Base = EngineBase<Dynamics>;

@@ -349,4 +349,6 @@ RollbackCounts DiscSystem::rollback_counts() const { return engine_->rollback_co
 
 PhaseSeconds DiscSystem::phase_seconds() const { return engine_->phase_seconds(); }
 
+int DiscSystem::most_ranks_across() const { return engine_->most_ranks_across(); }
+
 } // namespace carrom

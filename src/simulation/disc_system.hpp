@@ -135,6 +135,8 @@ public:
     /// See Engine::bytes_for_crowds.
     double bytes_for_crowds() const;
     PhaseSeconds phase_seconds() const;
+    /// How many ranks share a strip, at most; the same on all ranks.
+    int most_ranks_across() const;
 
 private:
     void advance_checked();

@@ -15,7 +15,7 @@ PROMISED = """
 
 KNOWN = {"n_discs": 3, "steps": 5, "wall_collisions": 3, "pair_collisions": 1,
          "rejected_candidates": 0, "overlapping_pairs": 0, "kinetic_energy": 1.125, "ranks": 2,
-         "threads": 2}
+         "threads": 2, "ranks_across": 1}
 
 STREAMS = """
 [box]

@@ -40,6 +40,8 @@ shape 3 2 --window 0.3 --cell-width 2.5 --rebalance-every 1 --rebalance-above 0
 shape 1 3 --window 1
 shape 2 2 --cell-width 1.7
 shape 5 1 --ranks-across 2
+[ "$(json_value report.json ranks_across)" = 2 ] ||
+    complain 'the report does not say that two ranks share a strip'
 shape 7 1 --rebalance-every 0
 [ "$shapes" = all ] || finish
 for ranks_threads in '1 3' '2 1' '2 2' '3 3' '4 1' '7 2'; do

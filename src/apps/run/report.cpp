@@ -138,6 +138,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         {"ns_per_disc_step", ns_per_disc_step(result)},
         {"ranks", result.ranks},
         {"threads", result.threads},
+        {"ranks_across", result.ranks_across},
         {"windows", result.runs.windows},
         {"windows_redone", result.runs.windows_redone},
         {"block_replays", result.runs.blocks},

@@ -43,6 +43,7 @@ void fill_end(RunResult& result, const Run& run) {
         result.averages.compressibility = {.value = std::numeric_limits<double>::quiet_NaN()};
     result.tables = run.sampler().tables();
     result.runs = system.rollback_counts();
+    result.ranks_across = system.most_ranks_across();
 }
 
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {

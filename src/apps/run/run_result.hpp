@@ -23,6 +23,7 @@ struct RunResult {
     std::vector<EndNumber> end_numbers; ///< of the scene's effects
     std::int64_t first_step = 0, last_step = 0;
     int ranks = 1;
+    int ranks_across = 1;    ///< ranks that share a strip, at most
     int threads = 1;         ///< per rank; the largest if ranks differ
     double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
     Averages averages;       ///< over the run, restarts included

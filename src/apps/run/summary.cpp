@@ -165,8 +165,11 @@ std::string time_lines(const RunResult& result) {
         fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
                     result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
                     ns_per_disc_step(result)));
-    text += labelled_line("machine", fmt::format("{} x {}, {:.0f} bytes per disc at the peak",
-                                                 plural(result.ranks, "rank"),
+    const std::string across = result.ranks_across == 1
+                                   ? ""
+                                   : fmt::format(" (up to {} share a strip)", result.ranks_across);
+    text += labelled_line("machine", fmt::format("{}{} x {}, {:.0f} bytes per disc at the peak",
+                                                 plural(result.ranks, "rank"), across,
                                                  plural(result.threads, "thread"),
                                                  result.peak_bytes_per_disc));
     text += labelled_line("phases", phases_text(result));
