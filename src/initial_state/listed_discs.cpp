@@ -53,7 +53,8 @@ DiscReader::Part go_to_part(std::istream& file, std::uint64_t n_bytes,
 
 bool is_each_once(const std::vector<InputDisc>& discs, const Slab& share) {
     std::vector<bool> seen(share.size());
-    for (const InputDisc& disc : discs) seen[disc.id - share.begin] = true;
+    for (const InputDisc& disc : discs)
+        if (disc.id >= share.begin && disc.id < share.end) seen[disc.id - share.begin] = true;
     return discs.size() == share.size() && std::ranges::find(seen, false) == seen.end();
 }
 
@@ -79,6 +80,29 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     } while (n_ranks[0] > 0 && n_ranks[1] == 0);
     if (n_ranks[1] > 0 || communicator.any(!is_each_once(discs, share))) return std::nullopt;
     return discs;
+}
+
+/// Lines of `discs.from`: each rank has those of its share, and rank 0 all others behind them.
+/// Nothing if there is a fault in them, or if not all ranks can read the file; then rank 0 is at
+/// its first line again. **Collective.**
+std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, std::istream* lines,
+                                                  const Communicator& communicator, int n_threads) {
+    if (communicator.any(lines == nullptr)) return std::nullopt;
+    const Slab share = share_of(scene, communicator);
+    DiscReader reader(*lines, scene, {communicator.is_root(), LineReader::no_limit});
+    std::vector<InputDisc> discs, chunk;
+    discs.reserve(share.size());
+    while (discs.size() < share.size() &&
+           reader.read(chunk, std::min<std::size_t>(discs_at_once, share.size() - discs.size()),
+                       on_threads(n_threads)))
+        discs.insert(discs.end(), chunk.begin(), chunk.end());
+    const bool is_sound = reader.is_flawless() && is_each_once(discs, share);
+    if (!communicator.any(!is_sound)) return discs;
+    if (communicator.is_root()) {
+        lines->clear();
+        lines->seekg(0);
+    }
+    return std::nullopt;
 }
 
 /// Rank 0 reads all lines and hands them out. **Collective.**
@@ -116,8 +140,12 @@ void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
 
 std::vector<InputDisc> read_listed_discs(const SceneParameters& scene, std::istream* lines,
                                          const Communicator& communicator, int n_threads) {
+    std::optional<std::vector<InputDisc>> discs;
     if (communicator.size() > 1 && !scene.discs_file.empty())
-        if (auto discs = read_on_all(scene, communicator, n_threads)) return std::move(*discs);
+        discs = read_on_all(scene, communicator, n_threads);
+    else if (communicator.size() > 1 && !scene.discs_from.empty())
+        discs = read_shares(scene, lines, communicator, n_threads);
+    if (discs) return std::move(*discs);
     return read_on_root(scene, lines, communicator, n_threads);
 }
 

@@ -29,9 +29,10 @@ inline Slab share_of(const SceneParameters& scene, const Communicator& communica
 void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
               const Communicator& communicator, std::vector<InputDisc>& discs);
 
-/// The rank's share of the discs in the scene's file or legacy text. `lines` is their stream on
-/// rank 0, which stands at the first disc. A file that other ranks cannot open is read through it
-/// alone. Problems of lines and ids become an InputError on every rank. **Collective.**
+/// The rank's share of the discs in the scene's file, checkpoint or legacy text. `lines` is their
+/// stream on rank 0, which stands at the first disc; of a checkpoint it is that of the rank's share
+/// on others. What other ranks cannot open is read through rank 0 alone. Problems of lines and ids
+/// become an InputError on every rank. **Collective.**
 std::vector<InputDisc> read_listed_discs(const SceneParameters& scene, std::istream* lines,
                                          const Communicator& communicator, int n_threads);
 

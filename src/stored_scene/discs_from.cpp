@@ -44,12 +44,14 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
 /// Makes the lines of a block of discs when they are asked for.
 class LinesOfDiscs : public std::streambuf {
 public:
-    LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places)
-        : file_(std::move(file)), frame_(frame), places_(std::move(places)) {}
+    LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places,
+                 const Slab& share)
+        : file_(std::move(file)), frame_(frame), places_(std::move(places)), share_(share),
+          next_(share.begin) {}
 
 protected:
     int_type underflow() override {
-        const std::uint64_t begin = next_, end = std::min(begin + block, file_.summary().n_rows);
+        const std::uint64_t begin = next_, end = std::min(begin + block, share_.end);
         if (begin == end) return traits_type::eof();
         n_before_ += lines_.size();
         lines_.clear();
@@ -78,7 +80,8 @@ protected:
 
 private:
     pos_type begin_anew() {
-        next_ = n_before_ = 0;
+        next_ = share_.begin;
+        n_before_ = 0;
         lines_.clear();
         setg(nullptr, nullptr, nullptr);
         return pos_type(0);
@@ -96,7 +99,8 @@ private:
     FrameFile file_;
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< columns of the file
-    std::uint64_t next_ = 0, n_before_ = 0;
+    Slab share_;
+    std::uint64_t next_, n_before_ = 0;
     std::string lines_;
     Rows rows_;
 };
@@ -116,7 +120,7 @@ private:
 } // namespace
 
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            const SideColumnSet& wanted) {
+                            const SideColumnSet& wanted, const std::optional<Slab>& share) {
     FrameFile file(path);
     file.check_numbers();
     const std::size_t frame = frame_of(path, file.summary(), step);
@@ -131,8 +135,8 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
         names.push_back(fmt::format("\"{}\"", info_of(column).name));
     });
     if (!names.empty()) discs.columns = fmt::format("[{}]", fmt::join(names, ", "));
-    discs.lines = std::make_unique<StreamOfDiscs>(
-        std::make_unique<LinesOfDiscs>(std::move(file), frame, std::move(places)));
+    discs.lines = std::make_unique<StreamOfDiscs>(std::make_unique<LinesOfDiscs>(
+        std::move(file), frame, std::move(places), share.value_or(Slab{0, discs.n_discs})));
     return discs;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `discs.from`: the discs of another run's checkpoint or frame, as the lines that a
 // file of discs would have. So they are checked, and sent to their ranks, like all
-// listed discs. The lines are made as they are read, some thousands at a time, so that one rank
-// never holds those of all discs.
+// listed discs. The lines are made as they are read, some thousands at a time, so that no rank
+// holds those of all discs. Each rank can read those of its own share.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/side_columns.hpp"
+#include "parallel/slabs.hpp"
 
 namespace carrom {
 
@@ -24,9 +25,10 @@ struct FileOfDiscs {
 };
 
 /// Finds the frame of `step`, or the last one. `wanted` are columns beside the states,
-/// read if the file has them. Call check_damage before. Throws InputError naming the
-/// file. Not collective.
+/// read if the file has them. The lines are those of the ids in `share`, or of all. Call
+/// check_damage before. Throws InputError naming the file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            const SideColumnSet& wanted);
+                            const SideColumnSet& wanted,
+                            const std::optional<Slab>& share = std::nullopt);
 
 } // namespace carrom

@@ -10,6 +10,7 @@
 #include "initial_state/scene_input.hpp"
 #include "io/checkpoint.hpp"
 #include "parallel/agreement.hpp"
+#include "parallel/slabs.hpp"
 #include "scene/disc_reader.hpp"
 #include "stored_scene/discs_from.hpp"
 
@@ -39,19 +40,20 @@ bool takes_discs_of_file(const SceneParameters& scene) {
     return !scene.discs_file.empty() && scene.discs_from.empty();
 }
 
-/// Replaces the lines after the scene's text by the discs of `discs.from`. Returns the
-/// settings that say so, the same on every rank. **Collective.**
+/// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
+/// 0, by those of their shares on others. Returns the settings that say so, the same on every rank.
+/// **Collective.**
 std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
                                                 std::unique_ptr<std::istream>& stream,
                                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
     check_damage(path, ranks);
+    SideColumnSet wanted = side_columns_of(scene.effects);
+    for (const SideColumn column : all_side_columns)
+        if (!info_of(column).is_of_dynamics) wanted.add(column);
     FileOfDiscs file;
     if (ranks.is_root()) {
         append(of_root, problems_of([&] {
-                   SideColumnSet wanted = side_columns_of(scene.effects);
-                   for (const SideColumn column : all_side_columns)
-                       if (!info_of(column).is_of_dynamics) wanted.add(column);
                    file = read_discs_from(path, scene.discs_from_step, wanted);
                    if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
                        throw InputError({{path, 0,
@@ -63,6 +65,11 @@ std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
     }
     ranks.broadcast(file.n_discs);
     ranks.broadcast(file.columns);
+    if (!ranks.is_root() && file.n_discs > 0) // a fault here is found by rank 0, which reads all
+        problems_of([&] {
+            const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
+            stream = read_discs_from(path, scene.discs_from_step, wanted, share).lines;
+        });
     std::vector<std::string> settings;
     if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);

@@ -23,7 +23,8 @@ inline void append(std::vector<Problem>& problems, const std::vector<Problem>& m
 
 struct SceneSource {
     SceneText text; ///< equal on all ranks
-    /// On rank 0: the input after the text, at the first line of discs if there are any.
+    /// On rank 0: the input after the text, at the first line of discs if there are any. On others
+    /// the lines of their shares of `discs.from`, or null.
     std::unique_ptr<std::istream> stream{};
 };
 
