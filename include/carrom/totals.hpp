@@ -32,13 +32,18 @@ struct Totals {
     std::uint64_t wall_collisions = 0;     ///< since the scene's start; a corner counts once
     std::uint64_t pair_collisions = 0;     ///< pairs, not discs
     std::uint64_t rejected_candidates = 0; ///< time-stepped method, since stepping began here
-    std::uint64_t overlapping_pairs = 0;   ///< now, deeper than the tolerance
-    double deepest_overlap = 0;            ///< of these; 2 r where two discs are in one place
-    std::uint64_t touching_pairs = 0;      ///< now, within the tolerance of contact
-    std::uint64_t sliding_pairs = 0;       ///< of these: rounding decides whether they approach
-    std::uint64_t chained_discs = 0;       ///< discs that touch two others or more
-    double kinetic_energy = 0;             ///< of motion, not of spin
-    double rotational_energy = 0;          ///< of rough discs
+    // Event-driven method, since stepping began here: what restitution has taken, and collisions
+    // that took nothing because one of the discs had collided within the contact time.
+    double energy_taken = 0;
+    std::uint64_t guarded_collisions = 0; ///< contacts at rest aside
+    double energy_spared = 0;             ///< what these would have taken
+    std::uint64_t overlapping_pairs = 0;  ///< now, deeper than the tolerance
+    double deepest_overlap = 0;           ///< of these; 2 r where two discs are in one place
+    std::uint64_t touching_pairs = 0;     ///< now, within the tolerance of contact
+    std::uint64_t sliding_pairs = 0;      ///< of these: rounding decides whether they approach
+    std::uint64_t chained_discs = 0;      ///< discs that touch two others or more
+    double kinetic_energy = 0;            ///< of motion, not of spin
+    double rotational_energy = 0;         ///< of rough discs
     double potential_energy = 0; ///< under gravity, above the walls that it pulls to at the start
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> departed{}; ///< discs that left through an open side: left, right,

@@ -63,11 +63,9 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
     acts_at_syncs_ = allowance.acts_at_syncs;
     energy_given_ = energy_given;
     wall_speed_ = largest_wall_speed(effects_);
-    for (const Boundary& side : effects_.boundaries) {
-        const double turning = 2 * std::numbers::pi / side.period;
-        wall_pull_ = std::max(wall_pull_, side.amplitude * turning * turning);
+    wall_pull_ = largest_wall_pull(effects_);
+    for (const Boundary& side : effects_.boundaries)
         surfaces_rub_ = surfaces_rub_ || side.surface.rubs();
-    }
     surfaces_rub_ = surfaces_rub_ || effects_.obstacles.surface.rubs();
     if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box, scene.radius, effects_);
     known_.resize(slab_of_rank(communicator.rank(), scene.n_discs, communicator.size()).size());

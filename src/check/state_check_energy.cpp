@@ -9,6 +9,7 @@
 
 #include "check/shared_energy.hpp"
 #include "check/state_check.hpp"
+#include "dynamics/contact_guard.hpp"
 #include "dynamics/drag.hpp"
 #include "engine/state_sums.hpp"
 #include "parallel/exchange.hpp"
@@ -221,12 +222,13 @@ double StateCheck::energy_of_rounds(std::size_t i) const {
     return mass_of(now.id) * energy;
 }
 
-/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity
-/// gives in a contact time, at least.
+/// A disc that is pulled to a wall leaves it with a least speed (ContactGuard::least_departure).
 double StateCheck::resting_gain(const Known& known) const {
     const double pull = std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y));
-    const double leaving = 0.5 * (pull + wall_pull_) * effects_.contact.contact_time;
-    return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(known.walls);
+    const SizeAndMass& body = species_.of(known.disc.id);
+    const double leaving =
+        ContactGuard(effects_, body.radius).least_departure(pull + wall_pull_, body.radius);
+    return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 
 /// The most that oscillating walls have given, or taken. A disc that comes with v and

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -53,13 +54,17 @@ inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
 /// Stands for the time of a departed disc, which has none.
 inline constexpr double departed_time = -1;
+/// Stands for the time of a collision that was at the very time of a sync.
+inline constexpr double collided_at_sync = -0.0;
 inline double stored_time(const DiscState& disc) {
-    return disc.has_departed() ? departed_time : disc.tau;
+    if (disc.has_departed()) return departed_time;
+    return disc.has_collided && disc.tau == 0 ? collided_at_sync : disc.tau;
 }
 inline void set_stored_time(DiscState& disc, std::uint64_t bits) {
-    disc.tau = std::bit_cast<double>(bits);
-    disc.is_departed = disc.tau == departed_time;
-    if (disc.has_departed()) disc.tau = 0;
+    const auto time = std::bit_cast<double>(bits);
+    disc.is_departed = time == departed_time;
+    disc.tau = disc.has_departed() || time == 0 ? 0 : time;
+    disc.has_collided = !disc.has_departed() && (time > 0 || std::signbit(time));
 }
 
 } // namespace columns

@@ -34,7 +34,7 @@ struct alignas(64) DiscState {
     std::uint64_t is_departed : 1 = 0; ///< see depart
     std::int64_t image_x : 16 = 0;     ///< displaced by so many box lengths (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    std::uint64_t : 1;
+    std::uint64_t has_collided : 1 = 0; ///< since the last sync; where collisions may take energy
     std::int64_t image_y : 16 = 0;
 
     /// The disc has left the box at (x, y) through an open side. It is at rest there, and takes

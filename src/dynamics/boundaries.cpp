@@ -2,14 +2,28 @@
 #include "dynamics/boundaries.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/random_numbers.hpp"
 
 namespace carrom {
 
+namespace {
+
+/// An eighth of a period at most, in which the wall's pull changes little.
+double rest_time_at(const Boundary& side, const ContactGuard& guard, double gravity,
+                    double radius) {
+    if (side.amplitude == 0) return 0;
+    const double rate = 2 * std::numbers::pi / side.period;
+    const double pull = std::fabs(gravity) + side.amplitude * (rate * rate);
+    return std::min(guard.rest_time(pull, radius), side.period / 8);
+}
+
+} // namespace
+
 Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
                        const SpeciesTable& species_table)
-    : sides_(effects.boundaries), contact_time_(effects.contact.contact_time), drag_(effects.drag),
+    : sides_(effects.boundaries), guard_(effects, radius), drag_(effects.drag),
       thermal_seed_(effects.thermal_seed), box_(box), radius_(radius), species_(species_table),
       gravity_{effects.gravity.x, effects.gravity.y}, fall_(effects.gravity, effects.drag) {
     for (std::size_t side = 0; side < 4; ++side) {
@@ -17,6 +31,7 @@ Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
         if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;
         oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side),
                                           gravity_[side / 2], 8 * 0x1p-52 * box.longest());
+        rest_times_[side] = rest_time_at(sides_[side], guard_, gravity_[side / 2], radius);
         rubbing_[side] = Rubbing(effects.boundaries[side].surface, effects.contact);
     }
     moved_ = away_;
@@ -117,15 +132,17 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin) con
     return false;
 }
 
-void Boundaries::bounce_at(DiscState& disc, Axis axis, double time, double* spin) const {
+Loss Boundaries::bounce_at(DiscState& disc, Axis axis, double time, double* spin) const {
     const std::size_t side = meeting(disc, axis).side;
-    const double restitution = time - disc.tau < contact_time_ ? 1 : sides_[side].restitution;
+    const double since = since_collision(disc, time);
     disc.x = disc.x_at(time);
     disc.y = disc.y_at(time);
     disc.tau = time;
-    if (is_open(side)) return depart(disc, side, time, spin);
-    rebound(disc, side, restitution, time, spin);
+    if (is_open(side)) return depart(disc, side, time, spin), Loss{};
+    const Loss loss = rebound(disc, side, since, time, spin);
     disc.wall_collisions += 1;
+    disc.has_collided = 1;
+    return loss;
 }
 
 void Boundaries::depart(DiscState& disc, std::size_t side, double time, double* spin) const {
@@ -139,42 +156,47 @@ void Boundaries::depart(DiscState& disc, std::size_t side, double time, double* 
 void Boundaries::reverse(DiscState& disc, Axis axis, double* spin) const {
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const std::size_t side = velocity_of(disc, low / 2) < 0 ? low : low + 1;
-    rebound(disc, side, sides_[side].restitution, 0, spin);
+    rebound(disc, side, never, 0, spin);
 }
 
-void Boundaries::rebound(DiscState& disc, std::size_t side, double restitution, double time,
+Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double time,
                          double* spin) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
     double& along = side / 2 == 0 ? disc.vy : disc.vx;
     const bool oscillates = oscillations_[side].is_any();
     const double sign = sign_of(side),
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
-    double away = restitution * std::fabs(normal - wall);
+    const auto [radius, mass] = species_.of(disc.id);
+    const double closing = std::fabs(normal - wall), restitution = sides_[side].restitution;
+    const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
+    double away = (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
         // Discs leave a wall of temperature T with v_n of the density v_n / T exp(-v_n^2 / 2
         // T); the other component is Maxwell's. All images of a disc draw the same numbers.
         const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(thermal_seed_, Purpose::thermal_wall, disc.id,
                           4 * n_before + drawn_side(side));
-        const double temperature = sides_[side].temperature / species_.of(disc.id).mass;
+        const double temperature = sides_[side].temperature / mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / fall_.slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random));
         along = (speed * random_direction(random).x) / fall_.slowing_at(time) +
                 surface_velocity(side, time);
     }
-    // A disc that is pulled back stays away for the contact time at least, because one
-    // at rest would otherwise bounce without end.
-    const double pull = oscillates ? oscillations_[side].pressure_at(time, time + contact_time_)
+    // A disc that is pulled back stays away for a contact at least, because one at rest would
+    // otherwise bounce without end.
+    const double pull = oscillates ? oscillations_[side].pressure_at(time, time + rest_times_[side])
                                    : -sign * pull_at(side);
-    if (pull > 0) away = std::max(away, 0.5 * pull * contact_time_ / fall_.slowing_at(time));
+    if (pull > 0)
+        away = std::max(away, guard_.least_departure(pull, radius) / fall_.slowing_at(time));
     const double before = normal;
     normal = wall + sign * away;
     if (rubbing_[side].acts()) [[unlikely]] {
         const double t = sign_along(side);
         along += t * rubbing_[side].rub(t * (along - surface_velocity(side, time)),
-                                        std::fabs(normal - before),
-                                        {spin, species_.of(disc.id).radius});
+                                        std::fabs(normal - before), {spin, radius});
     }
+    return guard_.loss(0.5 * mass * (1 - restitution * restitution) * (closing * closing),
+                       closing * closing, is_guarded);
 }
 
 } // namespace carrom

@@ -16,8 +16,10 @@
 
 #include "core/axis.hpp"
 #include "core/disc_state.hpp"
+#include "dynamics/contact_guard.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
+#include "dynamics/loss.hpp"
 #include "dynamics/never.hpp"
 #include "dynamics/oscillation.hpp"
 #include "dynamics/rubbing.hpp"
@@ -41,7 +43,7 @@ public:
     double wall_time(const DiscState& disc, Axis axis) const { return meeting(disc, axis).time; }
     /// Carries out the collision of `time` = wall_time(disc, axis), the event-driven method.
     /// `spin`, here and below: null where discs do not turn.
-    void bounce_at(DiscState& disc, Axis axis, double time, double* spin) const;
+    Loss bounce_at(DiscState& disc, Axis axis, double time, double* spin) const;
     /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
     bool may_meet(const DiscState& disc, double time, double margin) const;
 
@@ -118,8 +120,7 @@ private:
     double delay_of(const Approach& approach, double time) const;
     double delay_to(const DiscState& disc, std::size_t side) const;
     Meeting meeting(const DiscState& disc, Axis axis) const;
-    void rebound(DiscState& disc, std::size_t side, double restitution, double time,
-                 double* spin) const;
+    Loss rebound(DiscState& disc, std::size_t side, double since, double time, double* spin) const;
     /// The velocity of the surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
         return sides_[side].surface.velocity / fall_.slowing_at(time) -
@@ -129,7 +130,8 @@ private:
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
     std::array<Boundary, 4> sides_;
-    double contact_time_, drag_;
+    ContactGuard guard_;
+    double drag_;
     std::uint64_t thermal_seed_;
     Box box_;
     double radius_;
@@ -139,6 +141,7 @@ private:
     std::array<double, 2> gravity_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
+    std::array<double, 4> rest_times_{}; ///< how long a disc at rest is away from such a wall
     std::array<Rubbing, 4> rubbing_{};
 };
 

@@ -1,66 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The impulse between two discs that touch, one class for each kind of contact. It is along the
 // line of centres, in units of that of an elastic contact.
+//
+// A contact is asked with the time `since` the last collision of either disc, and with `k`, the
+// rate at which they approach in units of their distance: then its guard (contact_guard.hpp) may
+// make it elastic. The time-stepped method has no guard, because a disc collides once in a
+// micro-step at most there, so it passes `never`.
 #pragma once
 
 #include <cmath>
 #include <type_traits>
 
 #include "core/disc_state.hpp"
+#include "dynamics/contact_guard.hpp"
 #include "dynamics/effects.hpp"
 
 namespace carrom {
 
-/// Elastic contacts beside other effects. They have no guard like those of
-/// InelasticContact, because this has to be fast.
+/// Elastic contacts beside other effects.
 class ElasticContact {
 public:
-    explicit ElasticContact(const ContactEffect&) {}
-    double impulse() const { return 1; }
-    double impulse_at(const DiscState&, const DiscState&, double) const { return 1; }
+    ElasticContact(const Effects&, double /*radius*/) {}
+    static constexpr bool is_guarded(double, double) { return false; }
+    static constexpr double normal() { return 1; }
+    static constexpr Loss loss(double, double, bool) { return {}; }
 };
 
 /// The share `restitution` of the normal relative velocity is left: 1 gives the elastic contact's
 /// bits.
-///
-/// In the event-driven method a heap of such discs would come to infinitely many collisions in a
-/// finite time (inelastic collapse: McNamara and Young 1992). So dissipation takes time, as in the
-/// TC model of Luding and McNamara, Granular Matter 1, 113 (1998): if one of the two has been
-/// touched within the contact time before, they part elastically. A state's own time is that of its
-/// last collision or sync: the sync counts as a touch, so the guard holds across it.
 class InelasticContact {
 public:
-    explicit InelasticContact(const ContactEffect& effect)
-        : impulse_((1 + effect.restitution) / 2), contact_time_(effect.contact_time) {}
+    InelasticContact(const Effects& effects, double radius)
+        : normal_((1 + effects.contact.restitution) / 2), guard_(effects, radius) {}
 
-    /// For the time-stepped method, in which a disc collides at most once in a micro-step.
-    double impulse() const { return impulse_; }
-    /// For the event-driven method; `p` and `q` are the stored states before the contact at `time`.
-    double impulse_at(const DiscState& p, const DiscState& q, double time) const {
-        return time - p.tau < contact_time_ || time - q.tau < contact_time_ ? 1 : impulse_;
+    bool is_guarded(double since, double k) const { return guard_.holds(since, k); }
+    double normal() const { return normal_; }
+    Loss loss(double energy, double squared_speed, bool is_guarded) const {
+        return guard_.loss(energy, squared_speed, is_guarded);
     }
 
 private:
-    double impulse_, contact_time_;
+    double normal_;
+    ContactGuard guard_;
 };
 
 /// Discs with spin: normal and tangential restitution and Coulomb's friction (Walton and Braun, J.
 /// Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442 (1995)). Where the surfaces stick their
 /// relative velocity along them is multiplied by minus `tangential_restitution`; where that takes
-/// more than `friction` times the normal impulse, they slide.
+/// more than `friction` times the normal impulse, they slide. A guarded contact is smooth.
 class RoughContact {
 public:
-    explicit RoughContact(const ContactEffect& effect)
-        : normal_((1 + effect.restitution) / 2),
-          tangential_((1 + effect.tangential_restitution) / 2 *
-                      (effect.inertia / (1 + effect.inertia))),
-          friction_(effect.friction), inertia_(effect.inertia), contact_time_(effect.contact_time) {
-    }
+    RoughContact(const Effects& effects, double radius)
+        : RoughContact(effects.contact, ContactGuard(effects, radius)) {}
 
-    /// Within the contact time discs part elastically, like smooth ones: see InelasticContact.
-    bool is_guarded(const DiscState& p, const DiscState& q, double time) const {
-        return time - p.tau < contact_time_ || time - q.tau < contact_time_;
-    }
+    bool is_guarded(double since, double k) const { return guard_.holds(since, k); }
     double normal() const { return normal_; }
     /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
     /// `k`, all in one unit.
@@ -69,9 +62,19 @@ public:
         return std::fabs(sticking) > most ? std::copysign(most, sticking) : sticking;
     }
     double inertia() const { return inertia_; }
+    Loss loss(double energy, double squared_speed, bool is_guarded) const {
+        return guard_.loss(energy, squared_speed, is_guarded);
+    }
 
 private:
-    double normal_, tangential_, friction_, inertia_, contact_time_;
+    RoughContact(const ContactEffect& effect, const ContactGuard& guard)
+        : normal_((1 + effect.restitution) / 2),
+          tangential_((1 + effect.tangential_restitution) / 2 *
+                      (effect.inertia / (1 + effect.inertia))),
+          friction_(effect.friction), inertia_(effect.inertia), guard_(guard) {}
+
+    double normal_, tangential_, friction_, inertia_;
+    ContactGuard guard_;
 };
 
 } // namespace carrom

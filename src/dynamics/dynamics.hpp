@@ -14,6 +14,7 @@
 #include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/loss.hpp"
 #include "dynamics/obstacles.hpp"
 #include "dynamics/pair_contact.hpp"
 
@@ -79,8 +80,8 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, DiscState
     { d.event_contact(disc, disc).exists() } -> std::same_as<bool>;
     { d.x_wall_time(disc) } -> std::same_as<double>;
     { d.y_wall_time(disc) } -> std::same_as<double>;
-    d.bounce_x_at(p, time, spin);
-    d.bounce_y_at(p, time, spin);
+    { d.bounce_x_at(p, time, spin) } -> std::same_as<Loss>;
+    { d.bounce_y_at(p, time, spin) } -> std::same_as<Loss>;
     // False only if neither wall time is up to `time`.
     { d.may_meet_wall(disc, time) } -> std::same_as<bool>;
     // A disc inside at some time in between, and within these walls at the end, has met none.
@@ -89,16 +90,16 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, DiscState
     // Answers that only some dynamics give. `p` has the lower id.
     requires D::has_spin || requires {
         d.collide(p, q, m, t); // time-stepped: the contact, and stops at walls
-        d.collide_at(p, q, time);
+        { d.collide_at(p, q, time) } -> std::same_as<Loss>;
     };
     requires !D::has_spin || requires(double& p_spin, double& q_spin) {
         d.collide(p, q, m, t, p_spin, q_spin);
-        d.collide_at(p, q, time, p_spin, q_spin);
+        { d.collide_at(p, q, time, p_spin, q_spin) } -> std::same_as<Loss>;
     };
     requires !D::has_species || requires { d.species_table().of(DiscId{}); };
     requires !D::may_have_obstacles || requires(const ContactTimes& times, std::uint32_t body) {
         { d.first_obstacle(disc, times) } -> std::same_as<ObstacleContact>;
-        d.bounce_off_at(p, body, time, spin);
+        { d.bounce_off_at(p, body, time, spin) } -> std::same_as<Loss>;
     };
     requires !D::is_periodic || requires {
         { d.periods() } -> std::convertible_to<Periods>;

@@ -13,6 +13,7 @@
 #include "dynamics/contacts.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
+#include "dynamics/loss.hpp"
 #include "dynamics/obstacles.hpp"
 #include "dynamics/plain_dynamics.hpp"
 
@@ -31,9 +32,8 @@ public:
 
     /// `effects` per micro-step.
     EffectDynamics(const Box& box, double radius, const Effects& effects)
-        : PlainDynamics(box, radius), contact_(effects.contact),
-          has_pairs_(effects.contact.kind != ContactKind::none),
-          contact_time_(effects.contact.contact_time), species_(effects.species, radius),
+        : PlainDynamics(box, radius), contact_(effects, radius),
+          has_pairs_(effects.contact.kind != ContactKind::none), species_(effects.species, radius),
           fall_(effects.gravity, effects.drag), boundaries_(box, radius, effects, species_) {
         if (effects.obstacles.are_any())
             obstacles_ = std::make_shared<const Obstacles>(box, radius, effects);
@@ -72,12 +72,12 @@ public:
     }
 
     void collide(DiscState& p, DiscState& q, double m, double t) const {
-        exchange_momentum(p, q, m + t, contact_.impulse());
+        exchange_momentum(p, q, m + t, never);
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(DiscState& p, DiscState& q, double time) const {
-        exchange_momentum(p, q, time, contact_.impulse_at(p, q, time));
+    Loss collide_at(DiscState& p, DiscState& q, double time) const {
+        return exchange_momentum(p, q, time, since_collision_of(p, q, time));
     }
 
     /// The plain dynamics' answer, with obstacles.
@@ -89,12 +89,12 @@ public:
     /// For rough discs: spins are angles per micro-step, counterclockwise.
     void collide(DiscState& p, DiscState& q, double m, double t, double& p_spin,
                  double& q_spin) const {
-        exchange_spin(p, q, m + t, false, p_spin, q_spin);
+        exchange_spin(p, q, m + t, never, p_spin, q_spin);
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
-        exchange_spin(p, q, time, contact_.is_guarded(p, q, time), p_spin, q_spin);
+    Loss collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
+        return exchange_spin(p, q, time, since_collision_of(p, q, time), p_spin, q_spin);
     }
 
     /// A disc's candidate with a wall or an obstacle, whichever comes first.
@@ -138,23 +138,27 @@ public:
     Extent walls_between(double begin, double end) const {
         return boundaries_.walls_between(begin, end);
     }
-    void bounce_x_at(DiscState& disc, double time, double* spin = nullptr) const {
-        boundaries_.bounce_at(disc, Axis::x, time, spin);
+    Loss bounce_x_at(DiscState& disc, double time, double* spin = nullptr) const {
+        return boundaries_.bounce_at(disc, Axis::x, time, spin);
     }
-    void bounce_y_at(DiscState& disc, double time, double* spin = nullptr) const {
-        boundaries_.bounce_at(disc, Axis::y, time, spin);
+    Loss bounce_y_at(DiscState& disc, double time, double* spin = nullptr) const {
+        return boundaries_.bounce_at(disc, Axis::y, time, spin);
     }
     /// The first obstacle that the disc comes to.
     ObstacleContact first_obstacle(const DiscState& disc, const ContactTimes& times) const {
         return disc.has_departed() ? ObstacleContact{}
                                    : obstacles_->first_contact(disc, radius_of(disc), times);
     }
-    void bounce_off_at(DiscState& disc, std::uint32_t body, double time,
+    Loss bounce_off_at(DiscState& disc, std::uint32_t body, double time,
                        double* spin = nullptr) const {
-        const bool is_touched = time - disc.tau < contact_time_;
+        const double since = since_collision(disc, time);
         advance(disc, time);
-        obstacles_->rebound(disc, body, time, is_touched, {spin, radius_of(disc)});
+        Loss loss = obstacles_->rebound(disc, body, time, since, {spin, radius_of(disc)});
+        loss.taken *= mass_of(disc);
+        loss.spared *= mass_of(disc);
         disc.wall_collisions += 1;
+        disc.has_collided = 1;
+        return loss;
     }
 
 protected:
@@ -171,7 +175,7 @@ protected:
     std::uint32_t rebound_in(DiscState& disc, double m, double* spin) const {
         const ObstacleContact contact = obstacle_contact(disc, m);
         advance(disc, contact.time);
-        obstacles_->rebound(disc, contact.body, 0, false, {spin, radius_of(disc)});
+        obstacles_->rebound(disc, contact.body, 0, never, {spin, radius_of(disc)});
         disc.wall_collisions += 1;
         return contact.body;
     }
@@ -239,23 +243,26 @@ private:
         return *this;
     }
 
-    [[gnu::always_inline]] void exchange_momentum(DiscState& p, DiscState& q, double time,
-                                                  double impulse) const {
+    [[gnu::always_inline]] Loss exchange_momentum(DiscState& p, DiscState& q, double time,
+                                                  double since) const {
         advance(p, time);
         advance(q, time);
-        exchange_momentum_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), impulse);
+        return exchange_momentum_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), since);
     }
-    [[gnu::always_inline]] void exchange_spin(DiscState& p, DiscState& q, double time,
-                                              bool is_guarded, double& p_spin,
-                                              double& q_spin) const {
+    [[gnu::always_inline]] Loss exchange_spin(DiscState& p, DiscState& q, double time, double since,
+                                              double& p_spin, double& q_spin) const {
         advance(p, time);
         advance(q, time);
-        exchange_spin_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), is_guarded, p_spin, q_spin);
+        return exchange_spin_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), since, p_spin, q_spin);
     }
 
 protected:
     // Sizes and masses of pairs and at walls, for images too. Discs are advanced to where they
-    // touch.
+    // touch. `since` is the time since the last collision of either.
+
+    static double since_collision_of(const DiscState& p, const DiscState& q, double time) {
+        return std::min(since_collision(p, time), since_collision(q, time));
+    }
 
     /// Sums of two numbers are the same in any order.
     [[gnu::always_inline]] double pair_diameter(const DiscState& p, const DiscState& q) const {
@@ -270,30 +277,45 @@ protected:
 
     /// The momentum that equal discs would exchange, times 2 m' / (m + m') for each disc's
     /// velocity, m' being the other's mass. The factor is 1 if the masses are equal.
-    [[gnu::always_inline]] void exchange_momentum_at(DiscState& p, DiscState& q,
+    [[gnu::always_inline]] Loss exchange_momentum_at(DiscState& p, DiscState& q,
                                                      const Encounter& encounter,
-                                                     double impulse) const {
+                                                     double since) const {
+        const double square = encounter.square(), k = encounter.rate();
+        const bool is_guarded = contact_.is_guarded(since, k);
+        const double impulse = is_guarded ? 1 : contact_.normal();
+        double reduced_mass = 0.5;
         if constexpr (is_mixed) {
             const double p_mass = species_.of(p.id).mass, q_mass = species_.of(q.id).mass;
             const double half = (p_mass + q_mass) / 2;
+            reduced_mass = p_mass * q_mass / (2 * half);
             push_apart(p, q, encounter, impulse, q_mass / half, p_mass / half);
         } else {
             push_apart(p, q, encounter, impulse);
         }
+        p.has_collided = q.has_collided = 1;
+        return contact_.loss(reduced_mass * normal_loss(k) * square, k * k * square, is_guarded);
+    }
+
+    /// The energy that restitution takes, for a reduced mass of 1 and a distance of 1: half of the
+    /// squared rate of approach, times 1 - e^2.
+    double normal_loss(double k) const {
+        return 2 * contact_.normal() * (1 - contact_.normal()) * k * k;
     }
 
     /// Also adds an impulse s along the surfaces, which acts on both spins alike, in units of
     /// the distance of centres, like k. With s = 0 the bits are those of exchange_momentum_at.
-    [[gnu::always_inline]] void exchange_spin_at(DiscState& p, DiscState& q,
-                                                 const Encounter& encounter, bool is_guarded,
+    [[gnu::always_inline]] Loss exchange_spin_at(DiscState& p, DiscState& q,
+                                                 const Encounter& encounter, double since,
                                                  double& p_spin, double& q_spin) const {
         const SizeAndMass &p_has = species_.of(p.id), &q_has = species_.of(q.id);
         const auto [ex, ey, wx, wy] = encounter;
-        const double square = ex * ex + ey * ey, distance = std::sqrt(square);
-        const double k = (is_guarded ? 1 : contact_.normal()) * ((wx * ex + wy * ey) / square);
+        const double square = encounter.square(), distance = std::sqrt(square);
+        const bool is_guarded = contact_.is_guarded(since, encounter.rate());
+        const double lossy = contact_.normal() * encounter.rate();
+        const double k = is_guarded ? encounter.rate() : lossy;
         const double slip = (wy * ex - wx * ey) / square -
                             (p_spin * p_has.radius + q_spin * q_has.radius) / distance;
-        const double s = is_guarded ? 0 : contact_.tangential(slip, k);
+        const double rubbed = contact_.tangential(slip, lossy), s = is_guarded ? 0 : rubbed;
         const double half = (p_has.mass + q_has.mass) / 2, p_share = q_has.mass / half,
                      q_share = p_has.mass / half;
         p.vx = p.vx + (k * p_share * ex - s * p_share * ey);
@@ -305,13 +327,19 @@ protected:
         q_spin = q_spin + turn * q_share / q_has.radius;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
+        p.has_collided = q.has_collided = 1;
+        // An impulse s changes the slip by 2 s (1 + 1 / inertia).
+        const double along = 2 * rubbed * (slip - rubbed * (1 + 1 / contact_.inertia())),
+                     rate = encounter.rate();
+        return contact_.loss(p_has.mass * q_has.mass / (2 * half) * square *
+                                 (normal_loss(rate) + along),
+                             rate * rate * square, is_guarded);
     }
 
     Contact contact_;
 
 private:
     bool has_pairs_;
-    double contact_time_; ///< used for obstacles in the event-driven method
     SpeciesTable species_;
     FallingFrame fall_;
     Boundaries boundaries_;

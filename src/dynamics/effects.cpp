@@ -98,4 +98,13 @@ double largest_wall_speed(const Effects& effects) {
     return speed;
 }
 
+double largest_wall_pull(const Effects& effects) {
+    double pull = 0;
+    for (const Boundary& side : effects.boundaries) {
+        const double rate = 2 * std::numbers::pi / side.period;
+        pull = std::max(pull, side.amplitude * (rate * rate));
+    }
+    return pull;
+}
+
 } // namespace carrom

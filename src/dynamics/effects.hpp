@@ -25,9 +25,10 @@ enum class ContactKind { elastic, none, restitution, rough };
 
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
-    double restitution = 1;      ///< share of the normal relative velocity that is left, 0 to 1
-    double contact_time = 0.001; ///< a disc that has collided within this time collides
-                                 ///< elastically; event-driven method only
+    double restitution = 1;  ///< share of the normal relative velocity that is left, 0 to 1
+    double contact_time = 0; ///< a disc that has collided within this time collides elastically; 0
+                             ///< if a length takes its place (contact_guard.hpp); event-driven
+                             ///< method only
     // For rough discs:
     double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity
                                         ///< where they stick, -1 (smooth) to 1
@@ -189,5 +190,7 @@ Extent extent_of_lines(const Effects& effects, const Box& box, double time,
 
 /// The largest speed of oscillating walls; 0 if there are none.
 double largest_wall_speed(const Effects& effects);
+/// Their largest acceleration.
+double largest_wall_pull(const Effects& effects);
 
 } // namespace carrom

@@ -28,8 +28,7 @@ public:
 
     /// `effects` are per micro-step.
     GrowingDynamics(const Box& box, double radius, const Effects& effects)
-        : Constant(box, radius, effects), rate_(effects.growth),
-          guard_(effects.contact.contact_time) {
+        : Constant(box, radius, effects), rate_(effects.growth), guard_(effects, radius) {
         for (std::size_t side = 0; side < restitutions_.size(); ++side)
             restitutions_[side] = effects.boundaries[side].restitution;
     }
@@ -48,15 +47,18 @@ public:
                                             pair_diameter(p, q) * size, rate_ / size, never)};
     }
     /// Along the line of centres the surfaces' relative velocity is reversed.
-    void collide_at(DiscState& p, DiscState& q, double time) const {
-        const double impulse = contact_.impulse_at(p, q, time), growth = rate_ / growth_at(time);
+    Loss collide_at(DiscState& p, DiscState& q, double time) const {
+        const double since = since_collision_of(p, q, time), growth = rate_ / growth_at(time);
         advance(p, time);
         advance(q, time);
         const double ex = (q.x - p.x) + periods().x_between(p, q),
                      ey = (q.y - p.y) + periods().y_between(p, q);
         const double wx = std::fma(-growth, ex, q.vx - p.vx),
                      wy = std::fma(-growth, ey, q.vy - p.vy);
-        const double k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
+        const Encounter of_surfaces{ex, ey, wx, wy};
+        const double rate = of_surfaces.rate();
+        const bool is_guarded = contact_.is_guarded(since, rate);
+        const double k = is_guarded ? rate : contact_.normal() * rate;
         const double p_mass = mass_of(p), q_mass = mass_of(q), half = (p_mass + q_mass) / 2;
         p.vx = p.vx + k * (q_mass / half) * ex;
         p.vy = p.vy + k * (q_mass / half) * ey;
@@ -64,15 +66,19 @@ public:
         q.vy = q.vy - k * (p_mass / half) * ey;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
+        p.has_collided = q.has_collided = 1;
+        return contact_.loss(p_mass * q_mass / (2 * half) * normal_loss(rate) *
+                                 of_surfaces.square(),
+                             rate * rate * of_surfaces.square(), is_guarded);
     }
 
     double x_wall_time(const DiscState& disc) const { return meeting(disc, Axis::x).time; }
     double y_wall_time(const DiscState& disc) const { return meeting(disc, Axis::y).time; }
-    void bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) const {
-        bounce_at(disc, Axis::x, time);
+    Loss bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) const {
+        return bounce_at(disc, Axis::x, time);
     }
-    void bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) const {
-        bounce_at(disc, Axis::y, time);
+    Loss bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) const {
+        return bounce_at(disc, Axis::y, time);
     }
     bool may_meet_wall(const DiscState& disc, double time) const {
         const double first_radius = species_table().of(disc.id).radius,
@@ -110,22 +116,29 @@ private:
                                  : Meeting{disc.tau + to_high, true};
     }
     /// Like a bounce at a wall that comes in as fast as the disc grows.
-    void bounce_at(DiscState& disc, Axis axis, double time) const {
+    Loss bounce_at(DiscState& disc, Axis axis, double time) const {
         const bool is_high = meeting(disc, axis).is_high;
         const double restitution =
-            time - disc.tau < guard_
-                ? 1
-                : restitutions_[2 * static_cast<std::size_t>(axis) + (is_high ? 1 : 0)];
-        const double grows = species_table().of(disc.id).radius * rate_;
+            restitutions_[2 * static_cast<std::size_t>(axis) + (is_high ? 1 : 0)];
+        const double since = since_collision(disc, time),
+                     first_radius = species_table().of(disc.id).radius,
+                     grows = first_radius * rate_;
         advance(disc, time);
         double& velocity = axis == Axis::x ? disc.vx : disc.vy;
         const double closing = grows + (is_high ? velocity : -velocity);
-        const double away = grows + restitution * closing;
+        const bool is_guarded = guard_.holds_at_wall(since, closing,
+                                                     first_radius * growth_at(time));
+        const double away = grows + (is_guarded ? 1 : restitution) * closing;
         velocity = is_high ? -away : away;
         disc.wall_collisions += 1;
+        disc.has_collided = 1;
+        const double square = closing * closing;
+        return guard_.loss(0.5 * mass_of(disc) * (1 - restitution * restitution) * square, square,
+                           is_guarded);
     }
 
-    double rate_, guard_;
+    double rate_;
+    ContactGuard guard_;
     std::array<double, 4> restitutions_{};
     double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
 };

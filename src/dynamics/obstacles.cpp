@@ -36,7 +36,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 } // namespace
 
 Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effects)
-    : restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
+    : restitution_(effects.obstacles.restitution), guard_(effects, largest_radius),
       rubbing_(effects.obstacles.surface, effects.contact),
       gravity_{effects.gravity.x, effects.gravity.y},
       n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box)),
@@ -252,7 +252,7 @@ ObstacleContact Obstacles::first_contact(const DiscState& disc, double radius,
     return best;
 }
 
-void Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, bool is_touched,
+Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double since,
                         const Turning& turning) const {
     const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
     const Entry image = image_of(code, x, y);
@@ -270,18 +270,23 @@ void Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, bool i
         ny = dy / distance;
     }
     const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
-    double away = (is_touched ? 1 : restitution_) * std::fabs(normal);
-    // Like at walls, a disc that is pulled back stays away for the contact time at least.
+    const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
+    double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
+    // Like at walls, a disc that is pulled back stays away for a contact at least.
     const double pull = -(nx * gravity_[0] + ny * gravity_[1]);
-    if (pull > 0) away = std::max(away, 0.5 * pull * contact_time_);
+    if (pull > 0) away = std::max(away, guard_.least_departure(pull, turning.radius));
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
-    if (!rubbing_.acts()) return;
+    const double square = normal * normal;
+    const Loss loss = guard_.loss(0.5 * (1 - restitution_ * restitution_) * square, square,
+                                  is_guarded);
+    if (!rubbing_.acts()) return loss;
     const double along = nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
     const double change = rubbing_.rub(along - rubbing_.velocity(), std::fabs(away - normal),
                                        turning);
     disc.vx -= change * ny;
     disc.vy += change * nx;
+    return loss;
 }
 
 Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,

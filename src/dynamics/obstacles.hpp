@@ -19,7 +19,9 @@
 
 #include "core/disc_state.hpp"
 #include "core/extent.hpp"
+#include "dynamics/contact_guard.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/loss.hpp"
 #include "dynamics/rubbing.hpp"
 
 namespace carrom {
@@ -54,10 +56,10 @@ public:
                                   const ContactTimes& times) const;
 
     /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at
-    /// `time`, its own now; `is_touched` says whether it has been touched within the contact time
-    /// before.
-    void rebound(DiscState& disc, std::uint32_t code, double time, bool is_touched,
-                 const Turning& turning = {}) const;
+    /// `time`, its own now; its last collision was `since` before. Returns the loss for a mass
+    /// of 1.
+    Loss rebound(DiscState& disc, std::uint32_t code, double time, double since,
+                 const Turning& turning) const;
 
     struct Overlap {
         double depth = 0;
@@ -115,7 +117,8 @@ private:
         return (0.5 * gravity_[axis] * time) * time;
     }
 
-    double restitution_, contact_time_;
+    double restitution_;
+    ContactGuard guard_;
     Rubbing rubbing_;
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;

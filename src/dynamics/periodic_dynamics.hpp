@@ -43,23 +43,23 @@ public:
     }
 
     void collide(DiscState& p, DiscState& q, double m, double t) const {
-        exchange_momentum(p, q, m + t, this->contact_.impulse());
+        exchange_momentum(p, q, m + t, Walled::never);
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(DiscState& p, DiscState& q, double time) const {
-        exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
+    Loss collide_at(DiscState& p, DiscState& q, double time) const {
+        return exchange_momentum(p, q, time, this->since_collision_of(p, q, time));
     }
 
     /// For rough discs.
     void collide(DiscState& p, DiscState& q, double m, double t, double& p_spin,
                  double& q_spin) const {
-        exchange_spin(p, q, m + t, false, p_spin, q_spin);
+        exchange_spin(p, q, m + t, Walled::never, p_spin, q_spin);
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
-        exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
+    Loss collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
+        return exchange_spin(p, q, time, this->since_collision_of(p, q, time), p_spin, q_spin);
     }
 
     double wall_time(const DiscState& disc, double m) const {
@@ -97,18 +97,19 @@ private:
                                     deepest_overlap)};
     }
 
-    void exchange_momentum(DiscState& p, DiscState& q, double time, double impulse) const {
+    Loss exchange_momentum(DiscState& p, DiscState& q, double time, double since) const {
         this->advance(p, time);
         this->advance(q, time);
         const Separation to = separation(p, q);
-        this->exchange_momentum_at(p, q, this->encounter(p, q, to.x, to.y), impulse);
+        return this->exchange_momentum_at(p, q, this->encounter(p, q, to.x, to.y), since);
     }
-    void exchange_spin(DiscState& p, DiscState& q, double time, bool is_guarded, double& p_spin,
+    Loss exchange_spin(DiscState& p, DiscState& q, double time, double since, double& p_spin,
                        double& q_spin) const {
         this->advance(p, time);
         this->advance(q, time);
         const Separation to = separation(p, q);
-        this->exchange_spin_at(p, q, this->encounter(p, q, to.x, to.y), is_guarded, p_spin, q_spin);
+        return this->exchange_spin_at(p, q, this->encounter(p, q, to.x, to.y), since, p_spin,
+                                      q_spin);
     }
 
     double side_time(const DiscState& disc, double m) const {

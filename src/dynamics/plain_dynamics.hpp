@@ -16,6 +16,7 @@
 #include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/loss.hpp"
 #include "dynamics/pair_contact.hpp"
 #include "dynamics/resting_walls.hpp"
 
@@ -36,6 +37,10 @@ struct Separation {
 struct Encounter {
     double ex = 0, ey = 0;
     double wx = 0, wy = 0;
+
+    double square() const { return ex * ex + ey * ey; }
+    /// How fast they come apart, in units of their distance.
+    double rate() const { return (wx * ex + wy * ey) / (ex * ex + ey * ey); }
 };
 
 class PlainDynamics {
@@ -139,10 +144,11 @@ public:
                                                              const DiscState& q) const {
         return pair_contact(p, q, diameter_, never);
     }
-    static void collide_at(DiscState& p, DiscState& q, double time) {
+    static Loss collide_at(DiscState& p, DiscState& q, double time) {
         advance(p, time);
         advance(q, time);
         push_apart(p, q, encounter(p, q, q.x - p.x, q.y - p.y), 1);
+        return {};
     }
     double x_wall_time(const DiscState& disc) const {
         return disc.tau + walls(Axis::x).delay(disc.x, disc.vx);
@@ -160,15 +166,17 @@ public:
                  y < at_y.high() - margin);
     }
     Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_.x, 0, box_.y}; }
-    static void bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
+    static Loss bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vx = -disc.vx;
         disc.wall_collisions += 1;
+        return {};
     }
-    static void bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
+    static Loss bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vy = -disc.vy;
         disc.wall_collisions += 1;
+        return {};
     }
 
     // Parts of the answers above, for other dynamics.
@@ -220,8 +228,8 @@ protected:
     [[gnu::always_inline]] static void push_apart(DiscState& p, DiscState& q,
                                                   const Encounter& encounter, double impulse,
                                                   double p_share = 1, double q_share = 1) {
-        const auto [ex, ey, wx, wy] = encounter;
-        const double k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
+        const double ex = encounter.ex, ey = encounter.ey;
+        const double k = impulse * encounter.rate();
         p.vx = p.vx + k * p_share * ex;
         p.vy = p.vy + k * p_share * ey;
         q.vx = q.vx - k * q_share * ex;

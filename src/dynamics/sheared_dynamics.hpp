@@ -58,18 +58,18 @@ public:
 
     /// Nothing in the box is fixed, so no disc has to stop.
     void collide(DiscState& p, DiscState& q, double m, double t) const {
-        exchange_momentum(p, q, m + t, this->contact_.impulse());
+        exchange_momentum(p, q, m + t, Walled::never);
     }
-    void collide_at(DiscState& p, DiscState& q, double time) const {
-        exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
+    Loss collide_at(DiscState& p, DiscState& q, double time) const {
+        return exchange_momentum(p, q, time, this->since_collision_of(p, q, time));
     }
     /// For rough discs.
     void collide(DiscState& p, DiscState& q, double m, double t, double& p_spin,
                  double& q_spin) const {
-        exchange_spin(p, q, m + t, false, p_spin, q_spin);
+        exchange_spin(p, q, m + t, Walled::never, p_spin, q_spin);
     }
-    void collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
-        exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
+    Loss collide_at(DiscState& p, DiscState& q, double time, double& p_spin, double& q_spin) const {
+        return exchange_spin(p, q, time, this->since_collision_of(p, q, time), p_spin, q_spin);
     }
 
     /// The squared speed of the fastest image next to the disc's own one.
@@ -101,12 +101,12 @@ private:
         return {(q.x - p.x) + shift.x, (q.y - p.y) + shift.y, (q.vx - p.vx) + shift.vx,
                 q.vy - p.vy};
     }
-    void exchange_momentum(DiscState& p, DiscState& q, double time, double impulse) const {
-        this->exchange_momentum_at(p, q, encounter_at(p, q, time), impulse);
+    Loss exchange_momentum(DiscState& p, DiscState& q, double time, double since) const {
+        return this->exchange_momentum_at(p, q, encounter_at(p, q, time), since);
     }
-    void exchange_spin(DiscState& p, DiscState& q, double time, bool is_guarded, double& p_spin,
+    Loss exchange_spin(DiscState& p, DiscState& q, double time, double since, double& p_spin,
                        double& q_spin) const {
-        this->exchange_spin_at(p, q, encounter_at(p, q, time), is_guarded, p_spin, q_spin);
+        return this->exchange_spin_at(p, q, encounter_at(p, q, time), since, p_spin, q_spin);
     }
 };
 

@@ -101,7 +101,7 @@ public:
         const PairContact<Real> found = contact_of(p, q, RestingWalls<Real>::never);
         return is_near(p, q, found.base + found.delay) ? found : PairContact<Real>{};
     }
-    static void collide_at(DiscState& p, DiscState& q, double time) {
+    static Loss collide_at(DiscState& p, DiscState& q, double time) {
         advance(p, time);
         advance(q, time);
         const RoundedState<Real> a(p), b(q);
@@ -113,6 +113,7 @@ public:
         q.vy = b.vy - k * ey;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
+        return {};
     }
     double x_wall_time(const DiscState& disc) const {
         const RoundedState<Real> d(disc);
@@ -131,15 +132,17 @@ public:
         return !(x > x_walls_.low() + margin && x < x_walls_.high() - margin &&
                  y > y_walls_.low() + margin && y < y_walls_.high() - margin);
     }
-    static void bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
+    static Loss bounce_x_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vx = -disc.vx;
         disc.wall_collisions += 1;
+        return {};
     }
-    static void bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
+    static Loss bounce_y_at(DiscState& disc, double time, double* /*spin*/ = nullptr) {
         advance(disc, time);
         disc.vy = -disc.vy;
         disc.wall_collisions += 1;
+        return {};
     }
 
 private:

@@ -14,6 +14,7 @@
 #include "domain/domains.hpp"
 #include "dynamics/species.hpp"
 #include "engine/collision.hpp"
+#include "engine/loss_sums.hpp"
 #include "engine/pair_event.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/stress_sums.hpp"
@@ -90,6 +91,8 @@ public:
         no_stress_ = *sums;
         no_stress_.clear();
     }
+    /// Sums the energy that collisions take, with `bound` exceeding each sum; before any step.
+    void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
     /// The integrals over flights that no sum has yet.
     virtual FlightIntegral flight_integral() const { return {}; }
     /// See DiscSystem::note_crossings_in.
@@ -112,6 +115,7 @@ protected:
     double* work_ = nullptr;
     /// Partial sums begin as copies of it. In its units all terms are 0 until sums are asked for.
     StressSums no_stress_{0x1p900};
+    LossSums losses_{0x1p900}, no_losses_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;
 };
 

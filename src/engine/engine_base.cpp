@@ -212,6 +212,7 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
             if (frame_moves) dynamics_.restart_frame(disc, time_);
             if constexpr (Dynamics::is_periodic) this->wrap(disc);
             disc.tau = 0;
+            disc.has_collided = 0;
             fastest = std::max(fastest, dynamics_.squared_speed(disc));
         }
         terms.add_to(flights);

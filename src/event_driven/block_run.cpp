@@ -267,17 +267,19 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     DiscState& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
     const WallStress<Dynamics> before(p);
+    Loss loss;
     if (event.q == x_wall) {
-        dynamics.bounce_x_at(p, event.time, spin_of(event.p));
+        loss = dynamics.bounce_x_at(p, event.time, spin_of(event.p));
     } else if (event.q == y_wall) {
-        dynamics.bounce_y_at(p, event.time, spin_of(event.p));
+        loss = dynamics.bounce_y_at(p, event.time, spin_of(event.p));
     } else if (Dynamics::may_have_obstacles && is_wall(event.q)) {
         if constexpr (Dynamics::may_have_obstacles)
-            dynamics.bounce_off_at(p, event.q - first_obstacle, event.time, spin_of(event.p));
+            loss = dynamics.bounce_off_at(p, event.q - first_obstacle, event.time,
+                                          spin_of(event.p));
     } else {
         if (is_own[event.p] != is_own[event.q] && !is_whole)
             check_partner(is_own[event.p] != 0 ? event.q : event.p);
-        collide(event);
+        loss = collide(event);
         note(event.q, event.p, event);
     }
     if (is_wall(event.q) && is_own[event.p] != 0)
@@ -285,6 +287,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
+        outcome->losses.add(loss, dynamics.slowing_at(event.time));
         const bool is_pushed = !Dynamics::may_lose_discs || !p.has_departed();
         if (ground.is_logged)
             log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
@@ -292,15 +295,16 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 }
 
 /// Collides two discs, with the second one at the place of the event's image.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
+template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     DiscState &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
+    Loss loss;
     if constexpr (Dynamics::has_spin)
-        dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
-                            columns[SideColumn::spin][event.q]);
+        loss = dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
+                                   columns[SideColumn::spin][event.q]);
     else
-        dynamics.collide_at(p, q, event.time);
+        loss = dynamics.collide_at(p, q, event.time);
     if (is_own[event.p] != 0) {
         const Separation to = dynamics.separation(p, q);
         [[maybe_unused]] const double impulse = stress.add_to(
@@ -310,6 +314,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
         if (ground.notes_pairs) note_pair(event, stress, to);
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
+    return loss;
 }
 
 /// Reports a disc from beyond the ring that an own disc has met, because its history is not

@@ -22,6 +22,7 @@
 #include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
+#include "engine/loss_sums.hpp"
 #include "engine/pair_event.hpp"
 #include "engine/stress_sums.hpp"
 #include "event_driven/block_cuts.hpp"
@@ -58,6 +59,7 @@ struct BlockGround {
     bool is_logged = false;
     const SideColumns* columns = nullptr; ///< rows in the order of `discs`
     StressSums no_stress{0x1p900};        ///< sums of zero in the engine's unit
+    LossSums no_losses{0x1p900};          ///< sums of zero in the engine's unit
     double flown_before = 0; ///< time over which the stress of flights was summed, at the last sync
     BoxCells box_cells{};    ///< for runs of the whole box
     /// There is only one run, of the whole box. Then histories are not compared, and the grid is
@@ -107,8 +109,8 @@ public:
     NewState() = default;
     explicit NewState(const DiscState& disc)
         : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
-          wall_collisions_(disc.wall_collisions & wall_bits), is_departed_(disc.is_departed),
-          pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
+          wall_collisions_(disc.wall_collisions & low_bits), is_departed_(disc.is_departed),
+          pair_collisions_(disc.pair_collisions & low_bits), has_collided_(disc.has_collided) {}
 
     /// Requires that `disc` is as it was at the window's start, and that its counters grow by less
     /// than 2^31.
@@ -118,18 +120,20 @@ public:
         disc.vx = vx_;
         disc.vy = vy_;
         disc.tau = tau_;
-        disc.wall_collisions += (wall_collisions_ - disc.wall_collisions) & wall_bits;
-        disc.pair_collisions += pair_collisions_ - static_cast<std::uint32_t>(disc.pair_collisions);
+        disc.wall_collisions += (wall_collisions_ - disc.wall_collisions) & low_bits;
+        disc.pair_collisions += (pair_collisions_ - disc.pair_collisions) & low_bits;
         disc.is_departed = is_departed_;
+        disc.has_collided = has_collided_;
     }
 
 private:
-    static constexpr std::uint64_t wall_bits = 0x7fffffff;
+    static constexpr std::uint64_t low_bits = 0x7fffffff; ///< of a counter
 
     double x_, y_, vx_, vy_, tau_;
-    std::uint32_t wall_collisions_ : 31; ///< the low bits of the counter
+    std::uint32_t wall_collisions_ : 31;
     std::uint32_t is_departed_ : 1;
-    std::uint32_t pair_collisions_; ///< the low bits of the counter
+    std::uint32_t pair_collisions_ : 31;
+    std::uint32_t has_collided_ : 1;
 };
 static_assert(sizeof(NewState) == 48);
 
@@ -144,6 +148,7 @@ struct BlockOutcome {
     std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
     StressSums stress{1};        ///< sums over these events
+    LossSums losses{1};          ///< sums over these events
     double work = 0;             ///< done by moving images in these events
     double too_fast = 0;         ///< the largest speed of an own disc that got too far, or 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc

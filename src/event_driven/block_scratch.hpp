@@ -114,7 +114,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_all();
     void happen(const Event& event);
     void carry_out(const Event& event);
-    void collide(const Event& event);
+    Loss collide(const Event& event);
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);

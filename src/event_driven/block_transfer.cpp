@@ -23,6 +23,7 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->n_events = outcome->n_carried = outcome->n_seen = 0;
     outcome->work = 0;
     outcome->stress = ground.no_stress;
+    outcome->losses = ground.no_losses;
     outcome->is_cascade = false;
     outcome->far_partner = 0;
 }

@@ -264,6 +264,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
                              this->log_ != nullptr || this->wall_followers_.are_any(),
                              &discs_.columns(),
                              this->no_stress_,
+                             this->no_losses_,
                              this->flown_before_,
                              box_cells_,
                              is_alone_,
@@ -310,6 +311,17 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     if (block_tuning_.notes_work) rounds_.push_back(std::move(round));
 }
 
+template <class Dynamics> void EventDrivenEngine<Dynamics>::add_to(Totals& totals) {
+    Base::add_to(totals);
+    LossSums all = this->losses_;
+    communicator_.sum(all.taken);
+    communicator_.sum(all.spared);
+    const auto per_step = static_cast<double>(this->micro_steps_);
+    totals.guarded_collisions = communicator_.sum(all.n_guarded);
+    totals.energy_taken = all.taken.value() * per_step * per_step;
+    totals.energy_spared = all.spared.value() * per_step * per_step;
+}
+
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     const PhaseClock::Scope scope(phases_, Phase::move);
     DiscState* const discs = discs_.all().data();
@@ -326,6 +338,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     for (const Block& block : blocks_) {
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
         if (this->stress_) *this->stress_ += block.outcome.stress;
+        this->losses_ += block.outcome.losses;
         if (this->is_followed()) log_events(block.outcome);
         if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
     }

@@ -65,6 +65,7 @@ public:
                       const Communicator& communicator, const Tuning& tuning,
                       const BlockTuning& block_tuning = {});
 
+    void add_to(Totals& totals) override;
     RollbackCounts rollback_counts() const override;
     double bytes_for_crowds() const override;
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/contact_guard.hpp"
 #include "scene/key.hpp"
 
 namespace carrom {
@@ -55,7 +56,10 @@ bool HeapWarning::act() {
     const std::uint64_t collisions = n_collisions();
     const double per_step = static_cast<double>(collisions - last_collisions_) /
                             (static_cast<double>(steps) * static_cast<double>(scene_.n_discs));
-    const double per_contact_time = per_step * scene_.effects.contact.contact_time;
+    const Gravity& gravity = scene_.effects.gravity;
+    const double per_contact_time = per_step *
+                                    ContactGuard(scene_.effects, scene_.radius)
+                                        .rest_time(std::hypot(gravity.x, gravity.y), scene_.radius);
     if (per_contact_time > 1) {
         messages_.warn(
             "{}: warning: from step {} to {} each disc collided {:.2g} times in a step, which is "

@@ -46,11 +46,8 @@ void check_samples(const SceneDraft& draft) {
 
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why) {
     constexpr std::string_view key = "effects.contact.contact_time";
-    SceneParameters& scene = draft.scene;
-    double& time = scene.effects.contact.contact_time;
-    if (!lose_energy_or_fall(scene.effects)) return;
-    if (!draft.settings.has(key)) time = std::min(time, longest);
-    if (time > longest)
+    const double time = draft.scene.effects.contact.contact_time;
+    if (lose_energy_or_fall(draft.scene.effects) && time > longest)
         draft.refuse({key}, fmt::format("'{}' must be at most {} steps, {}, not {}", key, longest,
                                         why, time));
 }

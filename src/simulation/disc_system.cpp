@@ -133,6 +133,7 @@ DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
     const double speed = usual_speed(scene, engine_->own(), communicator),
                  flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
+    engine_->begin_loss_sums(heaviest_ * speed * speed * 0x1p80);
 }
 
 DiscSystem::~DiscSystem() = default;

@@ -166,17 +166,38 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const DiscState& dis
     return first;
 }
 
-/// Turns the velocity round at the wall that it has come to; `disc` is there, and was `is_touched`
-/// a short time ago.
+/// Infinite for a disc that has not collided since the sync.
+double EventDrivenReference::time_since_collision(DiscId id, double time) const {
+    const double last = history_of_[id].time;
+    return last < 0 ? std::numeric_limits<double>::infinity() : time - last;
+}
+
+/// The speed at which the surfaces of two discs that touch approach, in sums of first radii.
+double EventDrivenReference::approach(const DiscState& p, const DiscState& q, Copy copy) const {
+    const Tiles tiles = setting_.tiles(last_sync());
+    const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
+    const double wx = (q.vx - p.vx) + tiles.vx_of(copy), wy = q.vy - p.vy;
+    const double grows = discs_grow() ? growth_rate() / growth_at(p.tau) : 0;
+    const double radii = setting_.radius_of(p.id) + setting_.radius_of(q.id);
+    return std::fabs((wx * ex + wy * ey) / (ex * ex + ey * ey) - grows) * radii;
+}
+
+/// Turns the velocity round at the wall that it has come to; `disc` is there, and its last
+/// collision was `since` ago.
 void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, double time,
-                                   bool is_touched) const {
+                                   double since) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
     Wall wall = wall_at(disc.id, axis, is_high, time);
     if (oscillates(number)) wall.speed += setting_.oscillation(number, last_sync(), time)[1];
+    const double radius = setting_.radius_of(disc.id),
+                 in = discs_grow() ? growth_of_radius(disc.id) : 0,
+                 size = discs_grow() ? growth_at(time) : 1;
+    const bool is_touched = setting_.is_in_contact(
+        since, std::fabs((is_high ? v : -v) + (is_high ? -wall.speed : wall.speed) + in),
+        radius * size);
     const double restitution = is_touched ? 1 : setting_.effects.boundaries[number].restitution;
     if (discs_grow()) { // a wall that comes in
-        const double in = growth_of_radius(disc.id);
         const double leaving = in + restitution * (in - (is_high ? -v : v));
         v = is_high ? -leaving : leaving;
         return;
@@ -197,7 +218,7 @@ void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, d
     if (oscillates(number)) pull_back = setting_.oscillation(number, last_sync(), time)[2];
     if (pull_back > 0)
         away = std::max(away,
-                        0.5 * pull_back * setting_.contact_time() / setting_.slowing_at(time));
+                        setting_.least_departure(pull_back, radius) / setting_.slowing_at(time));
     v = is_high ? wall.speed - away : wall.speed + away;
 }
 
@@ -287,15 +308,16 @@ void EventDrivenReference::happen(const Event& event) {
 
 void EventDrivenReference::carry_out(const Event& event) {
     DiscState& p = discs_[event.p];
-    const auto is_recent = [&](const DiscState& disc) {
-        return event.time - disc.tau < setting_.contact_time();
-    };
-    const bool is_touched = is_recent(p) || (event.is_pair && is_recent(discs_[event.q]));
+    const double since = std::min(time_since_collision(event.p, event.time),
+                                  event.is_pair ? time_since_collision(event.q, event.time)
+                                                : std::numeric_limits<double>::infinity());
     const bool is_high = !event.is_pair && !event.is_obstacle && meeting(p, event.q).is_high;
     advance(p, event.time);
     if (event.is_pair) {
         DiscState& q = discs_[event.q];
         advance(q, event.time);
+        const bool is_touched = setting_.is_in_contact(
+            since, approach(p, q, event.copy), setting_.radius_of(p.id) + setting_.radius_of(q.id));
         if (setting_.are_rough())
             collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,
                           setting_.tiles(last_sync()));
@@ -310,14 +332,14 @@ void EventDrivenReference::carry_out(const Event& event) {
         note(event.q, event.p, event);
     } else {
         if (event.is_obstacle) {
-            species_->reflect(p, {event.time, event.q, event.copy}, event.time, is_touched);
+            species_->reflect(p, {event.time, event.q, event.copy}, event.time, since);
         } else if (setting_.effects.boundaries[2 * event.q + (is_high ? 1 : 0)].kind ==
                    BoundaryKind::open) {
             restart_frame(p, event.time);
             set_left(setting_, p, 2 * event.q + (is_high ? 1 : 0));
             if (setting_.are_rough()) spins_[event.p] = 0;
         } else
-            rebound(p, event.q, is_high, event.time, is_touched);
+            rebound(p, event.q, is_high, event.time, since);
         p.wall_collisions += 1;
         wall_collisions_ += 1;
     }

@@ -98,7 +98,9 @@ private:
     double gravity(DiscId axis) const;
     double fallen(double pull, double time) const;
     Meeting meeting(const DiscState& disc, DiscId axis) const;
-    void rebound(DiscState& disc, DiscId axis, bool is_high, double time, bool is_touched) const;
+    void rebound(DiscState& disc, DiscId axis, bool is_high, double time, double since) const;
+    double time_since_collision(DiscId id, double time) const;
+    double approach(const DiscState& p, const DiscState& q, Copy copy) const;
     void restart_frame(DiscState& disc, double time) const;
     double growth_at(double time) const;
     double growth_of_radius(DiscId disc) const;

@@ -107,8 +107,7 @@ BodyMeeting FixedBodies::first_meeting(const DiscState& disc, double from, doubl
     return first;
 }
 
-void FixedBodies::reflect(DiscState& disc, const BodyMeeting& at, double time,
-                          bool is_touched) const {
+void FixedBodies::reflect(DiscState& disc, const BodyMeeting& at, double time, double since) const {
     const Body& body = species_[at.body];
     const Box box = setting_.box();
     const double x = ((disc.x + (0.5 * gx_ * time) * time) - body.x) - at.copy.x * box.x;
@@ -118,11 +117,12 @@ void FixedBodies::reflect(DiscState& disc, const BodyMeeting& at, double time,
     const double nx = is_line ? (is_left ? -body.uy : body.uy) : x / distance,
                  ny = is_line ? (is_left ? body.ux : -body.ux) : y / distance;
     const double normal = nx * (disc.vx + gx_ * time) + ny * (disc.vy + gy_ * time);
+    const double radius = setting_.radius_of(disc.id);
+    const bool is_touched = setting_.is_in_contact(since, std::fabs(normal), radius);
     const double restitution = is_touched ? 1 : setting_.effects.obstacles.restitution;
     double away = restitution * std::fabs(normal);
     const double pull_back = -(nx * gx_ + ny * gy_);
-    if (pull_back > 0 && away < 0.5 * pull_back * setting_.contact_time())
-        away = 0.5 * pull_back * setting_.contact_time();
+    if (pull_back > 0) away = std::max(away, setting_.least_departure(pull_back, radius));
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
 }

@@ -33,7 +33,7 @@ public:
     BodyMeeting first_meeting(const DiscState& disc, double from, double until,
                               const BodyMeeting& left) const;
     /// Turns the velocity of a disc round that is at the body at `time`.
-    void reflect(DiscState& disc, const BodyMeeting& at, double time, bool is_touched) const;
+    void reflect(DiscState& disc, const BodyMeeting& at, double time, double since) const;
 
     static constexpr std::size_t none = ~std::size_t{0};
 

@@ -237,7 +237,7 @@ void TimeSteppedReference::keep(const Collision& candidate, double m) {
 void TimeSteppedReference::bounce_off(DiscState& disc, double m, double t) const {
     const BodyMeeting meeting = species_->first_meeting(disc, m, m + 1, FixedBodies::nowhere());
     advance(disc, meeting.time);
-    species_->reflect(disc, meeting, 0, false);
+    species_->reflect(disc, meeting, 0, std::numeric_limits<double>::infinity());
     disc.wall_collisions += 1;
     stop_at_wall(disc, m, t, meeting);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -301,7 +302,17 @@ void set_oscillation(reference::Setting& setting) {
     if (!(largest_wall_speed(setting.effects) > 0)) return;
     const Effects effects = per_micro_step(setting.effects,
                                            static_cast<double>(setting.micro_steps));
-    const double contact_time = effects.contact.contact_time;
+    std::array<double, 4> rest_times{};
+    for (std::size_t side = 0; side < 4; ++side) {
+        const Boundary& wall = effects.boundaries[side];
+        const double rate = 2 * std::numbers::pi / wall.period;
+        const double pull = std::fabs(side < 2 ? effects.gravity.x : effects.gravity.y) +
+                            wall.amplitude * (rate * rate);
+        rest_times[side] = std::min(setting.contact_time() > 0
+                                        ? setting.contact_time()
+                                        : 2 * setting.least_departure(pull, setting.radius) / pull,
+                                    wall.period / 8);
+    }
     std::array<Oscillation, 4> walls;
     for (std::size_t side = 0; side < walls.size(); ++side)
         walls[side] = Oscillation(effects.boundaries[side], side % 2 == 0 ? 1 : -1,
@@ -315,7 +326,7 @@ void set_oscillation(reference::Setting& setting) {
     setting.oscillation = [=](std::size_t side, std::int64_t sync, double time) {
         const Oscillation wall = wall_after(side, sync);
         const WallMotion now = wall.at(time);
-        return std::array{now.place, now.velocity, wall.pressure_at(time, time + contact_time)};
+        return std::array{now.place, now.velocity, wall.pressure_at(time, time + rest_times[side])};
     };
     setting.oscillating_delay = [=](std::size_t side, std::int64_t sync, double distance,
                                     double rate, double from_wall, double time) {

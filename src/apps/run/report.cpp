@@ -125,6 +125,8 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         {"pair_collisions", result.end.pair_collisions},
         {"rejected_candidates", result.end.rejected_candidates},
         {"rejected_share", rejected_share(result)},
+        {"guarded_collisions", result.end.guarded_collisions},
+        {"guarded_share", guarded_share(result)},
         {"overlapping_pairs", result.end.overlapping_pairs},
         {"overlapping_pairs_per_disc", overlapping_pairs_per_disc(result)},
         {"deepest_overlap", deepest_overlap(scene, result)},

@@ -203,4 +203,18 @@ double rejected_share(const RunResult& result) {
     return ratio(rejected, kept + rejected);
 }
 
+double guarded_share(const RunResult& result) {
+    return ratio(result.end.energy_spared, result.end.energy_taken + result.end.energy_spared);
+}
+
+std::string warning_of_guarded_collisions(const RunResult& result) {
+    const double share = guarded_share(result);
+    if (!(share > 0.01)) return {};
+    return fmt::format(
+        "{} collisions took no energy, because a disc had collided within the contact time: {:.2g} "
+        "% of what restitution should take; try: a smaller effects.contact.contact_time, or none, "
+        "so that the contact time follows the discs",
+        result.end.guarded_collisions, 100 * share);
+}
+
 } // namespace carrom

@@ -76,6 +76,13 @@ LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& re
 /// One line if more than a hundredth is lost, else empty.
 std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result);
 
+/// The share that collisions of the event-driven method have not taken of the energy that
+/// restitution asks for, because one of the discs had collided within the contact time; since this
+/// process began.
+double guarded_share(const RunResult& result);
+/// One line if it is more than a hundredth, else empty.
+std::string warning_of_guarded_collisions(const RunResult& result);
+
 /// Overlapping pairs of a disc at the end, on average.
 double overlapping_pairs_per_disc(const RunResult& result);
 /// The deepest of these overlaps, in diameters of the scene's largest disc.

@@ -193,10 +193,19 @@ std::string average_lines(const SceneParameters& scene, const Averages& averages
     return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
+/// Empty where no collision takes energy.
+std::string guarded_line(const RunResult& result) {
+    if (result.end.energy_taken == 0 && result.end.energy_spared == 0) return {};
+    return labelled_line("guarded",
+                         fmt::format("{} collisions took no energy so soon after another "
+                                     "one, {:.2g} % of what restitution should take",
+                                     result.end.guarded_collisions, 100 * guarded_share(result)));
+}
+
 /// How the method has treated collisions.
 std::string method_line(const SceneParameters& scene, const RunResult& result) {
     if (scene.method == Method::event_driven)
-        return labelled_line("windows", windows_text(result.runs));
+        return guarded_line(result) + labelled_line("windows", windows_text(result.runs));
     return labelled_line(
         "rejected",
         fmt::format("{} candidates lost a disc to an earlier collision, {:.3g} % of all",

@@ -63,6 +63,7 @@ std::vector<Key> keys_of_contact() {
             "A disc that has collided this recently collides elastically. At most a "
             "quarter of the time between syncs.",
             [](auto& s) -> auto& { return s.effects.contact.contact_time; })
+            .by_default("while two discs close in by a millionth of the sum of their radii")
             .within({.low = 0, .excludes_low = true})
             .needs(loss_or_gravity),
     };
@@ -83,8 +84,8 @@ std::vector<Rule> rules_of_contacts() {
     };
 }
 
-/// A sync resets contact times, so a contact time as long as the time between syncs would make all
-/// collisions elastic.
+/// A disc does not remember over a sync when it collided, so a contact time must be short beside
+/// the time between syncs.
 void check_contact_time(const SceneDraft& draft) {
     limit_contact_time(draft, steps_between_syncs(draft.scene) / 4,
                        "a quarter of the time between syncs ('time.sync_every')");

@@ -35,7 +35,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
 ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radius = 1) {
     const ObstacleContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e6});
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
-    obstacles.rebound(disc, contact.body, contact.time, false);
+    obstacles.rebound(disc, contact.body, contact.time, never, {nullptr, radius});
     return contact;
 }
 

@@ -180,7 +180,7 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
                                              with({"effects.contact.friction=0.3",
                                                    "effects.contact.moment_of_inertia=0.8"}))
                                       .effects.contact;
-    CHECK(contact == ContactEffect{ContactKind::rough, 0.9, 0.001, 0.5, 0.3, 0.8});
+    CHECK(contact == ContactEffect{ContactKind::rough, 0.9, 0, 0.5, 0.3, 0.8});
     CHECK(std::isinf(read_scene(good, "s.toml", rough).effects.contact.friction));
     CHECK(has(problems_with({"effects.contact.friction=0.3"}),
               "no meaning without effects.contact.kind = \"rough\""));

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a collision takes no energy, because it belongs to a contact that lasts.
+//
+// Discs that lose energy would come to infinitely many collisions in a finite time (inelastic
+// collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). So dissipation takes time, as in the
+// TC model of Luding and McNamara, Granular Matter 1, 113 (1998): a disc that has collided a
+// contact time before collides elastically. By default a contact is a length, not a time: the
+// collision is elastic if the two have closed in by less than a millionth of the sum of their radii
+// since the last collision of either. So the guard is the same in all units, and follows discs as
+// they cool. A scene may name a time instead, which costs fewer collisions where discs lie at rest.
+//
+// Where discs are pulled to a wall, a contact at rest is a series of small bounces without loss.
+// What these spare is no error, so losses leave them out.
+//
+// Only collisions count as contacts, syncs and starts do not. A disc does not remember its last
+// collision over a sync, so its first collision after that is never guarded by itself.
+#pragma once
+
+#include <cmath>
+
+#include "core/disc_state.hpp"
+#include "dynamics/effects.hpp"
+#include "dynamics/loss.hpp"
+#include "dynamics/never.hpp"
+
+namespace carrom {
+
+/// Time since the last collision of a disc within this sync interval.
+inline double since_collision(const DiscState& disc, double time) {
+    return disc.has_collided ? time - disc.tau : never;
+}
+
+class ContactGuard {
+public:
+    /// The share of the distance between centres that two discs close in by during a contact.
+    static constexpr double share = 1e-6;
+
+    /// For discs of at most `radius`.
+    ContactGuard(const Effects& effects, double radius)
+        : contact_time_(effects.contact.contact_time) {
+        const double pull = std::hypot(effects.gravity.x, effects.gravity.y) +
+                            largest_wall_pull(effects);
+        rest_speed_ = rest_factor * least_departure(pull, radius);
+    }
+
+    /// `since`: the time since the last collision of either. `closing`: how fast they approach, in
+    /// sums of their radii.
+    bool holds(double since, double closing) const {
+        return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
+    }
+    /// At a wall a disc approaches its own image, at twice its speed and twice its radius.
+    bool holds_at_wall(double since, double speed, double radius) const {
+        return holds(since, speed / radius);
+    }
+
+    /// The smallest speed at which a disc leaves a wall that `pull` presses it against, so that it
+    /// is back a contact later.
+    double least_departure(double pull, double radius) const {
+        if (!(pull > 0)) return 0;
+        return contact_time_ > 0 ? 0.5 * pull * contact_time_
+                                 : std::sqrt(0.5 * share * radius * pull);
+    }
+    /// How long such a disc is away.
+    double rest_time(double pull, double radius) const {
+        if (contact_time_ > 0) return contact_time_;
+        return pull > 0 ? 2 * least_departure(pull, radius) / pull : 0;
+    }
+
+    /// The loss of a collision that takes, or would take, this energy at this squared speed of
+    /// approach.
+    Loss loss(double energy, double squared_speed, bool is_guarded) const {
+        if (!is_guarded) return {energy, 0};
+        return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};
+    }
+
+private:
+    /// Neighbours of a contact at rest disturb it by some departures.
+    static constexpr double rest_factor = 10;
+
+    double contact_time_; ///< 0: by the share
+    double rest_speed_;   ///< slower contacts are at rest
+};
+
+} // namespace carrom

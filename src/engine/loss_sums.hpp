@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The energy that collisions have taken, and what guarded ones would have taken: sums that do not
+// depend on the order of collisions.
+#pragma once
+
+#include <cstdint>
+
+#include "core/exact_sum.hpp"
+#include "dynamics/loss.hpp"
+
+namespace carrom {
+
+struct LossSums {
+    /// `bound` exceeds each sum; mass times squared length per squared micro-step, the same on all
+    /// ranks.
+    explicit LossSums(double bound) : taken(bound), spared(bound) {}
+
+    /// `slowing` is that of the dynamics' clock at the time of the collision.
+    void add(const Loss& loss, double slowing) {
+        if (loss.taken != 0) taken.add(loss.taken * slowing * slowing);
+        if (loss.spared == 0) return;
+        spared.add(loss.spared * slowing * slowing);
+        n_guarded += 1;
+    }
+    LossSums& operator+=(const LossSums& other) {
+        taken += other.taken;
+        spared += other.spared;
+        n_guarded += other.n_guarded;
+        return *this;
+    }
+
+    ExactSum taken, spared;
+    std::uint64_t n_guarded = 0; ///< collisions, those of contacts at rest aside
+};
+
+} // namespace carrom
