@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
+#include <omp.h>
+#include <sched.h>
 #include <unistd.h>
 
 namespace carrom {
@@ -19,6 +22,20 @@ bool is_in_valgrind() {
            std::string_view(preloaded).find("vgpreload") != std::string_view::npos;
 }
 
+/// Gives this thread back all processors that OpenMP may use. If threads are to be bound, the
+/// library has bound this one to its place already, and the new program would inherit that.
+void unbind() {
+    cpu_set_t processors;
+    CPU_ZERO(&processors);
+    for (int place = 0; place < omp_get_num_places(); ++place) {
+        std::vector<int> ids(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+        omp_get_place_proc_ids(place, ids.data());
+        for (const int id : ids)
+            if (id < CPU_SETSIZE) CPU_SET(id, &processors);
+    }
+    if (CPU_COUNT(&processors) > 0) sched_setaffinity(0, sizeof processors, &processors);
+}
+
 } // namespace
 
 void let_threads_sleep(char** arguments) {
@@ -28,6 +45,7 @@ void let_threads_sleep(char** arguments) {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (error || setenv("OMP_WAIT_POLICY", "passive", 0) != 0) return;
+    unbind();
     execv(program.c_str(), arguments); // returns only if it fails
 }
 
