@@ -10,25 +10,13 @@
 #include <omp.h>
 
 #include "core/errors.hpp"
-#include "parallel/exchange.hpp"
+#include "gathered.hpp"
 #include "quad.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {
 
 namespace {
-
-/// Everybody's items on every rank.
-template <class Item>
-std::vector<Item> gathered(std::span<const Item> mine, const Communicator& world) {
-    std::vector<Item> all;
-    const auto take = [&](std::span<const Item> some) {
-        all.insert(all.end(), some.begin(), some.end());
-    };
-    stream_to_root(world, mine, take, 10000);
-    world.broadcast(all);
-    return all;
-}
 
 } // namespace
 

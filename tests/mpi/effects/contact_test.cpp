@@ -7,22 +7,12 @@
 #include "catch.hpp"
 
 #include "effect_runs.hpp"
-#include "parallel/exchange.hpp"
+#include "gathered.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
 
 namespace {
-
-std::vector<DiscState> gathered(std::span<const DiscState> own, const Communicator& world) {
-    std::vector<DiscState> all;
-    stream_to_root(
-        world, own,
-        [&](std::span<const DiscState> some) { all.insert(all.end(), some.begin(), some.end()); },
-        1000);
-    world.broadcast(all);
-    return all;
-}
 
 /// Where a point between walls is after `way`, by unfolding its reflections; the sign of its
 /// velocity, too.

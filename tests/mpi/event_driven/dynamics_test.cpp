@@ -14,7 +14,7 @@
 #include "core/state_hash.hpp"
 #include "event_driven.hpp"
 #include "event_driven_runs.hpp"
-#include "parallel/exchange.hpp"
+#include "gathered.hpp"
 #include "scene_tools.hpp"
 
 using namespace carrom;
@@ -28,17 +28,6 @@ DiscSystem start(const TestScene& scene, const Communicator& world, Tuning tunin
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
     return {all, {dealt_discs(scene, world, 3), 0}, world, tuning};
-}
-
-/// What all ranks have, on every rank.
-template <class Item>
-std::vector<Item> gathered(std::span<const Item> own, const Communicator& world) {
-    std::vector<Item> all;
-    stream_to_root(
-        world, own,
-        [&](std::span<const Item> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
-    world.broadcast(all);
-    return all;
 }
 
 double deepest_overlap(const std::vector<DiscState>& discs, double time, double sigma) {

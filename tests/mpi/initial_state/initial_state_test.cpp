@@ -17,12 +17,12 @@
 #include "core/errors.hpp"
 #include "core/random_numbers.hpp"
 #include "core/state_hash.hpp"
+#include "gathered.hpp"
 #include "initial_state/initial_state.hpp"
 #include "initial_state/velocities.hpp"
 #include "insertion_rule.hpp"
 #include "lattices/lattice.hpp"
 #include "parallel/communicator.hpp"
-#include "parallel/exchange.hpp"
 #include "quad.hpp"
 #include "scene/read_scene.hpp"
 
@@ -61,11 +61,9 @@ void check_same(const Discs& mine, const Discs& reference) {
     CHECK(hash_of_all(mine) == hash_of_discs(reference));
 }
 
-/// All discs on rank 0, by id.
-Discs gathered(const Discs& mine) {
-    std::vector<Discs> out(static_cast<std::size_t>(ranks().size()));
-    out[0] = mine;
-    Discs all = send_to_owners(ranks(), out).items;
+/// All discs on every rank, by id.
+Discs all_by_id(const Discs& mine) {
+    Discs all = gathered(mine, ranks());
     std::sort(all.begin(), all.end(),
               [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
     return all;
@@ -107,7 +105,7 @@ void give_velocities_by_hand(const SceneParameters& scene, Discs& discs) {
 
 /// Places are the same bits, velocities the same to rounding.
 void check_generated(const Discs& mine, const Discs& reference) {
-    const Discs all = gathered(mine);
+    const Discs all = all_by_id(mine);
     if (!ranks().is_root()) return;
     REQUIRE(all.size() == reference.size());
     bool are_placed = true;
@@ -123,7 +121,7 @@ void check_generated(const Discs& mine, const Discs& reference) {
 
 /// Rank 0 checks that all discs are there, lie in the box and do not overlap.
 void check_arrangement(const Discs& mine, const SceneParameters& scene) {
-    Discs all = gathered(mine);
+    Discs all = all_by_id(mine);
     if (!ranks().is_root()) return;
     CHECK(all.size() == scene.n_discs);
     bool ids_are_right = true, all_are_inside = true;
@@ -278,7 +276,7 @@ TEST_CASE("A triangular lattice is its sites, row after row, along either edge")
             reference.push_back({id, stands ? across : along, stands ? along : across, 0, 0});
         }
         give_velocities_by_hand(scene, reference);
-        const Discs all = gathered(initial_state(scene, nullptr, ranks()));
+        const Discs all = all_by_id(initial_state(scene, nullptr, ranks()));
         if (!ranks().is_root()) continue;
         REQUIRE(all.size() == 480);
         double farthest = 0;
@@ -317,8 +315,8 @@ TEST_CASE("Streams reach generated discs of every kind") {
         const Texts settings = {"discs.packing=0.2", fmt::format("discs.generator={}", generator)};
         Texts with_stream = settings;
         with_stream.push_back("discs.streams=[{region = [0, 0, 10, 5], velocity = [3, -4]}]");
-        const Discs still = gathered(initial_state(scene_of(settings), nullptr, ranks()));
-        const Discs moved = gathered(initial_state(scene_of(with_stream), nullptr, ranks()));
+        const Discs still = all_by_id(initial_state(scene_of(settings), nullptr, ranks()));
+        const Discs moved = all_by_id(initial_state(scene_of(with_stream), nullptr, ranks()));
         CHECK(still.size() == moved.size());
         bool all_right = true;
         for (std::size_t i = 0; i < moved.size(); ++i) {

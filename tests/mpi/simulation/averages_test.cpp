@@ -7,23 +7,13 @@
 #include <omp.h>
 
 #include "averaging.hpp"
-#include "parallel/exchange.hpp"
+#include "gathered.hpp"
 #include "scene_tools.hpp"
 #include "simulation/disc_system.hpp"
 
 using namespace carrom;
 
 namespace {
-
-std::vector<DiscState> gathered(const DiscSystem& system, const Communicator& world) {
-    std::vector<DiscState> all;
-    stream_to_root(
-        world, system.discs(),
-        [&](std::span<const DiscState> some) { all.insert(all.end(), some.begin(), some.end()); },
-        1000);
-    world.broadcast(all);
-    return all;
-}
 
 struct PlainSums {
     double walls = 0, pairs = 0, speed = 0, square = 0, fourth = 0;
@@ -137,7 +127,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         test::Averaging averaging(scene, system, world);
         averaging.advance_to(7);
         averaging.begin_anew();
-        const PlainSums first = sums_of(gathered(system, world), 4);
+        const PlainSums first = sums_of(gathered(system.discs(), world), 4);
         const Tensor first_stress = stress_of(system);
         // Samples are 10 steps apart, a quarter of the run: it is short, and keeps its energy.
         PlainSums at_block = first, at_sample = first, now;
@@ -148,7 +138,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
             averaging.advance_to(step);
             const bool is_end = step % 10 == 7;
             if (!is_end && step < 48) continue;
-            now = sums_of(gathered(system, world), 4);
+            now = sums_of(gathered(system.discs(), world), 4);
             const double half = static_cast<double>(step - sample_step) / 2;
             const double speed = half * (at_sample.speed + now.speed) / 100;
             all_speeds += speed;
