@@ -302,6 +302,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
     else
         dynamics.collide_at(p, q, event.time);
     if (is_own[event.p] != 0) {
+        outcome->n_simultaneous += event.generation > 0;
         const Separation to = dynamics.separation(p, q);
         [[maybe_unused]] const double impulse = stress.add_to(
             stress_terms, outcome->stress, dynamics, p, q, to, event.time, ground.flown_before);

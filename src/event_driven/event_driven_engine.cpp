@@ -339,6 +339,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     largest_speed_ = 0;
     for (const Block& block : blocks_) {
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
+        counts_.simultaneous += block.outcome.n_simultaneous;
         if (this->stress_) *this->stress_ += block.outcome.stress;
         if (this->is_followed()) log_events(block.outcome);
         if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
@@ -369,6 +370,7 @@ template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_c
     RollbackCounts counts = counts_;
     counts.blocks = communicator_.sum(counts_.blocks);
     counts.blocks_redone = communicator_.sum(counts_.blocks_redone);
+    counts.simultaneous = communicator_.sum(counts_.simultaneous);
     return counts;
 }
 

@@ -17,7 +17,7 @@ constexpr double growth_in_bin = 0x1p-10;
 constexpr double first_bin = 0x1p-10;
 /// Collisions in a bin, and more per disc, that cost about a second. A run that goes on beyond
 /// them comes nearer to the jam by less than it takes longer.
-constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p8;
+constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
 constexpr double ever_more = 3, rarer = 4;
 /// The run's end must be beyond the room by this factor, because a dense fluid that freezes gains
 /// room.
