@@ -90,8 +90,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
         if (verdict == Verdict::repeat) note_rollback();
     }
     if (reduced_.sums[3] >= jam_unit)
-        refuse_jam(fmt::format("since the last sync speeds have become {} times as large",
-                               jam_heating));
+        refuse_jam(
+            fmt::format("since the last sync speeds have become {} times as large", jam_heating));
     if (jam_watch_.add(reduced_.sums[4]))
         refuse_jam(jam_watch_.reason(static_cast<double>(this->micro_steps_)));
     commit();

@@ -158,7 +158,7 @@ private:
     double rounds_lately_ = 0.05; ///< mean of `n_rounds_` in which older windows count less
     double first_packing_ = 0;
     JamWatch jam_watch_;     ///< of growing discs
-    double first_speed_ = 0;      ///< speed of growing discs when this interval or the engine began
+    double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
     /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
     /// over own discs. Even gases have less than 1 for each, because discs keep others away.
     double crowding_ = 0;

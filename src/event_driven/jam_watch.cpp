@@ -87,9 +87,10 @@ std::string JamWatch::reason(double micro_steps) const {
                            "is room for about {:.3g} steps more, and {:.4g} are left",
                            rarer, room_ / micro_steps, room_ / micro_steps,
                            (growth_.end - safe_until_) / micro_steps);
-    return fmt::format("{:.2g} collisions since step {:.5g}, more than {:g} times as many as in the "
-                       "same time before",
-                       n_collisions_, safe_until_ / micro_steps, ever_more);
+    return fmt::format(
+        "{:.2g} collisions since step {:.5g}, more than {:g} times as many as in the "
+        "same time before",
+        n_collisions_, safe_until_ / micro_steps, ever_more);
 }
 
 } // namespace carrom

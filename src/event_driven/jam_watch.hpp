@@ -25,9 +25,9 @@ class JamWatch {
 public:
     /// What growing discs are like.
     struct Growth {
-        double rate = 0;      ///< of radii, as a share of the first ones per micro-step
-        double interval = 1;  ///< from one sync to the next
-        double end = 0;       ///< of the run, since its start
+        double rate = 0;     ///< of radii, as a share of the first ones per micro-step
+        double interval = 1; ///< from one sync to the next
+        double end = 0;      ///< of the run, since its start
         double n_discs = 0;
     };
     enum class Sign { none, no_room_left, ever_more_frequent };

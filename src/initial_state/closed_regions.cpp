@@ -93,8 +93,8 @@ private:
         for (std::int64_t i = column_of(x_low - distance); i <= column_of(x_high + distance); ++i)
             for (std::int64_t j = row_of(y_low - distance); j <= row_of(y_high + distance); ++j) {
                 const double x = x_of(i) - segment.x0, y = y_of(j) - segment.y0;
-                const double along =
-                    square > 0 ? std::clamp((x * ex + y * ey) / square, 0.0, 1.0) : 0;
+                const double along = square > 0 ? std::clamp((x * ex + y * ey) / square, 0.0, 1.0)
+                                                : 0;
                 if (std::hypot(x - along * ex, y - along * ey) < distance)
                     region_of_[index(i, j)] = blocked;
             }

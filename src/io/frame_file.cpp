@@ -134,7 +134,7 @@ void check_bodies(hid_t file, const FileSummary& summary) {
 bool has_departed(const Rows& rows, std::size_t i, const FileSummary& summary) {
     const auto number = [&](const char* column) { return rows[summary.place_of(column)][i]; };
     const double x = number("x"), y = number("y");
-    const std::array<bool, 4> are_beyond = {x < 0, x > summary.box.x, y < 0, y > summary.box.y};
+    const std::array<bool, 4> are_beyond = {x<0, x> summary.box.x, y<0, y> summary.box.y};
     for (std::size_t side = 0; side < are_beyond.size(); ++side)
         if (summary.open_boundaries[side] && are_beyond[side])
             return number("vx") == 0 && number("vy") == 0;

@@ -140,9 +140,9 @@ private:
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< columns of the file
     ShareOfDiscs share_;
-    std::uint64_t first_row_, row_ = 0;        ///< in the file
-    std::uint64_t next_ = 0, n_before_ = 0;    ///< the next disc's new id; bytes of earlier blocks
-    std::ptrdiff_t next_left_ = 0;             ///< the place in `share_.departed`
+    std::uint64_t first_row_, row_ = 0;     ///< in the file
+    std::uint64_t next_ = 0, n_before_ = 0; ///< the next disc's new id; bytes of earlier blocks
+    std::ptrdiff_t next_left_ = 0;          ///< the place in `share_.departed`
     std::string lines_;
     Rows rows_;
 };
@@ -162,8 +162,7 @@ private:
 } // namespace
 
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            const SideColumnSet& wanted,
-                            const std::optional<ShareOfDiscs>& share) {
+                            const SideColumnSet& wanted, const std::optional<ShareOfDiscs>& share) {
     FrameFile file(path);
     file.check_numbers();
     const std::size_t frame = frame_of(path, file.summary(), step);

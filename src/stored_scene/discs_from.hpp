@@ -19,10 +19,10 @@
 namespace carrom {
 
 struct FileOfDiscs {
-    std::uint64_t n_discs = 0; ///< without those that have departed
+    std::uint64_t n_discs = 0;           ///< without those that have departed
     std::vector<std::uint64_t> departed; ///< ids in the file of those that are left out, ascending
     std::vector<std::uint64_t> n_by_species; ///< of those that are there, if the file has species
-    std::string columns; ///< `discs.columns` of the lines, or empty
+    std::string columns;                     ///< `discs.columns` of the lines, or empty
     /// `id x y vx vy`, per step, by id. Can be read again from its beginning. A file that can no
     /// longer be read makes it throw.
     std::unique_ptr<std::istream> lines;
@@ -30,7 +30,7 @@ struct FileOfDiscs {
 
 /// The lines that a rank reads.
 struct ShareOfDiscs {
-    Slab ids; ///< in the new numbering
+    Slab ids;                            ///< in the new numbering
     std::vector<std::uint64_t> departed; ///< see FileOfDiscs
 };
 

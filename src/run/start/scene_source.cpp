@@ -68,9 +68,8 @@ struct FromFile {
 
 /// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
 /// 0, by those of their shares on others. **Collective.**
-FromFile follow_with_discs_from(const SceneParameters& scene,
-                                                std::unique_ptr<std::istream>& stream,
-                                                Problems& of_root, const Communicator& ranks) {
+FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
+                                Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
     check_damage(path, ranks);
     SideColumnSet wanted = side_columns_of(scene.effects);
