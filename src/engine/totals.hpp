@@ -17,6 +17,10 @@ struct RollbackCounts {
     std::uint64_t windows = 0, windows_redone = 0; ///< redone: some block on some rank was repeated
     std::uint64_t blocks = 0,
                   blocks_redone = 0; ///< block runs on all ranks, first ones and repetitions
+    /// Collisions of pairs at the time of an earlier one of one of the two discs, to within
+    /// rounding, on all ranks, since the engine began: the order of ids or a rounding decides about
+    /// what follows. The same for any machine shape.
+    std::uint64_t simultaneous = 0;
 };
 
 /// Seconds this rank has spent, by phase, in the order they are reported.

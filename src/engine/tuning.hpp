@@ -20,6 +20,7 @@ struct Tuning {
     std::int64_t rebalance_every = 1; ///< in syncs; 0 never moves the first cuts
     double rebalance_above =
         1.05; ///< the largest over mean load that is tolerated; 0 moves the cuts every time
+    bool ends_jams = true; ///< false for steps that are known to have no jam of growing discs
 };
 
 } // namespace carrom

@@ -298,6 +298,10 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     DiscState &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
+    // Times that would be equal without rounding count as one. A disc that has not collided since
+    // the last sync has the time 0.
+    const double last = std::max(p.tau, q.tau);
+    const bool is_simultaneous = last > 0 && event.time - last <= 0x1p-48 * event.time;
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
     Loss loss;
     if constexpr (Dynamics::has_spin)
@@ -306,6 +310,7 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
     else
         loss = dynamics.collide_at(p, q, event.time);
     if (is_own[event.p] != 0) {
+        outcome->n_simultaneous += is_simultaneous;
         const Separation to = dynamics.separation(p, q);
         [[maybe_unused]] const double impulse = stress.add_to(
             stress_terms, outcome->stress, dynamics, p, q, to, event.time, ground.flown_before);

@@ -144,7 +144,8 @@ struct BlockOutcome {
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
-    std::uint64_t n_events = 0;  ///< number of events whose first disc is own
+    std::uint64_t n_events = 0;       ///< number of events whose first disc is own
+    std::uint64_t n_simultaneous = 0; ///< see RollbackCounts
     std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
     StressSums stress{1};        ///< sums over these events

@@ -20,7 +20,7 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->ring.clear();
     outcome->log.clear();
     outcome->pairs.clear();
-    outcome->n_events = outcome->n_carried = outcome->n_seen = 0;
+    outcome->n_events = outcome->n_carried = outcome->n_seen = outcome->n_simultaneous = 0;
     outcome->work = 0;
     outcome->stress = ground.no_stress;
     outcome->losses = ground.no_losses;

@@ -11,6 +11,7 @@
 #include <omp.h>
 
 #include "engine/dynamics_of_scene.hpp"
+#include "engine/jammed.hpp"
 #include "engine/speed_survey.hpp"
 #include "engine/state_sums.hpp"
 #include "engine/window_choice.hpp"
@@ -41,7 +42,13 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
       levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
                                  static_cast<double>(scene.n_discs), scene.box.area(),
-                                 block_tuning.parts_sizes)) {
+                                 block_tuning.parts_sizes)),
+      first_packing_(scene.packing()),
+      jam_watch_({scene.effects.growth / static_cast<double>(scene.micro_steps),
+                  static_cast<double>(scene.sync_every),
+                  static_cast<double>(scene.steps) * static_cast<double>(scene.micro_steps),
+                  static_cast<double>(scene.n_discs)}) {
+    if (tuning_.ends_jams) jam_watch_.start(time_, static_cast<double>(this->last_sync()));
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
     const auto threads = static_cast<double>(communicator_.max(std::int64_t{tuning_.threads}));
@@ -61,7 +68,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
 template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int64_t target) {
     const auto micro_steps = static_cast<double>(target - this->last_sync());
     const double target_time = dynamics_.clock_at(micro_steps);
-    while (time_ < target_time) run_window(target_time);
+    while (time_ < target_time) run_window(std::min(target_time, jam_watch_.bin_end()));
     n_micro_done_ = target;
 }
 
@@ -82,12 +89,18 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
         if (verdict == Verdict::repeat) note_rollback();
     }
-    if (reduced_.sums[3] >= jam_unit) refuse_jam();
+    if (reduced_.sums[3] >= jam_unit)
+        refuse_jam(
+            fmt::format("since the last sync speeds have become {} times as large", jam_heating));
+    if (jam_watch_.add(reduced_.sums[4]))
+        refuse_jam(jam_watch_.reason(static_cast<double>(this->micro_steps_)));
     commit();
     travel_speed_ = window_.speed_bound;
     time_ = window_.end;
     ++n_windows_;
     ++counts_.windows;
+    if (time_ == jam_watch_.bin_end() && jam_watch_.finish_bin())
+        refuse_jam(jam_watch_.reason(static_cast<double>(this->micro_steps_)));
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::migrate() {
@@ -154,16 +167,17 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
     });
 }
 
-/// Ends the run. Where in the step the discs jam is told in few digits, because windows differ.
+/// Ends the run. The place is that up to which all is well, because windows differ.
 /// **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
-    throw CollectiveError(fmt::format(
-        "discs jam at step {:.4g}, as radii have grown to {:.4g} times the first: since the last "
-        "sync speeds have become {} times as large; let them grow less, or set time.sync_every to "
-        "less",
-        (static_cast<double>(this->last_sync()) + window_.end) /
-            static_cast<double>(this->micro_steps_),
-        dynamics_.growth_at(window_.end), jam_heating));
+template <class Dynamics>
+void EventDrivenEngine<Dynamics>::refuse_jam(const std::string& reason) const {
+    const double safe = jam_watch_.safe_until();
+    const double growth = dynamics_.growth_at(safe - static_cast<double>(this->last_sync()));
+    throw Jammed(fmt::format("discs jam after step {:.6g}, at a packing fraction of {:.5g} (radii "
+                             "{:.6g} times the first): {}",
+                             safe / static_cast<double>(this->micro_steps_),
+                             first_packing_ * growth * growth, growth, reason),
+                 static_cast<std::int64_t>(safe));
 }
 
 /// The numbers for the choice of the next window, some of them learned from the last one.
@@ -337,6 +351,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     largest_speed_ = 0;
     for (const Block& block : blocks_) {
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
+        counts_.simultaneous += block.outcome.n_simultaneous;
         if (this->stress_) *this->stress_ += block.outcome.stress;
         this->losses_ += block.outcome.losses;
         if (this->is_followed()) log_events(block.outcome);
@@ -368,6 +383,7 @@ template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_c
     RollbackCounts counts = counts_;
     counts.blocks = communicator_.sum(counts_.blocks);
     counts.blocks_redone = communicator_.sum(counts_.blocks_redone);
+    counts.simultaneous = communicator_.sum(counts_.simultaneous);
     return counts;
 }
 

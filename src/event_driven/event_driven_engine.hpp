@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@
 #include "event_driven/block_cuts.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
+#include "event_driven/jam_watch.hpp"
 #include "parallel/joint_reduction.hpp"
 
 namespace carrom {
@@ -103,7 +105,7 @@ private:
     double largest_of_all() const;
     void note_first_speed();
     bool are_jammed() const;
-    [[noreturn]] void refuse_jam() const;
+    [[noreturn]] void refuse_jam(const std::string& reason) const;
     void shorten();
     void redistribute();
     GridGeometry lay_cells(double reach);
@@ -155,7 +157,9 @@ private:
     double price_of_reach_ = 0.1; ///< what one more reach of halo cost in the last window that had
                                   ///< a rollback, of the time of its first runs
     double rounds_lately_ = 0.05; ///< mean of `n_rounds_` in which older windows count less
-    double first_speed_ = 0;      ///< speed of growing discs when this interval or the engine began
+    double first_packing_ = 0;
+    JamWatch jam_watch_;     ///< of growing discs
+    double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
     /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
     /// over own discs. Even gases have less than 1 for each, because discs keep others away.
     double crowding_ = 0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/stop_request.hpp"
+#include "engine/jammed.hpp"
 #include "event_driven/event_driven_engine.hpp"
 #include "parallel/agreement.hpp"
 
@@ -336,7 +337,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
             grown);
         break;
     }
-    agree(communicator_, text.empty(), text);
+    try {
+        agree(communicator_, text.empty(), text);
+    } catch (const CollectiveError& error) {
+        if (!jam_watch_.is_on()) throw;
+        throw Jammed(error.what(), static_cast<std::int64_t>(jam_watch_.safe_until()));
+    }
 }
 
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.

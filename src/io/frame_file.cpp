@@ -130,6 +130,17 @@ void check_bodies(hid_t file, const FileSummary& summary) {
     }
 }
 
+/// Whether the disc of row `i` of a frame has left the box: such discs rest beyond an open side.
+bool has_departed(const Rows& rows, std::size_t i, const FileSummary& summary) {
+    const auto number = [&](const char* column) { return rows[summary.place_of(column)][i]; };
+    const double x = number("x"), y = number("y");
+    const std::array<bool, 4> are_beyond = {x<0, x> summary.box.x, y<0, y> summary.box.y};
+    for (std::size_t side = 0; side < are_beyond.size(); ++side)
+        if (summary.open_boundaries[side] && are_beyond[side])
+            return number("vx") == 0 && number("vy") == 0;
+    return false;
+}
+
 template <class Act> void with_path(const std::string& path, const Act& act) {
     try {
         act();
@@ -266,6 +277,28 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
         else
             read_stored(frame, begin, end, rows);
     });
+}
+
+std::vector<std::uint64_t> FrameFile::find_departed(std::size_t frame) const {
+    std::vector<std::uint64_t> departed;
+    const FileSummary& summary = summary_;
+    if (std::ranges::find(summary.open_boundaries, true) == summary.open_boundaries.end())
+        return departed;
+    Rows rows;
+    for (std::uint64_t begin = 0; begin < summary.n_rows; begin += bodies_at_a_time) {
+        const std::uint64_t end = std::min(begin + bodies_at_a_time, summary.n_rows);
+        if (summary.kind == FileKind::checkpoint)
+            with_path(path_, [&] {
+                const auto times = read_block(state_->file.id(), "/carrom/discs/tau", {begin, end});
+                for (std::uint64_t i = 0; i < times.size(); ++i)
+                    if (times[i] == columns::departed_time) departed.push_back(begin + i);
+            });
+        else
+            read(frame, begin, end, rows);
+        for (std::uint64_t i = 0; i < end - begin && summary.kind != FileKind::checkpoint; ++i)
+            if (has_departed(rows, i, summary)) departed.push_back(begin + i);
+    }
+    return departed;
 }
 
 void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_t end,

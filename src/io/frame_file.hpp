@@ -57,6 +57,10 @@ public:
     /// Replaces `rows` by the rows [begin, end) of a frame. A log has one frame, number 0.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
+    /// The rows of the discs of a frame that have left the box by an open side, ascending. The
+    /// frame has velocities. Reads it only if the box has such a side.
+    std::vector<std::uint64_t> find_departed(std::size_t frame) const;
+
 private:
     struct State;
     void open();

@@ -121,6 +121,35 @@ std::string Checkpoints::write_copy() {
                : fmt::format("the last state that is kept is of step {}", last_written_);
 }
 
+std::string Checkpoints::keep(std::int64_t step) {
+    if (!wanted_) return "nothing is kept, because the run has no output.folder; -o sets it";
+    write_copy();
+    if (last_written_ < step) go_over_to(step);
+    if (last_written_ < 0) return "nothing is kept to go on from";
+    const double growth = run_.scene().effects.growth_at(static_cast<double>(last_written_));
+    return fmt::format("{} keeps step {}, which discs.from takes, with radii {:.10g} times those "
+                       "of the scene (discs.packing = {:.10g})",
+                       checkpoint_path(wanted_->folder, last_written_), last_written_, growth,
+                       run_.scene().packing() * growth * growth);
+}
+
+/// Repeats the steps from the last stored state to `step`, which have the same bits again.
+/// **Collective.**
+void Checkpoints::go_over_to(std::int64_t step) {
+    if (last_written_ < 0) return;
+    SceneParameters scene = run_.scene();
+    scene.accuracy.reset(); // the pilot has chosen
+    Tuning tuning;
+    tuning.threads = run_.n_threads();
+    tuning.ends_jams = false;
+    const std::string last = checkpoint_path(wanted_->folder, last_written_);
+    Run again(std::move(scene), start_of(read_checkpoint(last, ranks_)), ranks_, tuning);
+    if (!again.advance_to(step)) return;
+    const std::string path = checkpoint_path(wanted_->folder, step);
+    again.write_checkpoint(path, wanted_->transfers);
+    note_written(path, step);
+}
+
 void Checkpoints::write() {
     if (removal_.valid()) removal_.get(); // its room may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());

@@ -51,6 +51,10 @@ public:
     /// is a copy of. Returns a sentence on where the run can go on from. **Collective.**
     std::string write_copy();
 
+    /// After discs have jammed: stores the end of `step`, to which the run comes without a jam.
+    /// Returns a sentence that names the file and the packing in it. **Collective.**
+    std::string keep(std::int64_t step);
+
 private:
     struct Copy {
         CheckpointHeader header;
@@ -64,6 +68,7 @@ private:
     Updates updates(std::int64_t step);
     void write();
     void copy();
+    void go_over_to(std::int64_t step);
     void note_written(const std::string& path, std::int64_t step);
     void remove_oldest();
 

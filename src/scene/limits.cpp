@@ -2,8 +2,8 @@
 #include "scene/limits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,9 +86,35 @@ std::string column_problem(DiscColumn column, double number) {
 
 namespace {
 
+/// Where the centres of discs of one radius may be along an axis.
+struct Room {
+    double low = 0, high = 0;
+};
+
+/// L - r and the program that wrote the input round to within an ulp of L, at most 2^-52 L. A disc
+/// leaves an open side when its centre is a radius beyond it.
+Room room_along(Axis axis, const SceneParameters& scene, double radius) {
+    const bool is_x = axis == Axis::x;
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // some may oscillate
+    const double length = along(axis, scene.box), slack = 0x1p-52 * length;
+    if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
+    const auto inwards = [&](std::size_t side) {
+        return scene.effects.boundaries[side].kind == BoundaryKind::open ? -radius : radius;
+    };
+    const std::size_t low = is_x ? 0 : 2;
+    return {(is_x ? walls.x_low : walls.y_low) + inwards(low) - slack,
+            ((is_x ? walls.x_high : walls.y_high) - inwards(low + 1)) + slack};
+}
+
 /// The places allowed for centres of discs of this radius.
 std::string room_text(const SceneParameters& scene, double radius) {
     const Box& box = scene.box;
+    if (scene.effects.have_open_boundaries()) {
+        const Room x = room_along(Axis::x, scene, radius), y = room_along(Axis::y, scene, radius);
+        return fmt::format("centres lie between {:.15g} and {:.15g} along x, {:.15g} and {:.15g} "
+                           "along y, and up to r = {} beyond open sides",
+                           x.low, x.high, y.low, y.high, radius);
+    }
     const std::string room = box.is_square()
                                  ? fmt::format("L - r = {}", box.x - radius)
                                  : fmt::format("Lx - r = {} along x, Ly - r = {} along y",
@@ -100,6 +126,21 @@ std::string room_text(const SceneParameters& scene, double radius) {
                                                     : "");
 }
 
+/// What helps a disc that was halfway through an open side in the run that it comes from. Empty if
+/// its centre is not beyond a side.
+std::string hint_of_sides(const InputDisc& disc, const SceneParameters& scene, double radius) {
+    if (scene.discs_from.empty()) return "";
+    const std::array<double, 4> beyond = {-disc.x, disc.x - scene.box.x, -disc.y,
+                                          disc.y - scene.box.y};
+    for (std::size_t side = 0; side < beyond.size(); ++side)
+        if (scene.effects.boundaries[side].kind != BoundaryKind::open && beyond[side] > 0 &&
+            beyond[side] < radius)
+            return fmt::format("; if it is halfway through an open side, set box.{}.kind = "
+                               "\"open\"",
+                               boundary_names[side]);
+    return "";
+}
+
 } // namespace
 
 std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, double radius) {
@@ -108,15 +149,9 @@ std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, do
         if (!text.empty()) all += (all.empty() ? "" : "; ") + text;
     };
     const Box& box = scene.box;
-    const Extent walls = extent_at(scene.effects, box, 0); // some may oscillate
     bool is_finite = true, is_inside = true;
-    for (const auto& [centre, length, is_periodic, from, to] :
-         {std::tuple(disc.x, box.x, scene.effects.is_periodic_x(), walls.x_low, walls.x_high),
-          std::tuple(disc.y, box.y, scene.effects.is_periodic_y(), walls.y_low, walls.y_high)}) {
-        // L - r and the program that wrote the input round to within an ulp of L, at most 2^-52 L.
-        const double slack = 0x1p-52 * length;
-        const double low = is_periodic ? 0 : from + radius - slack,
-                     high = is_periodic ? length : (to - radius) + slack;
+    for (const auto& [centre, axis] : {std::pair(disc.x, Axis::x), std::pair(disc.y, Axis::y)}) {
+        const auto [low, high] = room_along(axis, scene, radius);
         if (!std::isfinite(centre))
             add(fmt::format("the position {} is not a finite number", centre));
         is_finite = is_finite && std::isfinite(centre);
@@ -124,8 +159,8 @@ std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, do
     }
     const bool is_box_known = box != Box();
     if (is_finite && !is_inside && is_box_known)
-        add(fmt::format("disc {} at ({}, {}) is not inside the box: {}{}", disc.id, disc.x, disc.y,
-                        room_text(scene, radius),
+        add(fmt::format("disc {} at ({}, {}) is not inside the box: {}{}{}", disc.id, disc.x,
+                        disc.y, room_text(scene, radius), hint_of_sides(disc, scene, radius),
                         has_boundary(scene.effects, BoundaryKind::oscillating)
                             ? ", and before oscillating walls where these are at step 0"
                             : ""));

@@ -41,29 +41,47 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
     return static_cast<std::size_t>(found - summary.steps.begin());
 }
 
+/// How many discs of each species are there.
+std::vector<std::uint64_t> count_species(const std::vector<Species>& species,
+                                         const std::vector<std::uint64_t>& departed) {
+    std::vector<std::uint64_t> counts;
+    std::uint64_t end = 0;
+    for (const Species& one : species) {
+        const std::uint64_t begin = end;
+        end += one.count;
+        const auto n_left = std::ranges::lower_bound(departed, end) -
+                            std::ranges::lower_bound(departed, begin);
+        counts.push_back(one.count - static_cast<std::uint64_t>(n_left));
+    }
+    return counts;
+}
+
+/// The row in the file of the disc that has the new number `id`.
+std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departed) {
+    std::uint64_t row = id;
+    for (const std::uint64_t left : departed) {
+        if (left > row) break;
+        row += 1;
+    }
+    return row;
+}
+
 /// Makes the lines of a block of discs when they are asked for.
 class LinesOfDiscs : public std::streambuf {
 public:
     LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places,
-                 const Slab& share)
-        : file_(std::move(file)), frame_(frame), places_(std::move(places)), share_(share),
-          next_(share.begin) {}
+                 ShareOfDiscs share)
+        : file_(std::move(file)), frame_(frame), places_(std::move(places)),
+          share_(std::move(share)), first_row_(row_of(share_.ids.begin, share_.departed)) {
+        begin_anew();
+    }
 
 protected:
     int_type underflow() override {
-        const std::uint64_t begin = next_, end = std::min(begin + block, share_.end);
-        if (begin == end) return traits_type::eof();
         n_before_ += lines_.size();
         lines_.clear();
-        read(begin, end);
-        auto out = std::back_inserter(lines_);
-        for (std::uint64_t id = begin; id < end; ++id) {
-            fmt::format_to(out, "{}", id);
-            for (const std::size_t place : places_)
-                fmt::format_to(out, " {}", rows_[place][id - begin]);
-            lines_ += '\n';
-        }
-        next_ = end;
+        while (lines_.empty() && next_ < share_.ids.end) make_lines();
+        if (lines_.empty()) return traits_type::eof();
         setg(lines_.data(), lines_.data(), lines_.data() + lines_.size());
         return traits_type::to_int_type(*gptr());
     }
@@ -80,11 +98,33 @@ protected:
 
 private:
     pos_type begin_anew() {
-        next_ = share_.begin;
+        next_ = share_.ids.begin;
+        row_ = first_row_;
+        next_left_ = std::ranges::lower_bound(share_.departed, row_) - share_.departed.begin();
         n_before_ = 0;
         lines_.clear();
         setg(nullptr, nullptr, nullptr);
         return pos_type(0);
+    }
+    /// Of the discs of the next rows that are there.
+    void make_lines() {
+        const std::uint64_t begin = row_, end = std::min(begin + block, file_.summary().n_rows);
+        read(begin, end);
+        auto out = std::back_inserter(lines_);
+        for (; row_ < end && next_ < share_.ids.end; ++row_) {
+            if (next_left_ < std::ssize(share_.departed) && departed(next_left_) == row_) {
+                ++next_left_;
+                continue;
+            }
+            fmt::format_to(out, "{}", next_);
+            for (const std::size_t place : places_)
+                fmt::format_to(out, " {}", rows_[place][row_ - begin]);
+            lines_ += '\n';
+            ++next_;
+        }
+    }
+    std::uint64_t departed(std::ptrdiff_t k) const {
+        return share_.departed[static_cast<std::size_t>(k)];
     }
     /// The file has been checked, so what is damaged now has been changed since. Other ranks do not
     /// know of it, so this must not look like an error of all ranks.
@@ -99,8 +139,10 @@ private:
     FrameFile file_;
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< columns of the file
-    Slab share_;
-    std::uint64_t next_, n_before_ = 0;
+    ShareOfDiscs share_;
+    std::uint64_t first_row_, row_ = 0;     ///< in the file
+    std::uint64_t next_ = 0, n_before_ = 0; ///< the next disc's new id; bytes of earlier blocks
+    std::ptrdiff_t next_left_ = 0;          ///< the place in `share_.departed`
     std::string lines_;
     Rows rows_;
 };
@@ -120,12 +162,15 @@ private:
 } // namespace
 
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            const SideColumnSet& wanted, const std::optional<Slab>& share) {
+                            const SideColumnSet& wanted, const std::optional<ShareOfDiscs>& share) {
     FrameFile file(path);
     file.check_numbers();
     const std::size_t frame = frame_of(path, file.summary(), step);
     FileOfDiscs discs;
-    discs.n_discs = file.summary().n_rows;
+    discs.departed = share ? share->departed : file.find_departed(frame);
+    discs.n_discs = file.summary().n_rows - discs.departed.size();
+    if (discs.n_discs == 0) refuse(path, "all its discs departed by an open side");
+    discs.n_by_species = count_species(file.summary().species, discs.departed);
     std::vector<std::size_t> places;
     for (const char* column : columns) places.push_back(file.summary().place_of(column));
     std::vector<std::string> names;
@@ -136,7 +181,8 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
     });
     if (!names.empty()) discs.columns = fmt::format("[{}]", fmt::join(names, ", "));
     discs.lines = std::make_unique<StreamOfDiscs>(std::make_unique<LinesOfDiscs>(
-        std::move(file), frame, std::move(places), share.value_or(Slab{0, discs.n_discs})));
+        std::move(file), frame, std::move(places),
+        share.value_or(ShareOfDiscs{{0, discs.n_discs}, discs.departed})));
     return discs;
 }
 

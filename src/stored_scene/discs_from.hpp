@@ -2,7 +2,8 @@
 // `discs.from`: the discs of another run's checkpoint or frame, as the lines that a
 // file of discs would have. So they are checked, and sent to their ranks, like all
 // listed discs. The lines are made as they are read, some thousands at a time, so that no rank
-// holds those of all discs. Each rank can read those of its own share.
+// holds those of all discs. Each rank can read those of its own share. Discs that have left their
+// box by an open side are left out, and the others are numbered anew in the order of their ids.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/side_columns.hpp"
 #include "parallel/slabs.hpp"
@@ -17,18 +19,26 @@
 namespace carrom {
 
 struct FileOfDiscs {
-    std::uint64_t n_discs = 0;
-    std::string columns; ///< `discs.columns` of the lines, or empty
+    std::uint64_t n_discs = 0;           ///< without those that have departed
+    std::vector<std::uint64_t> departed; ///< ids in the file of those that are left out, ascending
+    std::vector<std::uint64_t> n_by_species; ///< of those that are there, if the file has species
+    std::string columns;                     ///< `discs.columns` of the lines, or empty
     /// `id x y vx vy`, per step, by id. Can be read again from its beginning. A file that can no
     /// longer be read makes it throw.
     std::unique_ptr<std::istream> lines;
 };
 
+/// The lines that a rank reads.
+struct ShareOfDiscs {
+    Slab ids;                            ///< in the new numbering
+    std::vector<std::uint64_t> departed; ///< see FileOfDiscs
+};
+
 /// Finds the frame of `step`, or the last one. `wanted` are columns beside the states,
-/// read if the file has them. The lines are those of the ids in `share`, or of all. Call
+/// read if the file has them. The lines are those of `share`, or else of all discs. Call
 /// check_damage before. Throws InputError naming the file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
                             const SideColumnSet& wanted,
-                            const std::optional<Slab>& share = std::nullopt);
+                            const std::optional<ShareOfDiscs>& share = std::nullopt);
 
 } // namespace carrom

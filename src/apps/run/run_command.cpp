@@ -18,6 +18,7 @@
 #include "apps/shell/stop_signals.hpp"
 #include "core/stop_request.hpp"
 #include "core/stopwatch.hpp"
+#include "engine/jammed.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "run/checkpoints.hpp"
@@ -146,6 +147,10 @@ bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double
     } catch (const StopRequested&) {
         shown.finish();
         throw given_up(shown.last_step(), checkpoints.write_copy(), scene);
+    } catch (const Jammed& jam) {
+        shown.finish();
+        const std::string kept = checkpoints.keep(jam.safe_micro_step() / scene.micro_steps);
+        throw CollectiveError(fmt::format("{}; {}", jam.what(), kept), jam.code());
     }
     watch.lap();
     shown.finish();

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "initial_state/closed_regions.hpp"
 #include "initial_state/scene_input.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
@@ -162,6 +163,20 @@ void warn_of_units(const RunOptions& options, const SceneParameters& scene,
     if (!warning.empty()) options.messages.warn("{}: warning: {}\n", scene.name, warning);
 }
 
+/// Nobody sees where random insertion puts discs; listed ones are where their author wants them.
+/// **Collective.**
+void warn_of_closed_regions(const RunOptions& options, const SceneParameters& scene,
+                            const std::vector<InputDisc>& discs, const Communicator& ranks) {
+    if (scene.generator != Generator::random) return;
+    const ShutInDiscs found = find_shut_in(scene, discs, ranks);
+    if (found.n_discs == 0) return;
+    options.messages.warn("{}: warning: {} of {} discs begin in {} region{} that effects.obstacles "
+                          "shut off from the largest one, and cannot leave; leave a gap, or list "
+                          "the discs (discs.list, discs.file)\n",
+                          scene.name, found.n_discs, scene.n_discs, found.n_regions,
+                          found.n_regions == 1 ? "" : "s");
+}
+
 /// Lets a run that was killed before its first checkpoint begin with the copy of its
 /// scene. **Collective.**
 RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
@@ -233,6 +248,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     if (!loaded.start.stored)
         loaded.start.discs = first_discs(scene, source.stream.get(), ranks, tuning);
     warn_of_units(options, scene, loaded.start.discs, ranks);
+    if (!loaded.start.stored) warn_of_closed_regions(options, scene, loaded.start.discs, ranks);
     for (const std::string& warning : scene.warnings)
         options.messages.warn("{}: warning: {}\n", scene.name, warning);
     return loaded;

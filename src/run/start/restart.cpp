@@ -179,10 +179,16 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
                fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
                            header.step, loaded.scene.steps));
     options.messages.note("going on from step {}\n", header.step);
-    std::vector<std::int64_t> kept = std::move(checkpoint->samples.effects);
-    loaded.start.samples = std::move(checkpoint->samples);
-    loaded.start.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
-                                      std::move(checkpoint->columns), std::move(kept)};
+    loaded.start = start_of(std::move(*checkpoint));
+}
+
+RunStart start_of(Checkpoint checkpoint) {
+    RunStart start;
+    std::vector<std::int64_t> kept = std::move(checkpoint.samples.effects);
+    start.samples = std::move(checkpoint.samples);
+    start.stored = StoredState{std::move(checkpoint.discs), checkpoint.header.micro_steps_done,
+                               std::move(checkpoint.columns), std::move(kept)};
+    return start;
 }
 
 } // namespace carrom

@@ -22,6 +22,9 @@ namespace carrom {
 /// another run. **Collective.**
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks);
 
+/// The start of a run that goes on from the checkpoint.
+RunStart start_of(Checkpoint checkpoint);
+
 /// Called if nothing was found and the folder is locked: prints that the run begins at
 /// step 0. Throws on every rank (exit code 2) if that would replace what a run has
 /// recorded after its start. **Collective.**

@@ -40,12 +40,36 @@ bool takes_discs_of_file(const SceneParameters& scene) {
     return !scene.discs_file.empty() && scene.discs_from.empty();
 }
 
+/// Why a scene of `n_wanted` discs cannot have those of the file.
+std::string other_number(const FileOfDiscs& file, std::uint64_t n_wanted) {
+    std::string text = fmt::format("has {} disc{}", file.n_discs, file.n_discs == 1 ? "" : "s");
+    if (!file.departed.empty())
+        text += fmt::format(" in the box, and {} that departed by an open side",
+                            file.departed.size());
+    if (!file.departed.empty() && !file.n_by_species.empty())
+        text += fmt::format(" (in the box of each species: {})",
+                            fmt::join(file.n_by_species, ", "));
+    return text + fmt::format(", and the scene is of {}", n_wanted);
+}
+
+/// What the numbers of the discs mean.
+std::string note_on_departed(const std::string& path, const FileOfDiscs& file) {
+    return fmt::format("{} of {} discs in {} departed by an open side and are left out; the others "
+                       "have the ids 0 to {} here, in their order",
+                       file.departed.size(), file.n_discs + file.departed.size(), path,
+                       file.n_discs - 1);
+}
+
+/// What `discs.from` adds to a scene, the same on every rank.
+struct FromFile {
+    std::vector<std::string> settings;
+    std::string warning; ///< empty if the scene has all discs of the file
+};
+
 /// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
-/// 0, by those of their shares on others. Returns the settings that say so, the same on every rank.
-/// **Collective.**
-std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
-                                                std::unique_ptr<std::istream>& stream,
-                                                Problems& of_root, const Communicator& ranks) {
+/// 0, by those of their shares on others. **Collective.**
+FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
+                                Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
     check_damage(path, ranks);
     SideColumnSet wanted = side_columns_of(scene.effects);
@@ -56,24 +80,27 @@ std::vector<std::string> follow_with_discs_from(const SceneParameters& scene,
         append(of_root, problems_of([&] {
                    file = read_discs_from(path, scene.discs_from_step, wanted);
                    if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
-                       throw InputError({{path, 0,
-                                          fmt::format("has {} discs, and the scene is of {}",
-                                                      file.n_discs, scene.n_discs)}});
+                       throw InputError({{path, 0, other_number(file, scene.n_discs)}});
                }));
         stream = std::move(file.lines);
         if (!stream) stream = std::make_unique<std::istringstream>();
     }
     ranks.broadcast(file.n_discs);
     ranks.broadcast(file.columns);
+    ranks.broadcast(file.departed);
     if (!ranks.is_root() && file.n_discs > 0) // a fault here is found by rank 0, which reads all
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
-            stream = read_discs_from(path, scene.discs_from_step, wanted, share).lines;
+            stream = read_discs_from(path, scene.discs_from_step, wanted,
+                                     ShareOfDiscs{share, file.departed})
+                         .lines;
         });
-    std::vector<std::string> settings;
+    FromFile from;
+    std::vector<std::string>& settings = from.settings;
     if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
-    return settings;
+    if (!file.departed.empty()) from.warning = note_on_departed(path, file);
+    return from;
 }
 
 } // namespace
@@ -87,11 +114,12 @@ SceneParameters read_with_files(SceneSource& source, std::vector<std::string> se
         scene = read_scene(source.text, settings, found);
     };
     read_again();
+    FromFile from;
     if (takes_discs_from(scene)) {
-        const auto more = follow_with_discs_from(scene, source.stream, of_root, ranks);
-        settings.insert(settings.end(), more.begin(), more.end());
+        from = follow_with_discs_from(scene, source.stream, of_root, ranks);
+        settings.insert(settings.end(), from.settings.begin(), from.settings.end());
         source.text.discs_follow = true;
-        if (!more.empty()) read_again();
+        if (!from.settings.empty()) read_again();
     }
     const bool has_file = takes_discs_of_file(scene) || takes_discs_from(scene);
     if (!scene.disc_columns.empty() && has_file) {
@@ -99,6 +127,7 @@ SceneParameters read_with_files(SceneSource& source, std::vector<std::string> se
         read_again();
     }
     append(problems, found);
+    if (!from.warning.empty()) scene.warnings.push_back(from.warning);
     return scene;
 }
 

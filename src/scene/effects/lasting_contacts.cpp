@@ -249,10 +249,26 @@ void check_samples_of_forces(const SceneDraft& draft) {
     }
 }
 
+/// The passes over contacts carry the weight of a heavy disc only slowly through light ones.
+void warn_of_unlike_masses(const SceneDraft& draft) {
+    constexpr double most = 100;
+    SceneParameters& scene = draft.scene;
+    if (scene.effects.species.empty()) return;
+    const auto [lightest, heaviest] = std::ranges::minmax(scene.effects.species, {},
+                                                          &Species::mass);
+    if (heaviest.mass <= most * lightest.mass) return;
+    scene.warnings.push_back(fmt::format(
+        "the heaviest disc has {:.3g} times the mass of the lightest, and effects.lasting_contacts "
+        "are exact to about {:g} times: heavy discs may rest some hundredths of a radius too high "
+        "on light ones",
+        heaviest.mass / lightest.mass, most));
+}
+
 void check_heap(const SceneDraft& draft) {
     if (!has_lasting(draft.scene) || !(smallest_radius_of(draft.scene) > 0)) return;
     if (!draft.knows_syncs()) return;
     if (check_hops(draft)) check_speed(draft);
+    warn_of_unlike_masses(draft);
     check_samples_of_forces(draft);
 }
 

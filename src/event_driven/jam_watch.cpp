@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "event_driven/jam_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+namespace {
+
+/// Radii grow by at most this share of the first ones in a bin.
+constexpr double growth_in_bin = 0x1p-10;
+/// The first bin after a start is shorter than others by this factor. Each next one is twice as
+/// long as the one before, because before the first bin no frequency is known.
+constexpr double first_bin = 0x1p-10;
+/// Collisions in a bin, and more per disc, that cost about a second. A run that goes on beyond
+/// them comes nearer to the jam by less than it takes longer.
+constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
+constexpr double ever_more = 3, rarer = 4;
+/// The run's end must be beyond the room by this factor, because a dense fluid that freezes gains
+/// room.
+constexpr double sure = 2;
+
+} // namespace
+
+JamWatch::JamWatch(const Growth& growth)
+    : growth_(growth), width_(growth.interval),
+      enough_(enough_of_all + enough_per_disc * growth.n_discs) {
+    while (growth.rate * width_ > growth_in_bin) width_ /= 2;
+}
+
+void JamWatch::start(double time, double sync) {
+    if (!is_on()) return;
+    sync_ = sync;
+    begin_bin(time, first_bin * width_);
+}
+
+/// Bins end at multiples of their width, which syncs are.
+void JamWatch::begin_bin(double begin, double width) {
+    if (begin >= growth_.interval) {
+        sync_ += growth_.interval;
+        begin = 0;
+    }
+    begin_ = begin;
+    end_ = std::min(begin + width, (std::floor(begin / width_) + 1) * width_);
+    safe_until_ = sync_ + begin_;
+    n_collisions_ = 0;
+}
+
+bool JamWatch::add(std::uint64_t n_collisions) {
+    n_collisions_ += static_cast<double>(n_collisions);
+    if (is_on() && n_collisions_ > limit_) sign_ = Sign::ever_more_frequent;
+    return sign_ != Sign::none;
+}
+
+bool JamWatch::finish_bin() {
+    const double width = end_ - begin_;
+    const Past now{sync_ + end_, n_collisions_ / width};
+    if (n_collisions_ > enough_)
+        if (const Past* const then = when_rarer(now.rate)) {
+            room_ = now.time - then->time;
+            if (growth_.end - now.time > sure * room_) sign_ = Sign::no_room_left;
+        }
+    if (width == width_) remember(now);
+    begin_bin(end_, std::min(2 * width, width_));
+    limit_ = std::max(enough_, ever_more * now.rate * (end_ - begin_));
+    return sign_ != Sign::none;
+}
+
+void JamWatch::remember(const Past& bin) {
+    constexpr double step = 1.05; // keeps the list short
+    while (!pasts_.empty() && pasts_.back().rate >= bin.rate) pasts_.pop_back();
+    if (pasts_.empty() || bin.rate > step * pasts_.back().rate) pasts_.push_back(bin);
+}
+
+/// The latest bin in which collisions were rarer by the factor, or null.
+const JamWatch::Past* JamWatch::when_rarer(double rate) const {
+    const auto after = std::ranges::upper_bound(pasts_, rate / rarer, {}, &Past::rate);
+    return after == pasts_.begin() ? nullptr : &*(after - 1);
+}
+
+std::string JamWatch::reason(double micro_steps) const {
+    if (sign_ == Sign::no_room_left)
+        return fmt::format("collisions are {:g} times as frequent as {:.3g} steps before, so there "
+                           "is room for about {:.3g} steps more, and {:.4g} are left",
+                           rarer, room_ / micro_steps, room_ / micro_steps,
+                           (growth_.end - safe_until_) / micro_steps);
+    return fmt::format(
+        "{:.2g} collisions since step {:.5g}, more than {:g} times as many as in the "
+        "same time before",
+        n_collisions_, safe_until_ / micro_steps, ever_more);
+}
+
+} // namespace carrom

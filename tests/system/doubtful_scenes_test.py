@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes whose numbers mean something else than their authors may think: the run says so."""
+import math
+
+from program import ProgramTest, lines_of, main
+
+BOX = "[box]\nsize = 40\n"
+PERIODIC = BOX + "".join(f'{side}.kind = "periodic"\n'
+                         for side in ("left", "right", "bottom", "top"))
+GAS = "[discs]\ncount = 200\nradius = 0.5\nspeed = 0.1\n[time]\nsteps = 0\n"
+TRIANGLE = [[10, 10, 30, 10], [30, 10, 20, 28], [20, 28, 10, 10]]
+
+THREE = """
+[box]
+size = 20
+[discs]
+radius = 1
+list = {}
+[time]
+steps = {}
+"""
+
+HEAP = """
+[box]
+size = [20, 40]
+[[discs.species]]
+count = 10
+radius = 1
+mass = {}
+[[discs.species]]
+count = 20
+radius = 0.8
+[discs]
+speed = 0.05
+[effects.gravity]
+y = -0.01
+[effects.contact]
+kind = "restitution"
+restitution = 0.5
+contact_time = 0.01
+[effects.lasting_contacts]
+speed = 0.05
+[time]
+steps = 10
+sync_every = 2
+"""
+
+
+def obstacles(segments=(), discs=()):
+    return f"[effects.obstacles]\nsegments = {list(segments)}\ndiscs = {list(discs)}\n"
+
+
+def is_in_triangle(x, y):
+    sides = [(x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) for x0, y0, x1, y1 in TRIANGLE]
+    return min(sides) > 0
+
+
+class DoubtfulScenes(ProgramTest):
+    def places(self, text, **expected):
+        self.write("scene.toml", text)
+        run = self.run_program(1, "run", "scene.toml", "--set", "output.text=ends", **expected)
+        return run, [tuple(map(float, line.split()[2:4])) for line in lines_of(run.out, 0)]
+
+    def check_closed(self, text, is_inside, n_regions=1):
+        """The warning has the number of discs that `is_inside` counts, on any number of ranks."""
+        run, places = self.places(text)
+        n = sum(is_inside(x, y) for x, y in places)
+        self.assertGreater(n, 3)
+        says = (f"{n} of {len(places)} discs begin in {n_regions} region"
+                f"{'s' if n_regions > 1 else ''} that effects.obstacles shut off")
+        self.assertIn(says, run.err)
+        self.run_program(3, "run", "scene.toml", "--quiet", says=says)
+
+    def check_open(self, text):
+        self.assertNotIn("shut off", self.places(text)[0].err)
+
+    def test_closed_regions(self):
+        self.check_closed(BOX + GAS + obstacles(TRIANGLE), is_in_triangle)
+        ring = [[20 + 9 * math.cos(k * math.pi / 12), 20 + 9 * math.sin(k * math.pi / 12), 1]
+                for k in range(24)]
+        self.check_closed(PERIODIC + GAS + obstacles(discs=ring),
+                          lambda x, y: math.hypot(x - 20, y - 20) < 9)
+        # Corners that segments and walls close.
+        self.check_closed(BOX + GAS + obstacles([[0, 15, 15, 0], [25, 40, 40, 25]]),
+                          lambda x, y: x + y < 15 or x + y > 65, n_regions=2)
+
+    def test_ways_out(self):
+        gap = [[10, 10, 30, 10], [30, 10, 20, 28], [20, 28, 10.6, 11.08]]
+        self.check_open(BOX + GAS + obstacles(gap))
+        self.check_open(PERIODIC + GAS + obstacles([[0, 15, 40, 15]]))
+        self.check_open(BOX + 'bottom.kind = "open"\n' + GAS + obstacles([[0, 15, 40, 15]]))
+        # A list is where its author wants it.
+        self.check_open(BOX + GAS.replace("count = 200", "list = [[20, 15, 0, 0], [5, 5, 0, 0]]")
+                        .replace("speed = 0.1\n", "") + obstacles(TRIANGLE))
+
+    def test_two_hits_at_once(self):
+        """Disc 0 meets 1, and with what is left of its velocity 2, at the same time. Along unit
+        vectors at 30 degrees to x, up and down, it loses the velocity that it has: it ends at
+        (-1, -sqrt(3)) / 8. If both hits acted together it would have (-1/5, 0)."""
+        self.write("three.toml", THREE.format("[[4, 10, 1, 0], [10, 11, 0, 0], [10, 9, 0, 0]]", 6))
+        for ranks in 1, 3:
+            run = self.run_program(ranks, "run", "three.toml", "--set", "output.text=ends",
+                                   "--report", "three.json",
+                                   says="simultaneous 1 collisions of pairs at the time of")
+            self.assertEqual(self.report("three.json")["simultaneous_collisions"], 1)
+            _, _, _, _, vx, vy = map(float, lines_of(run.out, 6)[0].split()[:6])
+            self.assertAlmostEqual(vx, -1 / 8, delta=1e-7)
+            self.assertAlmostEqual(vy, -math.sqrt(3) / 8, delta=1e-7)
+
+    def test_blow_through_a_row(self):
+        """The blow goes through four touching discs at one time; no count without such a row."""
+        row = [[4, 10, 1, 0]] + [[10 + 2 * k, 10, 0, 0] for k in range(4)]
+        self.write("row.toml", THREE.format(row, 6))
+        self.run_program(2, "run", "row.toml", "--report", "row.json")
+        self.assertEqual(self.report("row.json")["simultaneous_collisions"], 3)
+        row[2:] = [[x + 0.01 * k, y, vx, vy] for k, (x, y, vx, vy) in enumerate(row[2:], 1)]
+        self.write("apart.toml", THREE.format(row, 6))
+        run = self.run_program(1, "run", "apart.toml", "--report", "apart.json")
+        self.assertEqual(self.report("apart.json")["pair_collisions"], 4)
+        self.assertNotIn("simultaneous_collisions", self.report("apart.json"))
+        self.assertNotIn("simultaneous", run.err)
+
+    def test_unlike_masses(self):
+        for mass, is_warned in ((200, True), (0.005, True), (90, False)):
+            self.write("heap.toml", HEAP.format(mass))
+            run = self.run_program(1, "run", "heap.toml", "--quiet")
+            self.assertEqual("heaviest disc has 200 times the mass" in run.err, is_warned, run.err)
+
+
+if __name__ == "__main__":
+    main()

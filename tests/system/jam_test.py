@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Growing discs that jam end the run with code 3, soon and on all ranks alike, and the packing that
+they have come to can be read by `discs.from`.
+"""
+import math
+import re
+
+from program import ProgramTest, main
+
+PERIODIC = "".join(f'{side}.kind = "periodic"\n' for side in ("left", "right", "bottom", "top"))
+LOSSY = '[effects.contact]\nkind = "restitution"\nrestitution = 0.9\n'
+
+SCENE = """
+[box]
+size = {size}
+{sides}
+[discs]
+speed = 0.1
+seed = {seed}
+{discs}
+[effects.growth]
+rate = {rate}
+[time]
+steps = {steps}
+{more}
+"""
+
+
+def equal(n):
+    return f"count = {n}\npacking = 0.3"
+
+
+def mixed(n):
+    return "".join(f"[[discs.species]]\ncount = {n // 2}\nradius = {r}\n" for r in (0.5, 0.36))
+
+
+def scene(n, discs, *, sides="", rate=0.001, steps, more="", seed=1):
+    return SCENE.format(size=20 * math.sqrt(n / 200), sides=sides, seed=seed, discs=discs,
+                        rate=rate, steps=steps, more=more)
+
+
+class Jam(ProgramTest):
+    def jam(self, text, ranks, folder="grown"):
+        """Runs into the jam; returns its message, the packing of the message and the file."""
+        self.write("grow.toml", text)
+        printed = self.run_program(ranks, "run", "grow.toml", "--quiet", "-o", folder,
+                                   "--overwrite", code=3)
+        found = re.search(r"(discs jam|collides without end).*; (\S+\.h5) keeps step (\d+), .* "
+                          r"radii ([0-9.]+) times those of the scene \(discs.packing = ([0-9.]+)\)",
+                          printed.err)
+        self.assertTrue(found, printed.err)
+        return found
+
+    def begin_from(self, found, sides):
+        """The packing is what its name says, and no discs overlap in it."""
+        size = re.search(r"size = (\S+)", (self.folder / "grow.toml").read_text())[1]
+        self.write("from.toml", f'[box]\nsize = {size}\n{sides}\n[discs]\nfrom = "{found[2]}"\n'
+                   f"packing = {found[5]}\n[time]\nsteps = 1\n")
+        self.run_program(1, "run", "from.toml", "--quiet", "--check", "--report", "from.json")
+        self.assertEqual(self.report("from.json")["overlapping_pairs"], 0)
+
+    def test_equal(self):
+        """Jammed discs of one radius cover 0.84 (at random) to 0.9069 (crystal) of the box."""
+        text = scene(200, equal(200), sides=PERIODIC, steps=735)
+        files = []
+        for ranks in 1, 3:
+            found = self.jam(text, ranks, f"on_{ranks}")
+            self.assertEqual(found[1], "discs jam")
+            self.assertTrue(0.84 < float(found[5]) < 0.9069)
+            self.assertAlmostEqual(float(found[4]), 1 + 0.001 * int(found[3]), delta=1e-9)
+            self.assertAlmostEqual(float(found[5]), 0.3 * float(found[4]) ** 2, delta=1e-9)
+            files.append(found[2])
+            info = self.run_program(1, "info", found[2]).out
+            files.append(re.search(r"state hash +(\w+)", info)[1])
+        self.assertEqual(files[0].split("/", 1)[1], files[2].split("/", 1)[1])
+        self.assertEqual(files[1], files[3])
+        self.begin_from(found, PERIODIC)
+        # The bits are those of a run that ends there.
+        self.run_program(2, "run", "grow.toml", "--quiet", "--steps", found[3], "-o", "to_there",
+                         "--report", "there.json")
+        self.assertEqual(self.hash_of("there.json"), files[1])
+
+    def test_other_kinds(self):
+        """Two radii and walls, losses, few discs, fast growth, syncs that are rare or frequent."""
+        walls = ""
+        for n, discs, sides, rate, steps, more in (
+                (100, mixed(100), walls, 0.001, 800, ""),
+                (100, mixed(100), PERIODIC, 0.001, 800, LOSSY),
+                (2, equal(2), walls, 0.001, 730, ""),
+                (60, equal(60), PERIODIC, 0.02, 36, ""),
+                (60, equal(60), PERIODIC, 0.001, 735, "sync_every = 1"),
+                (60, equal(60), PERIODIC, 0.001, 735, "sync_every = 1000\nmicro_steps = 2")):
+            more = more if more.startswith("[") else more + "\n"
+            text = scene(n, discs, sides=sides, rate=rate, steps=steps, more=more, seed=5)
+            kept = [self.jam(text, ranks)[5] for ranks in (1, 2)]
+            self.assertEqual(kept[0], kept[1], text)
+            self.assertTrue(0.4 < float(kept[0]) < 0.95, text)
+
+    def test_dense_runs_go_on(self):
+        """A crystal that does not grow as far as to its jam comes to its end. Its pressure is that
+        of the free volume, Z = 2 / (1 - packing / 0.9069), about 100 at the end."""
+        size = f"[{14 * math.sqrt(3) / 2 * 16 / 14:.17g}, 16]"
+        text = SCENE.format(size=size, sides=PERIODIC, seed=1, rate=0.0001, steps=250, more="",
+                            discs='count = 256\ngenerator = "triangular"\npacking = 0.845')
+        self.write("crystal.toml", text)
+        self.run_program(1, "run", "crystal.toml", "--quiet", "--report", "end.json")
+        self.assertAlmostEqual(self.report("end.json")["last_packing"], 0.845 * 1.025 ** 2,
+                               delta=1e-9)
+
+    def test_nothing_kept(self):
+        self.write("grow.toml", scene(60, equal(60), sides=PERIODIC, steps=735))
+        self.run_program(1, "run", "grow.toml", "--quiet", code=3,
+                         says="nothing is kept, because the run has no output.folder")
+
+
+if __name__ == "__main__":
+    main()
