@@ -165,11 +165,12 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
 
 template <class Value>
 Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
+    Estimate result;
+    result.value = value(whole);
+    if (std::isnan(result.value)) return result; // it is undefined in this scene
     std::vector<double> terms;
     for (const Block& block : blocks_) terms.push_back(value(block));
     const BlockedMean blocked = blocked_mean(terms);
-    Estimate result;
-    result.value = value(whole);
     result.is_conserved = blocked.is_constant;
     result.is_changing = blocked.is_changing;
     if (result.is_changing) result.first = terms.front(), result.last = terms.back();

@@ -105,8 +105,8 @@ AveragedSystem system_to_average(const SceneParameters& scene, std::uint64_t n_d
     system.sync_every = scene.sync_every;
     system.is_plain = !scene.effects.are_any();
     system.keeps_discs = !scene.effects.have_open_boundaries();
-    system.is_periodic_x = scene.effects.is_periodic_x();
-    system.is_periodic_y = scene.effects.is_periodic_y();
+    system.drift_x = drift_along(Axis::x, scene.effects);
+    system.drift_y = drift_along(Axis::y, scene.effects);
     system.has_flow = scene.effects.are_sheared();
     system.keeps_energy =
         !scene.effects.are_any(); // some others keep it, too: more samples are no harm

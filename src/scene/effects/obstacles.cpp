@@ -117,7 +117,9 @@ EffectDeclaration obstacles() {
                 [](const Effects& e) {
                     return CheckAllowance{.collisions_take_energy = e.obstacles.restitution < 1};
                 },
-            .lets_discs_rest = [](const Effects& e) { return e.obstacles.restitution < 1; }};
+            .lets_discs_rest = [](const Effects& e) { return e.obstacles.restitution < 1; },
+            .common_motion = [](const Effects& e,
+                                Axis) { return CommonMotion{.is_stopped = e.obstacles.are_any()}; }};
 }
 
 } // namespace effects
