@@ -267,6 +267,10 @@ void DiscSystem::forget_crossings_in(std::vector<Crossing>& crossings) {
     engine_->forget_crossings_in(crossings);
 }
 
+void DiscSystem::call_before_effects(std::function<void()> act) {
+    engine_->call_before_effects(std::move(act));
+}
+
 void DiscSystem::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
                                       std::span<std::uint64_t> counts) const {
     const std::size_t n_bins = counts.size() / n_pair_kinds(species_ends.size());

@@ -64,7 +64,8 @@ void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& s
     report["box"] = {scene.box.x, scene.box.y};
     report["temperature"] = estimate(averages.temperature, no_heat);
     report["pressure"] = estimate(averages.pressure, no_heat);
-    report["compressibility"] = estimate(averages.compressibility, no_heat.empty() ? no_z : no_heat);
+    report["compressibility"] = estimate(averages.compressibility,
+                                         no_heat.empty() ? no_z : no_heat);
     report["pressure_tensor"] = {{"xx", estimate(averages.pressure_tensor.xx, no_heat)},
                                  {"xy", estimate(averages.pressure_tensor.xy, no_heat)},
                                  {"yy", estimate(averages.pressure_tensor.yy, no_heat)}};

@@ -76,6 +76,12 @@ std::string reason_without_z(const Effects& effects) {
     return {};
 }
 
+bool does_energy_jump(const Effects& effects) {
+    return std::ranges::any_of(all_effects(), [&](const EffectDeclaration& effect) {
+        return effect.makes_energy_jump && effect.makes_energy_jump(effects);
+    });
+}
+
 Drift drift_along(Axis axis, const Effects& effects) {
     if (!(axis == Axis::x ? effects.is_periodic_x() : effects.is_periodic_y()))
         return Drift::is_heat;
@@ -95,7 +101,9 @@ std::string reason_without_temperature(const Effects& effects, std::uint64_t n_d
                has_y = drift_along(Axis::y, effects) == Drift::is_heat;
     if (n_discs != 1 || (has_x && has_y)) return {};
     return fmt::format("no kT, P or Z: along {} the only disc has no motion about the mean of all",
-                       has_x ? "y" : has_y ? "x" : "x and y");
+                       has_x   ? "y"
+                       : has_y ? "x"
+                               : "x and y");
 }
 
 SyncEffects sync_effects_of(const SceneParameters& scene) {

@@ -89,6 +89,9 @@ struct EffectDeclaration {
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
     /// Of an effect at syncs, from what it keeps after the last one.
     EndNumber (*at_end)(std::span<const std::int64_t> kept) = nullptr;
+    /// Whether it keeps the mean energy of motion only together with what acts between syncs, so
+    /// that this energy jumps at each sync.
+    bool (*makes_energy_jump)(const Effects&) = nullptr;
     /// Of an effect that exchanges momentum with discs other than by the sides that end an axis.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
     /// Why Z means nothing in a scene with the effect; empty if it means something.
@@ -112,6 +115,8 @@ std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept);
 /// Why Z is undefined, from the first effect that has a reason; otherwise empty.
 std::string reason_without_z(const Effects& effects);
+/// Whether the mean energy of motion jumps at syncs.
+bool does_energy_jump(const Effects& effects);
 /// How the common velocity of all discs along `axis` counts. Temperature, pressure and
 /// displacements follow this alone.
 Drift drift_along(Axis axis, const Effects& effects);

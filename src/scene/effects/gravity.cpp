@@ -153,8 +153,7 @@ EffectDeclaration gravity() {
                 },
             .common_motion =
                 [](const Effects& e, Axis axis) {
-                    return CommonMotion{.is_driven =
-                                            along(axis, e.gravity.x, e.gravity.y) != 0};
+                    return CommonMotion{.is_driven = along(axis, e.gravity.x, e.gravity.y) != 0};
                 }};
 }
 

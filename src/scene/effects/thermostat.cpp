@@ -369,6 +369,16 @@ CommonMotion common_motion_in_thermostat(const Effects& effects, Axis /*axis*/) 
     return {.is_stopped = kind == ThermostatKind::andersen || kind == ThermostatKind::langevin};
 }
 
+/// Andersen and Langevin thermostats leave the distribution of velocities as it is where nothing
+/// else gives or takes energy.
+bool makes_energy_jump(const Effects& effects) {
+    const ThermostatKind kind = effects.thermostat.kind;
+    if (kind == ThermostatKind::kicks || kind == ThermostatKind::rescale) return true;
+    const CheckAllowance others = allowance_of(effects);
+    return effects.thermostat.is_any() &&
+           (others.collisions_take_energy || others.walls_give_energy || effects.are_sheared());
+}
+
 std::unique_ptr<SyncEffect> thermostat_at_syncs(const SceneParameters& scene) {
     switch (scene.effects.thermostat.kind) {
     case ThermostatKind::none: break;
@@ -396,6 +406,7 @@ EffectDeclaration thermostat() {
             [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.thermostat.is_any()}; },
         .usual_speed = usual_speed_of_thermostat,
         .at_syncs = thermostat_at_syncs,
+        .makes_energy_jump = makes_energy_jump,
         .common_motion = common_motion_in_thermostat};
 }
 
