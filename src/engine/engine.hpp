@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
@@ -83,6 +85,9 @@ public:
     /// From now on the energy that moving images give own discs is added to `work`, as long as
     /// collisions are logged; per micro-step, of stored states. Null ends that.
     void add_work_to(double* work) { work_ = work; }
+    /// From now on `act` is called at each sync before effects act there, when all states are at
+    /// its time. It only reads. An empty function ends that.
+    void call_before_effects(std::function<void()> act) { before_effects_ = std::move(act); }
     /// From now on what own discs add to the time integral of stress is added to `sums` of one
     /// rank; null ends that. A pair's collision is added by the rank that owns its first disc.
     void add_stress_to(StressSums* sums) {
@@ -113,6 +118,7 @@ protected:
     Followers<WallEvent> wall_followers_;
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
+    std::function<void()> before_effects_;
     /// Partial sums begin as copies of it. In its units all terms are 0 until sums are asked for.
     StressSums no_stress_{0x1p900};
     LossSums losses_{0x1p900}, no_losses_{0x1p900};

@@ -175,9 +175,10 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
 
 template <class Dynamics> void EngineBase<Dynamics>::sync() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
-    const double largest_speed = restart_states();
+    double largest_speed = restart_states();
     dynamics_.begin_interval(last_sync());
     if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
+    if (sync_action_.has_effects()) largest_speed = let_effects_act();
     finish_sync(largest_speed);
     redistributed_time_ -= time_;
     time_ = 0;
@@ -222,16 +223,24 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         if (stress_ && ends_flights) *stress_ += flights;
     }
     if (is_work_asked) *work_ += energy_of_own();
-    if (sync_action_.has_effects()) {
-        sync_action_.act(
-            discs_, n_micro_done_ / sync_every_,
-            {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_});
-        fastest = 0;
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
-        for (std::int64_t i = 0; i < n; ++i)
-            fastest = std::max(fastest,
-                               dynamics_.squared_speed(discs[static_cast<std::size_t>(i)]));
+    return std::sqrt(fastest);
+}
+
+/// Returns the largest speed that own discs have then.
+template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
+    if (this->before_effects_) {
+        const double end = std::exchange(time_, 0); // of the flights that have ended
+        this->before_effects_();
+        time_ = end;
     }
+    sync_action_.act(
+        discs_, n_micro_done_ / sync_every_,
+        {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_});
+    double fastest = 0;
+    const DiscStates& discs = discs_.all();
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        fastest = std::max(fastest, dynamics_.squared_speed(discs[i]));
     return std::sqrt(fastest);
 }
 

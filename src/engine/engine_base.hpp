@@ -112,6 +112,7 @@ protected:
 private:
     void sync();
     double restart_states();
+    double let_effects_act();
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -38,8 +41,19 @@ void BlockAverages::begin() {
                                                                        : most_blocks / 2);
     steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - first_step_) / wanted, 1,
                                                  most_steps_per_sample());
+    if (does_energy_jump(run_.scene.effects)) steps_per_sample_ = between_syncs(steps_per_sample_);
     steps_per_block_ = steps_per_sample_;
     blocks_.clear();
+}
+
+/// A time from sample to sample that is at most `steps`, so that samples come at all times between
+/// two syncs, where that is possible.
+std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
+    for (std::int64_t less = steps; less > steps / 2; --less)
+        if (std::gcd(less * system_.micro_steps, system_.sync_every) ==
+            std::gcd(system_.micro_steps, system_.sync_every))
+            return less;
+    return steps;
 }
 
 std::int64_t BlockAverages::next_due(std::int64_t step) const {
@@ -165,11 +179,12 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
 
 template <class Value>
 Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
+    Estimate result;
+    result.value = value(whole);
+    if (std::isnan(result.value)) return result; // it is undefined in this scene
     std::vector<double> terms;
     for (const Block& block : blocks_) terms.push_back(value(block));
     const BlockedMean blocked = blocked_mean(terms);
-    Estimate result;
-    result.value = value(whole);
     result.is_conserved = blocked.is_constant;
     result.is_changing = blocked.is_changing;
     if (result.is_changing) result.first = terms.front(), result.last = terms.back();

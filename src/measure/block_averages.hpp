@@ -33,6 +33,8 @@ public:
     /// The first step after `step` at which averages begin or a sample is due.
     std::int64_t next_due(std::int64_t step) const;
     void sample_if_due();
+    /// Begins the present interval with the present velocities, because effects have just acted.
+    void begin_interval() { interval_->begin(interval_->now()); }
     void sample(const SampledState& state) override;
     void keep(KeptNumbers& kept) override;
     /// None: a run's report and the library show `averages`.
@@ -54,6 +56,7 @@ private:
     };
 
     std::int64_t most_steps_per_sample() const;
+    std::int64_t between_syncs(std::int64_t steps) const;
     void add(std::int64_t step, const Block& block);
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/exact_sum.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -34,8 +35,11 @@ void subtract_mean(std::vector<Flight>& flights, std::array<double, 2> Flight::*
 
 } // namespace
 
-bool keeps_common_motion(const SceneParameters& scene) {
-    return !scene.effects.obstacles.are_any();
+std::array<bool, 2> is_centred(const SceneParameters& scene, double n_discs) {
+    const auto is_apart = [&](Axis axis) {
+        return n_discs > 1 && drift_along(axis, scene.effects) != Drift::is_heat;
+    };
+    return {is_apart(Axis::x), is_apart(Axis::y)};
 }
 
 std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,
@@ -44,9 +48,9 @@ std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBou
     double heaviest = 0;
     for (const Flight& flight : flights) heaviest = std::max(heaviest, flight.mass);
     heaviest = ranks.max(heaviest);
-    const bool is_periodic[] = {scene.effects.is_periodic_x(), scene.effects.is_periodic_y()};
+    const std::array<bool, 2> is_apart = is_centred(scene, n);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        if (!is_periodic[axis] || n <= 1 || !keeps_common_motion(scene)) continue;
+        if (!is_apart[axis]) continue;
         subtract_mean(flights, &Flight::way, axis, n, bounds.way, heaviest, ranks);
         subtract_mean(flights, &Flight::first_velocity, axis, n, bounds.velocity, heaviest, ranks);
         subtract_mean(flights, &Flight::velocity, axis, n, bounds.velocity, heaviest, ranks);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Displacements of discs, and their velocities then and now, relative to the centre of mass.
 //
-// Along a periodic axis nothing stops the discs' common motion, so it would add V^2 t^2 to mean
-// square displacements and V^2 to mean products of velocities, for ever. It is no diffusion, and
-// depends on the frame, so it is subtracted from each disc there. A disc that is alone keeps it,
-// because it would be at rest, and so do discs among obstacles, which take the momentum.
+// Where nothing stops the discs' common motion along a periodic axis, or something drives it, it
+// would add V^2 t^2 to mean square displacements and V^2 to mean products of velocities, for ever.
+// It is no diffusion, and depends on the frame, so it is subtracted from each disc. A disc that is
+// alone keeps it, because it would be at rest. So do discs that give their momentum to obstacles,
+// walls or a thermostat, because the centre of mass of N such discs diffuses with D / N.
 #pragma once
 
 #include <array>
@@ -28,8 +29,8 @@ struct FlightBounds {
     double way = 0, velocity = 0;
 };
 
-/// Whether nothing but the sides of the box changes the discs' common motion.
-bool keeps_common_motion(const SceneParameters& scene);
+/// Whether the motion of so many discs along x, and along y, is seen from their centre of mass.
+std::array<bool, 2> is_centred(const SceneParameters& scene, double n_discs);
 
 /// Mean squares of displacements along x and y, and the mean product of velocities, over all ranks'
 /// flights. The sums are exact. **Collective.**

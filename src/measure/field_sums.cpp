@@ -74,19 +74,31 @@ ExactSum FieldSums::sum_at(std::size_t cell, std::size_t moment) const {
     return sum;
 }
 
+namespace {
+
 /// Each sum is four words of 32 bits, so that carries stay apart.
+void append_words(const ExactSum& sum, std::vector<std::uint64_t>& words) {
+    for (const std::uint64_t word : {sum.low_word(), sum.high_word()}) {
+        words.push_back(word & 0xffffffff);
+        words.push_back(word >> 32);
+    }
+}
+
+void add_words_to(ExactSum& sum, const std::uint64_t* words) {
+    sum.add_words(words[0], 0);
+    sum.add_words(words[1] << 32, words[1] >> 32);
+    sum.add_words(0, words[2]);
+    sum.add_words(0, words[3] << 32);
+}
+
+} // namespace
+
 std::vector<std::uint64_t> FieldSums::joined_words(const Communicator& ranks) const {
     std::vector<std::uint64_t> words;
     words.reserve(words_per_cell * size());
     for (std::size_t cell = 0; cell < size(); ++cell) {
         words.push_back(counts_[cell]);
-        for (std::size_t k = 0; k < n_field_moments; ++k) {
-            const ExactSum sum = sum_at(cell, k);
-            for (const std::uint64_t word : {sum.low_word(), sum.high_word()}) {
-                words.push_back(word & 0xffffffff);
-                words.push_back(word >> 32);
-            }
-        }
+        for (std::size_t k = 0; k < n_field_moments; ++k) append_words(sum_at(cell, k), words);
     }
     ranks.sum(std::span(words));
     return words;
@@ -97,15 +109,43 @@ bool FieldSums::add_words(const std::vector<std::uint64_t>& words) {
     const std::uint64_t* next = words.data();
     for (std::size_t cell = 0; cell < size(); ++cell) {
         counts_[cell] += *next++;
-        for (std::size_t k = 0; k < n_field_moments; ++k, next += 4) {
-            ExactSum& sum = sums_[n_field_moments * cell + k];
-            sum.add_words(next[0], 0);
-            sum.add_words(next[1] << 32, next[1] >> 32);
-            sum.add_words(0, next[2]);
-            sum.add_words(0, next[3] << 32);
-        }
+        for (std::size_t k = 0; k < n_field_moments; ++k, next += 4)
+            add_words_to(sums_[n_field_moments * cell + k], next);
     }
     return true;
+}
+
+void FieldSums::add_discs(const FieldSums& other) {
+    for (std::size_t cell = 0; cell < size(); ++cell) {
+        counts_[cell] += other.counts_[cell];
+        for (std::size_t k = 0; k < n_disc_moments; ++k)
+            sums_[n_field_moments * cell + k] += other.sums_[n_field_moments * cell + k];
+    }
+}
+
+void FieldSums::clear_discs() {
+    counts_.assign(counts_.size(), 0);
+    for (std::size_t cell = 0; cell < size(); ++cell)
+        for (std::size_t k = 0; k < n_disc_moments; ++k) sums_[n_field_moments * cell + k].clear();
+}
+
+void FieldSums::join_discs(const Communicator& ranks) {
+    if (ranks.size() == 1) return;
+    std::vector<std::uint64_t> words;
+    words.reserve((1 + 4 * n_disc_moments) * size());
+    for (std::size_t cell = 0; cell < size(); ++cell) {
+        words.push_back(counts_[cell]);
+        for (std::size_t k = 0; k < n_disc_moments; ++k)
+            append_words(sums_[n_field_moments * cell + k], words);
+    }
+    ranks.sum(std::span(words));
+    clear_discs();
+    const std::uint64_t* next = words.data();
+    for (std::size_t cell = 0; cell < size(); ++cell) {
+        counts_[cell] = *next++;
+        for (std::size_t k = 0; k < n_disc_moments; ++k, next += 4)
+            add_words_to(sums_[n_field_moments * cell + k], next);
+    }
 }
 
 void FieldSums::add(const FieldSums& other, std::size_t first) {
@@ -116,9 +156,10 @@ void FieldSums::add(const FieldSums& other, std::size_t first) {
     }
 }
 
-FieldSums FieldSums::total() const {
-    FieldSums all(1, speed_, length_);
-    for (std::size_t cell = 0; cell < size(); ++cell) all.add(*this, cell);
+FieldSums FieldSums::over_species(std::size_t n_species) const {
+    FieldSums all(size() / n_species, speed_, length_);
+    for (std::size_t species = 0; species < n_species; ++species)
+        all.add(*this, species * all.size());
     return all;
 }
 

@@ -125,6 +125,12 @@ public:
             sums_[n_field_moments * cell + field_stress_xx + k].add_units(units[k]);
     }
 
+    /// Adds the sums over discs of as many cells, and leaves those over collisions alone.
+    void add_discs(const FieldSums& other);
+    void clear_discs();
+    /// Replaces the sums over discs by those of all ranks. **Collective.**
+    void join_discs(const Communicator& ranks);
+
     /// Counts and sums of all ranks. **Collective.**
     std::vector<std::uint64_t> joined_words(const Communicator& ranks) const;
     /// Adds such words, of as many cells. False where they are of another number.
@@ -136,8 +142,10 @@ public:
     double value(std::size_t cell, FieldMoment moment) const {
         return sum_at(cell, moment).value();
     }
+    /// The cells of so many species, one species after another, as those of all species.
+    FieldSums over_species(std::size_t n_species) const;
     /// All cells in one.
-    FieldSums total() const;
+    FieldSums total() const { return over_species(size()); }
 
 private:
     /// A usual term has 50 bits. At 8 times the usual speed and this mass the largest term is 2^11

@@ -43,13 +43,13 @@ const FollowedStates& FollowedDiscs::now() {
             }
             ++i;
         }
-    if (n_discs_ > 1 && keeps_common_motion(run_.scene)) subtract_mean();
+    const std::array<bool, 2> is_apart = is_centred(run_.scene, static_cast<double>(n_discs_));
+    if (is_apart[0] || is_apart[1]) subtract_mean(is_apart);
     return states_;
 }
 
-/// Nothing stops a common motion along a periodic axis, and it is no diffusion (see
-/// centred_flights.hpp).
-void FollowedDiscs::subtract_mean() {
+/// A common motion is no diffusion (see centred_flights.hpp).
+void FollowedDiscs::subtract_mean(const std::array<bool, 2>& is_apart) {
     const double length = run_.scene.box.longest() * 0x1p70;
     std::array<ExactSum, 5> sums = {ExactSum(0x1p70), ExactSum(length), ExactSum(length),
                                     ExactSum(speed_ * 0x1p70), ExactSum(speed_ * 0x1p70)};
@@ -60,10 +60,8 @@ void FollowedDiscs::subtract_mean() {
         for (std::size_t k = 0; k < columns.size(); ++k) sums[1 + k].add(mass * (*columns[k])[i]);
     }
     for (ExactSum& sum : sums) run_.ranks.sum(sum);
-    const std::array is_periodic = {run_.scene.effects.is_periodic_x(),
-                                    run_.scene.effects.is_periodic_y()};
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        if (!is_periodic[k % 2]) continue;
+        if (!is_apart[k % 2]) continue;
         const double mean = sums[1 + k].value() / sums[0].value();
         for (double& number : *columns[k]) number -= mean;
     }

@@ -45,7 +45,7 @@ public:
     void keep(KeptNumbers& kept, std::vector<double>& of_discs) const;
 
 private:
-    void subtract_mean();
+    void subtract_mean(const std::array<bool, 2>& is_apart);
 
     MeasuredRun& run_;
     SpeciesTable species_;

@@ -63,6 +63,8 @@ struct SampledState {
     std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
     Extent box;
     bool is_first = false; ///< there is no interval before it
+    /// Effects have acted at this step since the interval before it ended.
+    bool follows_effects = false;
 };
 
 /// A number for each sample that the table "thermo" shows in its last columns.
@@ -81,7 +83,14 @@ public:
 
     /// Called before the first sample, at its step; not at a restart that goes on with sums.
     virtual void begin() {}
+    /// Ends the interval since the last sample. Called before `sample`, and where the energy jumps
+    /// at syncs before effects act there: what is integrated over time then has both sides of the
+    /// jump.
+    virtual void end_interval() {}
     virtual void sample(const SampledState& state) = 0;
+    /// True if a sample has velocities. Where the energy jumps at syncs, samples of these are taken
+    /// before and after effects act, in turns, so that their mean is that over time.
+    virtual bool has_velocities() const { return false; }
     /// True if a sample moves discs in memory. It is then taken after all others.
     virtual bool moves_discs() const { return false; }
 

@@ -37,6 +37,7 @@ void PressureSampler::sample(double steps) {
     const double unit = system_->velocity_unit();
     last_integral_ = unit * Tensor{now.stress.xx - last.stress.xx, now.stress.xy - last.stress.xy,
                                    now.stress.yy - last.stress.yy};
+    mean_energy_ = unit * (now.energy - last.energy) / (2 * steps);
     const MotionIntegrals mean = integrals_between(system_->averaged_system(), last, now, steps);
     pressures_.insert(pressures_.end(),
                       {mean.pressure(&Tensor::xx), mean.pressure(&Tensor::xy),

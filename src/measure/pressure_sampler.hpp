@@ -22,13 +22,20 @@ public:
     PressureSampler(DiscSystem& system, const Communicator& ranks)
         : system_(&system), interval_(system, ranks) {}
 
-    /// Adds an interval of `steps` steps. **Collective.**
+    /// Adds an interval of `steps` steps, and begins the next one. **Collective.**
     void sample(double steps);
+    /// Begins the present interval with the present velocities, because effects have just acted.
+    /// **Collective.**
+    void begin_interval() { interval_.begin(interval_.now()); }
     const std::vector<double>& pressures() const { return pressures_; }
     void forget_pressures() { pressures_.clear(); }
     /// The last sample. Its speeds and counts are unknown after a restart.
     const MotionSample& last() const { return interval_.last(); }
     double temperature() const; ///< at the last sample
+    // Means over the last interval:
+    double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
+    /// Energy of motion; it is known until a restart, and not between sheared sides.
+    double mean_energy() const { return mean_energy_; }
     /// Time integral of the last interval's stress times area, with all momentum flux; per step.
     const Tensor& last_integral() const { return last_integral_; }
 
@@ -45,6 +52,7 @@ private:
     std::vector<double> pressures_;
     MotionInterval interval_;
     Tensor last_integral_;
+    double mean_energy_ = 0;
 };
 
 } // namespace carrom

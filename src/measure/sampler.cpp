@@ -2,12 +2,14 @@
 #include "measure/sampler.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/state_sums.hpp"
 #include "measure/older_sums.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -28,6 +30,12 @@ Sampler::Sampler(const SceneParameters& scene, DiscSystem& system, const Communi
         measurements_.push_back(quantity.make(run_, measurements_));
         names_.emplace_back(quantity.declared.name);
     }
+    if (does_energy_jump(scene.effects))
+        system.call_before_effects([this] { sample_before_effects(); });
+}
+
+Sampler::~Sampler() {
+    if (does_energy_jump(run_.scene.effects)) run_.system.call_before_effects({});
 }
 
 /// Sums with other settings are useless. Each measurement compares its own settings, too.
@@ -87,8 +95,50 @@ std::int64_t Sampler::next_due(std::int64_t step) const {
 }
 
 void Sampler::sample_if_due() {
-    averages_.sample_if_due();
+    if (averaged_before_ == run_.system.step())
+        averages_.begin_interval();
+    else
+        averages_.sample_if_due();
+    averaged_before_ = -1;
     if (run_.scene.measurements) measure_if_due();
+}
+
+/// What effects do at a sync would be only half of what acts between two syncs, so both states
+/// there have to be seen.
+void Sampler::sample_before_effects() {
+    const std::int64_t step = run_.system.step();
+    if (run_.system.micro_steps_done() % run_.scene.micro_steps != 0) return;
+    if (averages_.has_begun() && averages_.next_due(step - 1) <= step) {
+        averages_.sample_if_due();
+        averaged_before_ = step;
+    }
+    if (!is_due(step)) return;
+    end_intervals();
+    ended_before_ = step;
+    if (!is_turn_before_effects()) return;
+    DiscStates kept;
+    const SampledState state = state_now(kept);
+    for (const auto& measurement : measurements_)
+        if (measurement->has_velocities()) measurement->sample(state);
+    sampled_before_ = step;
+}
+
+void Sampler::end_intervals() {
+    for (const auto& measurement : measurements_) measurement->end_interval();
+}
+
+/// Every second one of the samples at syncs. It follows from the count of samples alone, so that it
+/// is the same after a restart.
+bool Sampler::is_turn_before_effects() const {
+    const std::int64_t apart = run_.output.every_steps * run_.scene.micro_steps,
+                       samples_between = run_.scene.sync_every /
+                                         std::gcd(apart, run_.scene.sync_every);
+    return static_cast<std::int64_t>(run_.counts.n_samples) / samples_between % 2 == 1;
+}
+
+bool Sampler::is_due(std::int64_t step) const {
+    return has_begun_ && step != run_.counts.last_step &&
+           (step - run_.counts.first_step) % run_.output.every_steps == 0;
 }
 
 void Sampler::measure_if_due() {
@@ -98,26 +148,33 @@ void Sampler::measure_if_due() {
         for (const auto& measurement : measurements_) measurement->begin();
         has_begun_ = true;
     }
-    if (!has_begun_ || step == run_.counts.last_step ||
-        (step - run_.counts.first_step) % run_.output.every_steps != 0)
-        return;
-    sample(step);
+    if (is_due(step)) sample(step);
 }
 
-void Sampler::sample(std::int64_t step) {
+SampledState Sampler::state_now(DiscStates& kept) const {
     const SceneParameters& scene = run_.scene;
     SampledState state;
     state.shown = run_.system.shown();
     state.n_discs = run_.ranks.sum(std::uint64_t{state.shown.size()});
-    state.box = extent_at(scene.effects, scene.box, static_cast<double>(step));
+    state.box = extent_at(scene.effects, scene.box, static_cast<double>(run_.system.step()));
     state.is_first = run_.counts.n_samples == 0;
-    DiscStates kept;
     state.inside = discs_in_box(state.shown, scene.effects, state.box, run_.system.clock(), kept);
+    return state;
+}
+
+void Sampler::sample(std::int64_t step) {
+    const bool is_sampled_before = sampled_before_ == step;
+    DiscStates kept;
+    SampledState state = state_now(kept);
+    state.follows_effects = ended_before_ == step;
+    if (!state.follows_effects && !state.is_first) end_intervals();
     run_.counts.n_discs += run_.ranks.sum(std::uint64_t{state.inside.size()});
     run_.counts.area += (state.box.x_high - state.box.x_low) * (state.box.y_high - state.box.y_low);
     for (const bool moves_discs : {false, true})
         for (const auto& measurement : measurements_)
-            if (measurement->moves_discs() == moves_discs) measurement->sample(state);
+            if (measurement->moves_discs() == moves_discs &&
+                !(is_sampled_before && measurement->has_velocities()))
+                measurement->sample(state);
     ++run_.counts.n_samples;
     run_.counts.last_step = step;
 }

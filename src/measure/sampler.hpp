@@ -29,6 +29,7 @@ public:
     Sampler(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
+    ~Sampler() override;
 
     /// Goes on from a checkpoint's data; to be called before anything is sampled.
     /// Sampling begins anew if there are none, or if `from_step` is still to come; averages also do
@@ -62,7 +63,12 @@ public:
 private:
     void go_on_measuring(const StoredSamples& stored);
     void measure_if_due();
+    bool is_due(std::int64_t step) const;
     void sample(std::int64_t step);
+    void sample_before_effects();
+    bool is_turn_before_effects() const;
+    void end_intervals();
+    SampledState state_now(DiscStates& kept) const;
     void keep_settings(KeptNumbers& kept) const;
     void keep_counts(KeptNumbers& kept) const;
 
@@ -71,6 +77,8 @@ private:
     Measurements measurements_;      ///< the quantities
     std::vector<std::string> names_; ///< names of the quantities, in their order
     bool has_begun_ = false;
+    // At this step what comes before effects has been done:
+    std::int64_t averaged_before_ = -1, ended_before_ = -1, sampled_before_ = -1;
 };
 
 } // namespace carrom

@@ -105,8 +105,8 @@ AveragedSystem system_to_average(const SceneParameters& scene, std::uint64_t n_d
     system.sync_every = scene.sync_every;
     system.is_plain = !scene.effects.are_any();
     system.keeps_discs = !scene.effects.have_open_boundaries();
-    system.is_periodic_x = scene.effects.is_periodic_x();
-    system.is_periodic_y = scene.effects.is_periodic_y();
+    system.drift_x = drift_along(Axis::x, scene.effects);
+    system.drift_y = drift_along(Axis::y, scene.effects);
     system.has_flow = scene.effects.are_sheared();
     system.keeps_energy =
         !scene.effects.are_any(); // some others keep it, too: more samples are no harm
@@ -266,6 +266,10 @@ void DiscSystem::note_crossings_in(std::vector<Crossing>& crossings) {
 
 void DiscSystem::forget_crossings_in(std::vector<Crossing>& crossings) {
     engine_->forget_crossings_in(crossings);
+}
+
+void DiscSystem::call_before_effects(std::function<void()> act) {
+    engine_->call_before_effects(std::move(act));
 }
 
 void DiscSystem::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -90,6 +91,9 @@ public:
     /// back are appended to `crossings`, until it is forgotten.
     void note_crossings_in(std::vector<Crossing>& crossings);
     void forget_crossings_in(std::vector<Crossing>& crossings);
+    /// From now on `act` is called at each sync before effects act there; see Engine. An empty
+    /// function ends that.
+    void call_before_effects(std::function<void()> act);
     /// This rank's sums of stress since the simulation was made, up to the last sync and with all
     /// collisions since then, in the unit of `stress_bound()`.
     const StressSums& stress_sums() const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carrom {
 
@@ -144,31 +145,43 @@ MotionIntegrals& MotionIntegrals::operator+=(const MotionIntegrals& other) {
 
 namespace {
 
-/// The integral of a_k b_k over `steps` if both change evenly from the first to the second value.
-double integral_of_product(const double (&a)[2], const double (&b)[2], double steps) {
-    return steps / 6 * (2 * a[0] * b[0] + a[0] * b[1] + a[1] * b[0] + 2 * a[1] * b[1]);
+/// One velocity along an axis at both ends of an interval.
+struct DriftOfInterval {
+    Drift kind;
+    double before, after;
+};
+
+DriftOfInterval drift_of(Drift kind, const AveragedSystem& system, const MotionSample& before,
+                         const MotionSample& after, double MotionSample::* momentum) {
+    if (kind == Drift::is_heat) return {kind, 0, 0};
+    const auto velocity = [&](const MotionSample& sample) {
+        if (!(sample.mass > 0)) return 0.0;
+        return sample.*momentum / sample.mass * sample.speed_unit * system.velocity_unit;
+    };
+    return {kind, velocity(before), velocity(after)};
 }
 
-/// The integral of the squared momentum over the mass: the share of a drift in the sum of m v v.
-Tensor drift_between(const AveragedSystem& system, const MotionSample& before,
-                     const MotionSample& after, double steps) {
-    const auto drift = [&system](bool is_periodic, const MotionSample& sample, double momentum) {
-        if (!is_periodic || !(sample.mass > 0)) return 0.0;
-        return momentum / sample.mass * sample.speed_unit * system.velocity_unit;
-    };
-    const double vx[2] = {drift(system.is_periodic_x, before, before.momentum_x),
-                          drift(system.is_periodic_x, after, after.momentum_x)},
-                 vy[2] = {drift(system.is_periodic_y, before, before.momentum_y),
-                          drift(system.is_periodic_y, after, after.momentum_y)};
-    const double mass = (before.mass + after.mass) / 2;
-    return mass * Tensor{integral_of_product(vx, vx, steps), integral_of_product(vx, vy, steps),
-                         integral_of_product(vy, vy, steps)};
+/// The mean of a b over an interval. A drift that is kept changes evenly, if at all. One that
+/// fluctuates has a mean square at samples that is its mean square over time, and that of the
+/// straight line between two samples is as much as a third smaller.
+double mean_product(const DriftOfInterval& a, const DriftOfInterval& b) {
+    const double at_ends = (a.before * b.before + a.after * b.after) / 2;
+    if (a.kind == Drift::is_driven || b.kind == Drift::is_driven) return at_ends;
+    return at_ends - (a.after - a.before) * (b.after - b.before) / 6;
+}
+
+/// N over the degrees of freedom that are left along an axis.
+double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
+    if (kind == Drift::is_heat) return 1;
+    if (system.n_discs == 1) return std::numeric_limits<double>::quiet_NaN();
+    return n_discs > 1 ? n_discs / (n_discs - 1) : 1;
 }
 
 } // namespace
 
 /// Two numbers are not exact: how the kinetic energy is shared between the axes, and a drift
-/// that changes between samples. Both count with the weight 1 / N only, along periodic sides.
+/// that changes between samples. Both count with the weight 1 / N only, and only along an axis
+/// where a drift is no heat.
 MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSample& before,
                                   const MotionSample& after, double steps) {
     MotionIntegrals result;
@@ -184,13 +197,16 @@ MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSamp
                            ? sampled
                            : Tensor{energy / 2 + difference, sampled.xy, energy / 2 - difference};
 
-    const double n = result.n_discs / steps, larger = n > 1 ? n / (n - 1) : 1;
-    const double x_factor = system.is_periodic_x ? larger : 1,
-                 y_factor = system.is_periodic_y ? larger : 1;
-    const Tensor drift = drift_between(system, before, after, steps);
-    result.kinetic = {x_factor * (all.xx - drift.xx),
-                      std::sqrt(x_factor * y_factor) * (all.xy - drift.xy),
-                      y_factor * (all.yy - drift.yy)};
+    const DriftOfInterval x = drift_of(system.drift_x, system, before, after,
+                                       &MotionSample::momentum_x),
+                          y = drift_of(system.drift_y, system, before, after,
+                                       &MotionSample::momentum_y);
+    const double n = result.n_discs / steps, mass = steps * (before.mass + after.mass) / 2,
+                 x_factor = per_freedom(x.kind, n, system),
+                 y_factor = per_freedom(y.kind, n, system);
+    result.kinetic = {x_factor * (all.xx - mass * mean_product(x, x)),
+                      std::sqrt(x_factor * y_factor) * (all.xy - mass * mean_product(x, y)),
+                      y_factor * (all.yy - mass * mean_product(y, y))};
     result.stress = unit * Tensor{after.stress.xx - before.stress.xx,
                                   after.stress.xy - before.stress.xy,
                                   after.stress.yy - before.stress.yy};

@@ -17,6 +17,7 @@
 #include "dynamics/species.hpp"
 #include "engine/stress_sums.hpp"
 #include "parallel/communicator.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -65,8 +66,7 @@ struct AveragedSystem {
     std::int64_t micro_steps = 1, sync_every = 1;
     bool is_plain = true;    ///< discs and walls are elastic; if not, pressures from counts are NaN
     bool keeps_discs = true; ///< no disc leaves; if one may, collisions per disc are NaN
-    bool is_periodic_x = false, is_periodic_y = false; ///< a drift along such an axis does not
-                                                       ///< count as temperature
+    Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat; ///< along each axis
     bool has_flow = false;      ///< the kinetic part is relative to a flow, and taken from samples
     bool keeps_energy = true;   ///< energy of motion; if it changes, samples are closer in time
     std::int64_t last_step = 0; ///< the step at which the run is planned to end
@@ -75,8 +75,9 @@ struct AveragedSystem {
 /// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
-    /// The sum of m v v, without a drift along periodic sides. Its mean is N kT along each axis: it
-    /// is corrected for the degree of freedom, one of N, that a conserved momentum takes away.
+    /// The sum of m v v, without the drift along an axis where that is no heat. Its mean is N kT
+    /// along each axis, because the degree of freedom that the drift takes, one of N, is given
+    /// back. One disc has none left, so it has NaN there.
     Tensor kinetic;
     Tensor stress; ///< times area
 

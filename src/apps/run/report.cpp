@@ -53,15 +53,22 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
 /// Thermodynamics is at the top of the report, because most readers want it.
 void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& scene,
                         const Averages& averages) {
-    const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
+    const std::string no_heat = reason_without_temperature(scene.effects, scene.n_discs),
+                      no_z = reason_without_z(scene.effects);
+    const auto estimate = [&](const Estimate& one, const std::string& why_none) {
+        nlohmann::ordered_json json = estimate_json(one, averages);
+        if (std::isnan(one.value) && !why_none.empty()) json["without_value"] = why_none;
+        return json;
+    };
     report["radius"] = scene.radius;
     report["box"] = {scene.box.x, scene.box.y};
-    report["temperature"] = estimate(averages.temperature);
-    report["pressure"] = estimate(averages.pressure);
-    report["compressibility"] = estimate(averages.compressibility);
-    report["pressure_tensor"] = {{"xx", estimate(averages.pressure_tensor.xx)},
-                                 {"xy", estimate(averages.pressure_tensor.xy)},
-                                 {"yy", estimate(averages.pressure_tensor.yy)}};
+    report["temperature"] = estimate(averages.temperature, no_heat);
+    report["pressure"] = estimate(averages.pressure, no_heat);
+    report["compressibility"] = estimate(averages.compressibility,
+                                         no_heat.empty() ? no_z : no_heat);
+    report["pressure_tensor"] = {{"xx", estimate(averages.pressure_tensor.xx, no_heat)},
+                                 {"xy", estimate(averages.pressure_tensor.xy, no_heat)},
+                                 {"yy", estimate(averages.pressure_tensor.yy, no_heat)}};
 }
 
 /// Columns of numbers; null for a missing one.

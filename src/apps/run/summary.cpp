@@ -182,10 +182,15 @@ std::string average_lines(const SceneParameters& scene, const Averages& averages
     if (averages.steps == 0) return text;
     if (!std::isnan(averages.collision_frequency.value))
         text += labelled_line("frequency", collision_rate_text(averages));
+    const std::string undefined = reason_without_temperature(scene.effects, scene.n_discs);
     text += labelled_line("temperature",
-                          fmt::format("kT = {}", estimate_text(averages.temperature)));
-    text += labelled_line("state", state_text(scene, averages));
-    text += labelled_line("tensor", tensor_text(averages.pressure_tensor));
+                          undefined.empty()
+                              ? fmt::format("kT = {}", estimate_text(averages.temperature))
+                              : undefined);
+    if (undefined.empty()) text += labelled_line("state", state_text(scene, averages));
+    const TensorEstimate& tensor = averages.pressure_tensor;
+    if (!std::isnan(tensor.xx.value) || !std::isnan(tensor.yy.value))
+        text += labelled_line("tensor", tensor_text(tensor));
     if (!scene.effects.are_any())
         text += labelled_line("pressure", counted_pressure_text(averages));
     text += labelled_line("speeds", speeds_text(scene, averages));

@@ -140,6 +140,8 @@ public:
 
     void begin() override { discs_.begin(); }
 
+    bool has_velocities() const override { return true; }
+
     void sample(const SampledState& /*state*/) override {
         const FollowedStates& now = discs_.now();
         begin_levels();

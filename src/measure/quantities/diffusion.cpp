@@ -146,6 +146,8 @@ public:
 
     void begin() override { flights_.follow(); }
 
+    bool has_velocities() const override { return true; }
+
     void sample(const SampledState& state) override {
         const std::span<const DiscState> discs = flights_.flown(state.shown);
         const auto add = [&] {

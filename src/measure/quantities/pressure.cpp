@@ -16,8 +16,9 @@ public:
 
     void begin() override { sampler_.emplace(run_.system, run_.ranks); }
 
+    void end_interval() override { sampler_->sample(static_cast<double>(run_.output.every_steps)); }
     void sample(const SampledState& state) override {
-        if (!state.is_first) sampler_->sample(static_cast<double>(run_.output.every_steps));
+        if (state.follows_effects) sampler_->begin_interval();
     }
 
     void keep(KeptNumbers& kept) override {

@@ -3,9 +3,9 @@
 // of heat, on a grid of cells, averaged over one block of time after another.
 //
 // What discs carry is sampled. What collisions carry is not: each collision of a block counts. Its
-// impulse times distance is shared among the cells that the line between both centres crosses, by
-// length, because then the force across any line of the grid comes out right. Price: a pass over
-// the discs at each sample, and some hundred instructions for each collision.
+// impulse times distance is shared by length among the cells on the line between both centres, so
+// that the force across any line of the grid is right. Price: a pass over the discs and the cells
+// at each sample, and some hundred instructions for each collision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +14,7 @@
 
 #include "dynamics/species.hpp"
 #include "engine/pair_event.hpp"
+#include "measure/field_means.hpp"
 #include "measure/field_sums.hpp"
 #include "measure/hdf5_key.hpp"
 #include "measure/measurement.hpp"
@@ -89,7 +90,7 @@ public:
           per_block_(static_cast<std::uint64_t>(profile_samples.of(run.output))),
           n_kinds_(std::max<std::size_t>(
               profile_species.of(run.output) != 0 ? run.scene.effects.species.size() : 1, 1)),
-          species_(run.system.species_table()), sums_(0, 1, 1) {
+          species_(run.system.species_table()), sample_(0, 1, 1), sums_(0, 1, 1) {
         for (const Boundary& side : run.scene.effects.boundaries)
             are_sides_moving_ = are_sides_moving_ || side.speed != 0 || side.amplitude != 0;
         for (const Species& one : run.scene.effects.species) {
@@ -115,24 +116,26 @@ public:
         }
     }
 
+    bool has_velocities() const override { return true; }
+
     void sample(const SampledState& state) override {
         const Extent& box = state.box;
         const double time = run_.system.clock(), unit = run_.system.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const auto place = [](double x, std::size_t n) {    // the edges belong to the last cells
-            const auto cell = static_cast<std::int64_t>(x); // of unsigned numbers it takes branches
-            return static_cast<std::size_t>(
-                std::clamp<std::int64_t>(cell, 0, static_cast<std::int64_t>(n) - 1));
+        const auto place = [](double x, std::size_t n) { // the edges belong to the last cells
+            return static_cast<std::size_t>(std::clamp<std::int64_t>(
+                static_cast<std::int64_t>(x), 0, static_cast<std::int64_t>(n) - 1));
         };
         const VelocityChange later = change_until_half_way(run_);
         for (const DiscState& disc : state.inside) {
             std::size_t cell = place((disc.y_at(time) - box.y_low) * per_y, n_y_) * n_x_ +
                                place((disc.x_at(time) - box.x_low) * per_x, n_x_);
             if (n_kinds_ > 1) cell += kind_of(disc.id) * n_cells();
-            sums_.add_disc(cell, have_masses_ ? species_.of(disc.id).mass : 1,
-                           disc.vx * unit + later.x, disc.vy * unit + later.y);
+            sample_.add_disc(cell, have_masses_ ? species_.of(disc.id).mass : 1,
+                             disc.vx * unit + later.x, disc.vy * unit + later.y);
         }
+        take_sample();
         if (!state.is_first) head_.steps += static_cast<double>(run_.output.every_steps);
         head_.x_low += box.x_low, head_.x_high += box.x_high;
         head_.y_low += box.y_low, head_.y_high += box.y_high;
@@ -143,11 +146,14 @@ public:
         kept.same(n_x_), kept.same(n_y_), kept.same(per_block_), kept.same(n_kinds_);
         kept(speed_), kept(n_samples_);
         for (double* number : numbers_of(head_)) kept(*number);
-        kept(heads_), kept(blocks_);
+        kept(means_), kept(heads_), kept(blocks_);
         std::vector<std::uint64_t> words;
         if (!kept.is_restored()) words = sums_.joined_words(run_.ranks);
         kept(words);
         if (!kept.is_restored() || !kept.is_right()) return;
+        if (means_.size() != n_fields() * n_sample_moments ||
+            blocks_.size() != heads_.size() / 6 * n_fields() * n_block_numbers)
+            return kept.refuse();
         follow();
         FieldSums all = sums_;
         if (!all.add_words(words)) return kept.refuse();
@@ -164,8 +170,6 @@ public:
     }
 
 private:
-    static constexpr std::size_t n_numbers = 1 + n_field_moments;
-
     static std::array<double*, 6> numbers_of(BlockHead& head) {
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
@@ -180,9 +184,14 @@ private:
                                         ends_.begin());
     }
 
+    FieldSums no_sums(std::size_t n) const {
+        return {n, std::max(speed_, 0x1p-200), run_.scene.radius};
+    }
+
     /// Sums are empty then. **Collective.**
     void follow() {
-        sums_ = FieldSums(n_kinds_ * n_cells(), std::max(speed_, 0x1p-200), run_.scene.radius);
+        sums_ = sample_ = no_sums(n_kinds_ * n_cells());
+        means_.resize(n_fields() * n_sample_moments);
         run_.system.forget(*this);
         run_.system.follow_pairs(*this);
     }
@@ -254,25 +263,45 @@ private:
                               });
     }
 
-    void note(const FieldSums& sums) {
-        for (std::size_t cell = 0; cell < sums.size(); ++cell) {
-            blocks_.push_back(static_cast<double>(sums.count(cell)));
-            for (std::size_t k = 0; k < n_field_moments; ++k)
-                blocks_.push_back(sums.value(cell, static_cast<FieldMoment>(k)));
-        }
+    /// Calls `act` with the sums of each field, in the order of blocks_: all discs in each cell,
+    /// each species if they are apart, and the whole box.
+    template <class Act> void for_each_field(const FieldSums& sums, const Act& act) const {
+        const auto visit = [&act](const FieldSums& of) {
+            for (std::size_t cell = 0; cell < of.size(); ++cell) act(of, cell);
+        };
+        const FieldSums all = sums.over_species(n_kinds_);
+        visit(all);
+        if (n_kinds_ > 1) visit(sums);
+        visit(all.total());
+    }
+
+    /// Adds the discs of a sample to the sums, and what all of them together are in each field to
+    /// the means. **Collective.**
+    void take_sample() {
+        sums_.add_discs(sample_);
+        sample_.join_discs(run_.ranks);
+        double* next = means_.data();
+        for_each_field(sample_, [&next](const FieldSums& of, std::size_t cell) {
+            add_sample(of, cell, std::span<double, n_sample_moments>(next, n_sample_moments));
+            next += n_sample_moments;
+        });
+        sample_.clear_discs();
     }
 
     /// **Collective.**
     void end_block() {
-        FieldSums sums = sums_;
-        sums.clear();
+        FieldSums sums = no_sums(sums_.size());
         sums.add_words(sums_.joined_words(run_.ranks));
         sums_.clear();
-        FieldSums all(n_cells(), std::max(speed_, 0x1p-200), run_.scene.radius);
-        for (std::size_t kind = 0; kind < n_kinds_; ++kind) all.add(sums, kind * n_cells());
-        note(all);
-        if (n_kinds_ > 1) note(sums);
-        note(all.total());
+        const double* next = means_.data();
+        for_each_field(sums, [&](const FieldSums& of, std::size_t cell) {
+            blocks_.push_back(static_cast<double>(of.count(cell)));
+            for (std::size_t k = 0; k < n_field_moments; ++k)
+                blocks_.push_back(of.value(cell, static_cast<FieldMoment>(k)));
+            blocks_.insert(blocks_.end(), next, next + n_sample_moments);
+            next += n_sample_moments;
+        });
+        std::fill(means_.begin(), means_.end(), 0.0);
         head_.to_step = static_cast<double>(run_.system.step());
         for (double* edge : {&head_.x_low, &head_.x_high, &head_.y_low, &head_.y_high})
             *edge /= static_cast<double>(per_block_);
@@ -282,7 +311,6 @@ private:
     }
 
     MeasuredTable table_of(std::string name, std::size_t first, std::size_t n) const;
-    std::vector<double> row_of(const BlockHead& head, const double* of, double area) const;
 
     std::size_t n_x_, n_y_;
     std::uint64_t per_block_;
@@ -293,55 +321,28 @@ private:
     double speed_ = 0;
     std::uint64_t n_samples_ = 0; ///< this and what follows belong to the block that has begun
     BlockHead head_;              ///< edges are sums over the samples
-    FieldSums sums_;              ///< this rank's sums, one kind after another
+    FieldSums sample_;            ///< the discs of the present sample, one kind after another
+    FieldSums sums_;              ///< this rank's sums, in the same order
+    std::vector<double> means_;   ///< sample moments of each field
     std::vector<double> heads_;   ///< heads of blocks that have ended
     std::vector<double> blocks_;  ///< count and moments of each of their fields
 };
 
-std::vector<double> Profiles::row_of(const BlockHead& head, const double* of, double area) const {
-    const double n = of[0], m = of[1 + field_mass];
-    const double vx = of[1 + field_momentum_x] / m, vy = of[1 + field_momentum_y] / m;
-    const double xx = of[1 + field_flux_xx] - m * vx * vx, xy = of[1 + field_flux_xy] - m * vx * vy,
-                 yy = of[1 + field_flux_yy] - m * vy * vy;
-    const double per_area = 1 / (static_cast<double>(per_block_) * area),
-                 per_time = 1 / (head.steps * area);
-    // The sum of m c^2 c / 2 over velocities c about the mean, from that of velocities v.
-    const auto heat = [&](FieldMoment moment, double v, FieldMoment x, FieldMoment y) {
-        return of[1 + moment] - v * (of[1 + field_flux_xx] + of[1 + field_flux_yy]) / 2 -
-               vx * of[1 + x] - vy * of[1 + y] + m * (vx * vx + vy * vy) * v;
-    };
-    return {n,
-            n * per_area,
-            vx,
-            vy,
-            (xx + yy) / (2 * n),
-            xx * per_area,
-            xy * per_area,
-            yy * per_area,
-            of[1 + field_stress_xx] * per_time,
-            of[1 + field_stress_xy] * per_time,
-            of[1 + field_stress_yy] * per_time,
-            heat(field_energy_x, vx, field_flux_xx, field_flux_xy) * per_area,
-            heat(field_energy_y, vy, field_flux_xy, field_flux_yy) * per_area,
-            (of[1 + field_heat_x] - vx * of[1 + field_stress_xx] - vy * of[1 + field_stress_xy]) *
-                per_time,
-            (of[1 + field_heat_y] - vx * of[1 + field_stress_xy] - vy * of[1 + field_stress_yy]) *
-                per_time};
-}
-
 /// `n` fields of each block from `first` on; a single one is the whole box and has no place.
 MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
     const bool is_grid = n == n_cells() && first + n < n_fields();
+    const std::string where = is_grid ? fmt::format("on a grid of {} by {} cells; x, y: their "
+                                                    "centres in the box as it is on average",
+                                                    n_x_, n_y_)
+                                      : "over the whole box";
     MeasuredTable table{
         std::move(name),
-        {is_grid
-             ? fmt::format("means over {} samples up to to_step, on a grid of {} by {} cells; "
-                           "x, y: their centres in the box as it is on average",
-                           per_block_, n_x_, n_y_)
-             : fmt::format("means over {} samples up to to_step, over the whole box", per_block_),
-         "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that; xx, "
-         "xy, yy: kinetic part of the pressure tensor about that; heat_x, heat_y: of the flow of "
-         "heat; contact_*: collisions' parts, shared along the line between centres",
+        {fmt::format("means over {} samples up to to_step, {}", per_block_, where),
+         "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that, with "
+         "the degrees of freedom given back that it takes; xx, xy, yy: kinetic part of the "
+         "pressure "
+         "tensor about that; heat_x, heat_y: of the flow of heat; contact_*: collisions' parts, "
+         "shared along the line between centres",
          "lengths in the scene's unit, times in steps; nan without discs or time"},
         {"to_step"},
         {}};
@@ -356,16 +357,20 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
         for (std::size_t k = 0; k < 6; ++k) *numbers[k] = heads_[6 * block + k];
         const double width = (head.x_high - head.x_low) / static_cast<double>(n_x_),
                      height = (head.y_high - head.y_low) / static_cast<double>(n_y_);
+        const std::span<const double> cells(
+            blocks_.data() + n_block_numbers * (block * n_fields() + first), n_block_numbers * n);
+        const double kT = common_temperature(cells),
+                     area = width * height * static_cast<double>(is_grid ? 1 : n_cells());
         for (std::size_t cell = 0; cell < n; ++cell) {
             std::vector<double>& row = table.rows.emplace_back(std::vector{head.to_step});
-            if (is_grid) {
-                row.push_back(head.x_low + (static_cast<double>(cell % n_x_) + 0.5) * width);
-                row.push_back(head.y_low + (static_cast<double>(cell / n_x_) + 0.5) * height);
-            }
-            const std::vector<double> numbers_of_cell = row_of(
-                head, blocks_.data() + n_numbers * (block * n_fields() + first + cell),
-                width * height * static_cast<double>(is_grid ? 1 : n_cells()));
-            row.insert(row.end(), numbers_of_cell.begin(), numbers_of_cell.end());
+            if (is_grid)
+                row.insert(row.end(),
+                           {head.x_low + (static_cast<double>(cell % n_x_) + 0.5) * width,
+                            head.y_low + (static_cast<double>(cell / n_x_) + 0.5) * height});
+            const std::vector<double> fields = fields_of(
+                BlockNumbers(cells.data() + n_block_numbers * cell, n_block_numbers), kT,
+                static_cast<double>(per_block_), head.steps, area);
+            row.insert(row.end(), fields.begin(), fields.end());
         }
     }
     return table;

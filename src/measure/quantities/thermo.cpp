@@ -7,6 +7,7 @@
 
 #include "measure/measurement.hpp"
 #include "measure/pressure_sampler.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -18,14 +19,22 @@ public:
 
     void begin() override { sampler_.emplace(run_.system, run_.ranks); }
 
+    void end_interval() override {
+        sampler_->sample(static_cast<double>(run_.output.every_steps));
+        if (are_means_) before_ = energies_now();
+    }
     void sample(const SampledState& state) override {
-        if (!state.is_first) sampler_->sample(static_cast<double>(run_.output.every_steps));
-        const Totals totals = run_.system.energies();
-        const MotionSample& now = sampler_->last();
+        if (state.follows_effects) sampler_->begin_interval();
+        const Energies now = energies_now(), before = state.follows_effects ? before_ : now;
+        const bool are_means = are_means_ && !state.is_first,
+                   is_mean_known = are_means && !run_.scene.effects.are_sheared();
+        const double motion = is_mean_known ? sampler_->mean_energy()
+                                            : (before.of_motion + now.of_motion) / 2;
         rows_.insert(rows_.end(),
-                     {totals.kinetic_energy + totals.rotational_energy + totals.potential_energy,
-                      sampler_->temperature(), now.n_discs,
-                      static_cast<double>(now.pair_collisions)});
+                     {motion + (before.other + now.other) / 2,
+                      are_means ? sampler_->mean_temperature() : sampler_->temperature(),
+                      sampler_->last().n_discs,
+                      static_cast<double>(sampler_->last().pair_collisions)});
     }
 
     void keep(KeptNumbers& kept) override {
@@ -43,7 +52,9 @@ public:
                          run_.counts.first_step),
              "energy: of motion, spin and height; temperature: kT; collision_rate: collisions with "
              "other discs per disc and step",
-             "xx, xy, yy (pressure tensor), collision_rate: since the row before; times in steps"},
+             fmt::format("xx, xy, yy (pressure tensor), {}collision_rate: since the row before; "
+                         "times in steps",
+                         are_means_ ? "temperature, energy of motion, " : "")},
             {"step", "time", "energy", "temperature", "xx", "xy", "yy", "collision_rate"},
             {},
             true};
@@ -77,7 +88,17 @@ public:
     }
 
 private:
+    struct Energies {
+        double of_motion = 0, other = 0;
+    };
+    Energies energies_now() const {
+        const Totals totals = run_.system.energies();
+        return {totals.kinetic_energy, totals.rotational_energy + totals.potential_energy};
+    }
+
     const Measurements& others_;
+    const bool are_means_ = does_energy_jump(run_.scene.effects); ///< temperatures and energies
+    Energies before_;          ///< before effects act at the present step
     std::vector<double> rows_; ///< by sample: energy, kT, discs, collisions of pairs
     std::optional<PressureSampler> sampler_;
 };

@@ -25,6 +25,8 @@ public:
         if (!is_given()) largest_velocity_ = 5 * usual;
     }
 
+    bool has_velocities() const override { return true; }
+
     void sample(const SampledState& state) override {
         const std::size_t n = n_bins_of(run_);
         const double unit = run_.system.velocity_unit(), largest = largest_velocity_;

@@ -3,6 +3,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "scene/boundaries/boundary.hpp"
 
 namespace carrom {
@@ -72,6 +74,36 @@ std::string reason_without_z(const Effects& effects) {
         if (!reason.empty()) return reason;
     }
     return {};
+}
+
+bool does_energy_jump(const Effects& effects) {
+    return std::ranges::any_of(all_effects(), [&](const EffectDeclaration& effect) {
+        return effect.makes_energy_jump && effect.makes_energy_jump(effects);
+    });
+}
+
+Drift drift_along(Axis axis, const Effects& effects) {
+    if (!(axis == Axis::x ? effects.is_periodic_x() : effects.is_periodic_y()))
+        return Drift::is_heat;
+    CommonMotion all;
+    for (const EffectDeclaration& effect : all_effects()) {
+        if (!effect.common_motion) continue;
+        const CommonMotion one = effect.common_motion(effects, axis);
+        all.is_stopped |= one.is_stopped;
+        all.is_driven |= one.is_driven;
+    }
+    if (all.is_driven) return Drift::is_driven;
+    return all.is_stopped ? Drift::is_heat : Drift::is_kept;
+}
+
+std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs) {
+    const bool has_x = drift_along(Axis::x, effects) == Drift::is_heat,
+               has_y = drift_along(Axis::y, effects) == Drift::is_heat;
+    if (n_discs != 1 || (has_x && has_y)) return {};
+    return fmt::format("no kT, P or Z: along {} the only disc has no motion about the mean of all",
+                       has_x   ? "y"
+                       : has_y ? "x"
+                               : "x and y");
 }
 
 SyncEffects sync_effects_of(const SceneParameters& scene) {

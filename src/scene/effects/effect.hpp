@@ -24,6 +24,7 @@
 
 #include <carrom/totals.hpp>
 
+#include "core/axis.hpp"
 #include "dynamics/sync_effect.hpp"
 #include "scene/key.hpp"
 #include "scene/scene_draft.hpp"
@@ -52,6 +53,19 @@ struct EndNumber {
     std::uint64_t value;
 };
 
+/// What an effect does to the momentum of all discs along an axis.
+struct CommonMotion {
+    bool is_stopped = false; ///< discs give momentum to something that does not move with them
+    bool is_driven = false;  ///< discs get momentum all in one direction
+};
+
+/// How a velocity that all discs have in common counts.
+enum class Drift : std::uint8_t {
+    is_heat,   ///< in the temperature, because the axis has walls, or momentum goes to and fro
+    is_kept,   ///< apart from it, because nothing stops it: it has one of N degrees of freedom
+    is_driven, ///< apart from it, because it is a flow; what is about it fluctuates
+};
+
 struct EffectDeclaration {
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
@@ -75,6 +89,11 @@ struct EffectDeclaration {
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
     /// Of an effect at syncs, from what it keeps after the last one.
     EndNumber (*at_end)(std::span<const std::int64_t> kept) = nullptr;
+    /// Whether it keeps the mean energy of motion only together with what acts between syncs, so
+    /// that this energy jumps at each sync.
+    bool (*makes_energy_jump)(const Effects&) = nullptr;
+    /// Of an effect that exchanges momentum with discs other than by the sides that end an axis.
+    CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
     /// Why Z means nothing in a scene with the effect; empty if it means something.
     std::string (*reason_without_z)(const Effects&) = nullptr;
 };
@@ -94,8 +113,16 @@ double usual_speed_of_effects(const SceneParameters& scene);
 /// `kept` is DiscSystem::kept_by_effects.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept);
-/// That of the first effect with a reason, or empty.
+/// Why Z is undefined, from the first effect that has a reason; otherwise empty.
 std::string reason_without_z(const Effects& effects);
+/// Whether the mean energy of motion jumps at syncs.
+bool does_energy_jump(const Effects& effects);
+/// How the common velocity of all discs along `axis` counts. Temperature, pressure and
+/// displacements follow this alone.
+Drift drift_along(Axis axis, const Effects& effects);
+/// Why kT, P and Z are undefined for so many discs; empty if they are defined. One disc that
+/// nothing stops along an axis has no velocity there but the common one.
+std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs);
 /// In the order in which they act.
 SyncEffects sync_effects_of(const SceneParameters& scene);
 

@@ -150,6 +150,10 @@ EffectDeclaration gravity() {
                 [](const SceneParameters& s) {
                     const Gravity& g = s.effects.gravity;
                     return std::sqrt(2 * (std::fabs(g.x) + std::fabs(g.y)) * s.box.longest());
+                },
+            .common_motion =
+                [](const Effects& e, Axis axis) {
+                    return CommonMotion{.is_driven = along(axis, e.gravity.x, e.gravity.y) != 0};
                 }};
 }
 

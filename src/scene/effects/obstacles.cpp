@@ -108,16 +108,19 @@ std::string summary_of_obstacles(const Effects& effects) {
 namespace effects {
 
 EffectDeclaration obstacles() {
-    return {.tables = {{"effects.obstacles", "Bodies that stand fixed in the box."}},
-            .keys = keys_of_obstacles(),
-            .rules = rules_of_obstacles(),
-            .check_room = check_obstacles,
-            .summary = summary_of_obstacles,
-            .allowance =
-                [](const Effects& e) {
-                    return CheckAllowance{.collisions_take_energy = e.obstacles.restitution < 1};
-                },
-            .lets_discs_rest = [](const Effects& e) { return e.obstacles.restitution < 1; }};
+    return {
+        .tables = {{"effects.obstacles", "Bodies that stand fixed in the box."}},
+        .keys = keys_of_obstacles(),
+        .rules = rules_of_obstacles(),
+        .check_room = check_obstacles,
+        .summary = summary_of_obstacles,
+        .allowance =
+            [](const Effects& e) {
+                return CheckAllowance{.collisions_take_energy = e.obstacles.restitution < 1};
+            },
+        .lets_discs_rest = [](const Effects& e) { return e.obstacles.restitution < 1; },
+        .common_motion = [](const Effects& e,
+                            Axis) { return CommonMotion{.is_stopped = e.obstacles.are_any()}; }};
 }
 
 } // namespace effects

@@ -137,6 +137,19 @@ CheckAllowance allowance_of_rubbing(const Effects& effects) {
     return allowance;
 }
 
+/// The sides that lie along an axis act along it, and those at its ends do not.
+CommonMotion common_motion_by_surfaces(const Effects& effects, Axis axis) {
+    const std::size_t low = axis == Axis::x ? 2 : 0;
+    CommonMotion motion;
+    for (std::size_t side = low; side < low + 2; ++side) {
+        const Boundary& one = effects.boundaries[side];
+        motion.is_stopped |= slides(one);
+        motion.is_driven |= slides(one) && one.surface.velocity != 0;
+    }
+    motion.is_driven |= effects.obstacles.are_any() && effects.obstacles.surface.velocity != 0;
+    return motion;
+}
+
 double usual_speed_of_surfaces(const SceneParameters& scene) {
     double speed = std::fabs(scene.effects.obstacles.surface.velocity);
     for (const Boundary& side : scene.effects.boundaries)
@@ -154,7 +167,8 @@ EffectDeclaration rubbing() {
             .check_room = check_room_of_rubbing,
             .summary = summary_of_rubbing,
             .allowance = allowance_of_rubbing,
-            .usual_speed = usual_speed_of_surfaces};
+            .usual_speed = usual_speed_of_surfaces,
+            .common_motion = common_motion_by_surfaces};
 }
 
 } // namespace effects

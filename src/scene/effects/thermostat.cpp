@@ -363,6 +363,22 @@ double usual_speed_of_thermostat(const SceneParameters& scene) {
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));
 }
 
+/// Kicks and rescaling leave the total momentum as it is.
+CommonMotion common_motion_in_thermostat(const Effects& effects, Axis /*axis*/) {
+    const ThermostatKind kind = effects.thermostat.kind;
+    return {.is_stopped = kind == ThermostatKind::andersen || kind == ThermostatKind::langevin};
+}
+
+/// Andersen and Langevin thermostats leave the distribution of velocities as it is where nothing
+/// else gives or takes energy.
+bool makes_energy_jump(const Effects& effects) {
+    const ThermostatKind kind = effects.thermostat.kind;
+    if (kind == ThermostatKind::kicks || kind == ThermostatKind::rescale) return true;
+    const CheckAllowance others = allowance_of(effects);
+    return effects.thermostat.is_any() &&
+           (others.collisions_take_energy || others.walls_give_energy || effects.are_sheared());
+}
+
 std::unique_ptr<SyncEffect> thermostat_at_syncs(const SceneParameters& scene) {
     switch (scene.effects.thermostat.kind) {
     case ThermostatKind::none: break;
@@ -389,7 +405,9 @@ EffectDeclaration thermostat() {
         .allowance =
             [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.thermostat.is_any()}; },
         .usual_speed = usual_speed_of_thermostat,
-        .at_syncs = thermostat_at_syncs};
+        .at_syncs = thermostat_at_syncs,
+        .makes_energy_jump = makes_energy_jump,
+        .common_motion = common_motion_in_thermostat};
 }
 
 } // namespace effects

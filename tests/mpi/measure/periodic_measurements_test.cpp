@@ -97,9 +97,10 @@ struct ByHand {
     std::vector<double> pairs = std::vector<double>(20, 0), squares{};
     std::map<std::string, std::vector<double>> pairs_of{}; ///< of two species, by the column's name
     double farthest = 0;
-    bool is_mixed = false; ///< the first 40 discs have mass 2, all others 1
+    bool is_mixed = false;   ///< the first 40 discs have mass 2, all others 1
+    bool is_stopped = false; ///< discs give momentum to what stands along the periodic axis
 
-    /// Of the discs' centre of mass since the beginning; 0 where walls hold it.
+    /// Of the discs' centre of mass since the beginning; 0 where something holds it.
     double centre(std::size_t axis) const {
         double sum = 0, mass = 0;
         for (std::size_t i = 0; i < flown.size(); ++i) {
@@ -107,7 +108,7 @@ struct ByHand {
             sum += m * flown[i][axis];
             mass += m;
         }
-        return (axis == 0 ? period_x : period_y) == 0 ? 0 : sum / mass;
+        return is_stopped || (axis == 0 ? period_x : period_y) == 0 ? 0 : sum / mass;
     }
 
     static int species_of(DiscId id) { return id < 40 ? 1 : id < 100 ? 2 : 3; }
@@ -174,6 +175,7 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         ByHand by_hand{scene.box.x, period_y,
                        scene.measurements->settings.at("largest_distance").value};
         by_hand.is_mixed = scene.effects.species.size() == 3;
+        by_hand.is_stopped = scene.effects.boundaries[3].kind == BoundaryKind::thermal;
         DiscSystem system = system_of(scene, test, world);
         Sampler sampler(scene, system, world);
         for (std::int64_t step = 5; step <= 64; ++step) {

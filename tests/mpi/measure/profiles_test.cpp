@@ -18,38 +18,63 @@ namespace {
 
 constexpr std::size_t n_x = 5, n_y = 3;
 
-/// All discs of a cell, over the samples of a block.
-struct ProfileCell {
-    std::vector<SeenDisc> discs;
-    std::vector<double> masses;
+/// The discs of a cell, sample by sample of a block.
+using ProfileCell = std::vector<std::vector<SeenDisc>>;
+
+double mass_of(const SeenDisc& disc) { return disc.id < 100 ? 1 : 4; }
+
+struct CentredSums {
+    double mass = 0, vx = 0, vy = 0, xx = 0, xy = 0, yy = 0, heat_x = 0, heat_y = 0;
 };
 
 /// Two passes: first the velocity of the centre of mass, then squares about it.
-std::vector<double> row_of_cell(const ProfileCell& cell, double area, double n_samples) {
-    double mass = 0, vx = 0, vy = 0, xx = 0, xy = 0, yy = 0, heat_x = 0, heat_y = 0;
-    for (std::size_t k = 0; k < cell.discs.size(); ++k) {
-        mass += cell.masses[k];
-        vx += cell.masses[k] * cell.discs[k].vx;
-        vy += cell.masses[k] * cell.discs[k].vy;
+CentredSums centred(const std::vector<SeenDisc>& discs) {
+    CentredSums sums;
+    for (const SeenDisc& disc : discs) {
+        sums.mass += mass_of(disc);
+        sums.vx += mass_of(disc) * disc.vx;
+        sums.vy += mass_of(disc) * disc.vy;
     }
-    vx /= mass, vy /= mass;
-    for (std::size_t k = 0; k < cell.discs.size(); ++k) {
-        const double a = cell.discs[k].vx - vx, b = cell.discs[k].vy - vy, m = cell.masses[k];
-        xx += m * a * a, xy += m * a * b, yy += m * b * b;
-        heat_x += m * (a * a + b * b) / 2 * a;
-        heat_y += m * (a * a + b * b) / 2 * b;
+    sums.vx /= sums.mass, sums.vy /= sums.mass;
+    for (const SeenDisc& disc : discs) {
+        const double a = disc.vx - sums.vx, b = disc.vy - sums.vy, m = mass_of(disc);
+        sums.xx += m * a * a, sums.xy += m * a * b, sums.yy += m * b * b;
+        sums.heat_x += m * (a * a + b * b) / 2 * a;
+        sums.heat_y += m * (a * a + b * b) / 2 * b;
     }
-    const double n = static_cast<double>(cell.discs.size()), per_area = 1 / (area * n_samples);
+    return sums;
+}
+
+/// Squares and heat about the mean of each sample alone, over what n discs have left of them:
+/// n - 1 squares, and (n - 1)(n - 2) / n third powers.
+std::vector<double> row_of_cell(const ProfileCell& cell, double area) {
+    std::vector<SeenDisc> all;
+    CentredSums about;
+    double freedom = 0, of_heat = 0;
+    for (const std::vector<SeenDisc>& discs : cell) {
+        all.insert(all.end(), discs.begin(), discs.end());
+        const double n = static_cast<double>(discs.size());
+        if (n == 0) continue;
+        const CentredSums one = centred(discs);
+        about.xx += one.xx, about.xy += one.xy, about.yy += one.yy;
+        freedom += n - 1;
+        if (n < 3) continue;
+        about.heat_x += one.heat_x, about.heat_y += one.heat_y;
+        of_heat += (n - 1) * (n - 2) / n;
+    }
+    const CentredSums mean = centred(all);
+    const double n = static_cast<double>(all.size()),
+                 per_area = 1 / (area * static_cast<double>(cell.size()));
     return {n,
             n * per_area,
-            vx,
-            vy,
-            (xx + yy) / (2 * n),
-            xx * per_area,
-            xy * per_area,
-            yy * per_area,
-            heat_x * per_area,
-            heat_y * per_area};
+            mean.vx,
+            mean.vy,
+            (about.xx + about.yy) / (2 * freedom),
+            n / freedom * about.xx * per_area,
+            n / freedom * about.xy * per_area,
+            n / freedom * about.yy * per_area,
+            n / of_heat * about.heat_x * per_area,
+            n / of_heat * about.heat_y * per_area};
 }
 
 SceneParameters with_profiles(const TestScene& test, Method method) {
@@ -84,15 +109,15 @@ TEST_CASE("measurements: profiles are what the discs of each cell give") {
         for (std::int64_t step = 0; step <= 40; ++step) {
             advance_to(system, sampler, step);
             if (step < 3 || (step - 3) % 5 != 0) continue;
+            for (ProfileCell& cell : cells) cell.emplace_back();
             for (const SeenDisc& disc : seen_discs(system, world)) {
                 const auto column = static_cast<std::size_t>(disc.x / scene.box.x * n_x),
                            row = static_cast<std::size_t>(disc.y / scene.box.y * n_y);
-                cells[row * n_x + column].discs.push_back(disc);
-                cells[row * n_x + column].masses.push_back(disc.id < 100 ? 1 : 4);
+                cells[row * n_x + column].back().push_back(disc);
             }
             if (++n_samples % 3 != 0) continue;
             for (const ProfileCell& cell : cells)
-                expected.push_back(row_of_cell(cell, scene.box.area() / (n_x * n_y), 3));
+                expected.push_back(row_of_cell(cell, scene.box.area() / (n_x * n_y)));
             cells.assign(n_x * n_y, {});
         }
         const std::vector<MeasuredTable> tables = sampler.tables();

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields of a cell over a block of samples, about the cell's mean velocity in the block.
+//
+// The mean velocity V of a block comes from the same discs, so part of their thermal motion goes
+// with it: kT comes out too low by D kT / n, with n counts of discs in the block and D degrees of
+// freedom. Consecutive samples hold the same discs, so D lies anywhere from 1 to the number s of
+// samples. It follows from the scatter of the cell's velocities V_k at the samples:
+//
+//   sum_k sum_i m (v - V)^2  =  sum_k sum_i m (v - V_k)^2  +  sum_k M_k (V_k - V)^2
+//      mean (n - D) kT                mean (n - s) kT               mean (s - D) kT
+//
+// The middle sum has no memory of other samples in it, so it gives kT, and the last one gives D.
+// In a flow that changes within the block the last sum is larger than thermal motion can make it.
+// It then belongs to the fields about V, and only D = 1 is given back.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "measure/field_sums.hpp"
+
+namespace carrom {
+
+/// Sums over the samples of a block that hold a disc in the cell: their number s, sum_k M_k V_k
+/// V_k, the flow of heat about V_k, and (n_k - 1)(n_k - 2) / n_k, by which thermal motion within
+/// V_k makes it smaller. They are the same on all ranks.
+enum SampleMoment : std::uint8_t {
+    sample_count,
+    sample_flux_xx,
+    sample_flux_xy,
+    sample_flux_yy,
+    sample_heat_x,
+    sample_heat_y,
+    sample_heat_freedom,
+    n_sample_moments
+};
+
+/// Count and moments of a cell in a block, in the order that tables keep.
+inline constexpr std::size_t n_block_numbers = 1 + n_field_moments + n_sample_moments;
+using BlockNumbers = std::span<const double, n_block_numbers>;
+
+/// Adds to `sums` what one sample has in a cell, with the discs of all ranks.
+void add_sample(const FieldSums& sample, std::size_t cell,
+                std::span<double, n_sample_moments> sums);
+
+/// kT from all cells of a table in a block, one after another, weighted by degrees of freedom.
+double common_temperature(std::span<const double> cells);
+
+/// The table's columns from `count` on. `common` is kT of all cells. It is NaN where no sample
+/// holds two discs, and flows of heat are NaN where none holds three.
+std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
+                              double area);
+
+} // namespace carrom
