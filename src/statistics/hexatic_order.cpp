@@ -166,6 +166,17 @@ bool find_bond_orders(const LocalView& local_view, const Extent& box, const Cell
     return are_whole;
 }
 
+bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
+                      double reach, std::uint64_t ids_apart, std::vector<BondOrder>& orders) {
+    CellFinder finder(local_view, box, sizes, reach);
+    orders.clear();
+    for (std::size_t i = 0; i < local_view.population.n_own; ++i)
+        if (local_view.population.discs[i].id % ids_apart == 0 &&
+            !finder.find(static_cast<LocalIndex>(i), orders.emplace_back()))
+            return false;
+    return true;
+}
+
 HexaticSums::HexaticSums(std::uint64_t n_discs, std::size_t n_bins)
     : real(2 * static_cast<double>(n_discs)), imaginary(real), modulus(real),
       neighbours(most_neighbours + 1, 0), moduli(n_bins, 0), pairs(n_bins, 0),
@@ -193,6 +204,8 @@ void add_pairs_of(int column, const LocalView& view, std::span<const BondOrder> 
     });
 }
 
+} // namespace
+
 void add_discs(std::span<const BondOrder> orders, HexaticSums& sums) {
     for (const BondOrder& order : orders) {
         if (!order.has_cell()) continue;
@@ -208,8 +221,6 @@ void add_discs(std::span<const BondOrder> orders, HexaticSums& sums) {
                                    HexaticSums::most_neighbours)];
     }
 }
-
-} // namespace
 
 void add_order(const LocalView& local_view, std::span<const BondOrder> orders, double bin_width,
                int n_threads, HexaticSums& sums) {

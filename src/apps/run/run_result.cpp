@@ -41,6 +41,7 @@ void fill_end(RunResult& result, const Run& run) {
     result.averages = run.sampler().averages();
     if (!reason_without_z(run.scene().effects).empty())
         result.averages.compressibility = {.value = std::numeric_limits<double>::quiet_NaN()};
+    result.watched = run.watch().watched();
     result.tables = run.sampler().tables();
     result.runs = system.rollback_counts();
     result.ranks_across = system.most_ranks_across();
@@ -120,15 +121,37 @@ std::string reason_without_error(const Estimate& estimate, const Averages& avera
                        averages.steps, averages.n_blocks, fewest_blocks);
 }
 
-std::string doubts_of_averages(const Averages& averages) {
+namespace {
+
+/// How watched numbers change, and what follows; empty if none does.
+std::string changes_of(std::span<const WatchedNumber> watched) {
+    std::string text;
+    for (const WatchedNumber& one : watched)
+        if (one.mean.is_changing)
+            text += fmt::format("{}{} is still changing ({:.3g} by quarters of the run)",
+                                text.empty() ? "" : ", ", one.name, fmt::join(one.quarters, ", "));
+    if (text.empty()) return text;
+    return text + ", so the errors of other averages may be far too small; try: a longer run from "
+                  "a later output.averages_from_step, and carrom replicas";
+}
+
+} // namespace
+
+std::string doubts_of_averages(const Averages& averages, std::span<const WatchedNumber> watched) {
     if (averages.steps == 0 || averages.n_blocks < static_cast<std::int64_t>(fewest_blocks))
         return "none: " + reason_without_error({averages.temperature.value}, averages);
-    std::vector<std::string_view> changing, uncertain;
+    std::vector<std::string> changing, uncertain;
     std::size_t n_errors = 0;
     for (const auto& [name, estimate] : averages.named()) {
         n_errors += std::isfinite(estimate.error);
-        if (estimate.is_changing) changing.push_back(name);
-        if (estimate.independent_samples < fewest_independent_samples) uncertain.push_back(name);
+        if (estimate.is_changing) changing.emplace_back(name);
+        if (estimate.independent_samples < fewest_independent_samples) uncertain.emplace_back(name);
+    }
+    for (const WatchedNumber& one : watched) {
+        if (one.mean.is_changing || std::isnan(one.mean.error)) continue;
+        ++n_errors;
+        if (one.mean.independent_samples < fewest_independent_samples)
+            uncertain.push_back(one.name);
     }
     std::string text;
     if (!changing.empty())
@@ -140,6 +163,8 @@ std::string doubts_of_averages(const Averages& averages) {
             text.empty() ? "" : "; ",
             uncertain.size() == n_errors ? "" : fmt::format(" for {}", fmt::join(uncertain, ", ")),
             fewest_independent_samples);
+    if (const std::string changes = changes_of(watched); !changes.empty())
+        text += (text.empty() ? "" : "; ") + changes;
     return text;
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "measure/order_watch.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "run/run.hpp"
@@ -27,7 +29,8 @@ struct RunResult {
     int threads = 1;         ///< per rank; the largest if ranks differ
     double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
     Averages averages;       ///< over the run, restarts included
-    std::vector<MeasuredTable> tables; ///< the measurements of the scene
+    std::vector<WatchedNumber> watched; ///< order and energy, if they may change
+    std::vector<MeasuredTable> tables;  ///< the measurements of the scene
     RollbackCounts runs;               ///< in the event-driven method
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
     PhaseSeconds phase_imbalance;      ///< relative to the mean of all ranks
@@ -64,8 +67,9 @@ double rejected_share(const RunResult& result);
 /// The reason why an average has no error; empty if it has one.
 std::string reason_without_error(const Estimate& estimate, const Averages& averages);
 /// One line on averages that are still changing, and on those whose errors rest on few
-/// independent samples; empty if there are none.
-std::string doubts_of_averages(const Averages& averages);
+/// independent samples; empty if there are none. Numbers that are watched may be among them.
+std::string doubts_of_averages(const Averages& averages,
+                               std::span<const WatchedNumber> watched = {});
 
 /// An estimate of what a time-stepped run misses; docs/understanding/pressure.md has the formula.
 struct LostCollisions {
