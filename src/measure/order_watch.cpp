@@ -156,7 +156,9 @@ std::vector<WatchedNumber> OrderWatch::watched() const {
         all.push_back(number("psi6", &Sample::psi6));
         all.push_back(number("local_psi6", &Sample::local));
     }
-    if (has_energy_) all.push_back(number("energy", &Sample::energy));
+    if (has_energy_)
+        if (WatchedNumber energy = number("energy", &Sample::energy); !energy.mean.is_constant)
+            all.push_back(std::move(energy));
     return all;
 }
 

@@ -184,8 +184,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
     for (const EndNumber& number : result.end_numbers) report[number.name] = number.value;
     if (scene.last_packing() != scene.packing()) report["last_packing"] = scene.last_packing();
     if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
-    if (const std::string doubts = doubts_of_averages(result.averages, result.watched);
-        !doubts.empty())
+    if (const std::string doubts = doubts_of_run(result); !doubts.empty())
         report["doubts"] = doubts;
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);

@@ -43,6 +43,7 @@ void fill_end(RunResult& result, const Run& run) {
         result.averages.compressibility = {.value = std::numeric_limits<double>::quiet_NaN()};
     result.watched = run.watch().watched();
     result.tables = run.sampler().tables();
+    result.doubts_of_tables = run.sampler().doubts();
     result.runs = system.rollback_counts();
     result.ranks_across = system.most_ranks_across();
 }
@@ -166,6 +167,14 @@ std::string doubts_of_averages(const Averages& averages, std::span<const Watched
     if (const std::string changes = changes_of(watched); !changes.empty())
         text += (text.empty() ? "" : "; ") + changes;
     return text;
+}
+
+std::string doubts_of_run(const RunResult& result) {
+    std::vector<std::string> all;
+    if (std::string text = doubts_of_averages(result.averages, result.watched); !text.empty())
+        all.push_back(std::move(text));
+    all.insert(all.end(), result.doubts_of_tables.begin(), result.doubts_of_tables.end());
+    return fmt::format("{}", fmt::join(all, "; "));
 }
 
 namespace {

@@ -31,6 +31,7 @@ struct RunResult {
     Averages averages;       ///< over the run, restarts included
     std::vector<WatchedNumber> watched; ///< order and energy, if they may change
     std::vector<MeasuredTable> tables;  ///< the measurements of the scene
+    std::vector<std::string> doubts_of_tables;
     RollbackCounts runs;               ///< in the event-driven method
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
     PhaseSeconds phase_imbalance;      ///< relative to the mean of all ranks
@@ -70,6 +71,8 @@ std::string reason_without_error(const Estimate& estimate, const Averages& avera
 /// independent samples; empty if there are none. Numbers that are watched may be among them.
 std::string doubts_of_averages(const Averages& averages,
                                std::span<const WatchedNumber> watched = {});
+/// These doubts and those of measured tables, joined to one line.
+std::string doubts_of_run(const RunResult& result);
 
 /// An estimate of what a time-stepped run misses; docs/understanding/pressure.md has the formula.
 struct LostCollisions {

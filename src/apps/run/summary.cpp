@@ -205,7 +205,7 @@ std::string average_lines(const SceneParameters& scene, const RunResult& result)
         text += labelled_line("pressure", counted_pressure_text(averages));
     text += labelled_line("speeds", speeds_text(scene, averages));
     if (!result.watched.empty()) text += labelled_line("watched", watched_text(result.watched));
-    const std::string doubts = doubts_of_averages(averages, result.watched);
+    const std::string doubts = doubts_of_run(result);
     return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
