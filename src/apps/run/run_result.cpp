@@ -124,16 +124,23 @@ std::string reason_without_error(const Estimate& estimate, const Averages& avera
 
 namespace {
 
-/// How watched numbers change, and what follows; empty if none does.
+/// Which watched numbers change, or forget so slowly that the run is too short for them, and what
+/// follows; empty if none does.
 std::string changes_of(std::span<const WatchedNumber> watched) {
-    std::string text;
-    for (const WatchedNumber& one : watched)
+    std::vector<std::string> all;
+    for (const WatchedNumber& one : watched) {
+        const std::string quarters = fmt::format("{:.3g} by quarters of the run",
+                                                 fmt::join(one.quarters, ", "));
         if (one.mean.is_changing)
-            text += fmt::format("{}{} is still changing ({:.3g} by quarters of the run)",
-                                text.empty() ? "" : ", ", one.name, fmt::join(one.quarters, ", "));
-    if (text.empty()) return text;
-    return text + ", so the errors of other averages may be far too small; try: a longer run from "
-                  "a later output.averages_from_step, and carrom replicas";
+            all.push_back(fmt::format("{} is still changing ({})", one.name, quarters));
+        else if (one.mean.independent_samples < fewest_independent_samples)
+            all.push_back(fmt::format("{} has only {:.1f} independent samples ({})", one.name,
+                                      one.mean.independent_samples, quarters));
+    }
+    if (all.empty()) return {};
+    return fmt::format("{}, so the errors of other averages may be far too small; try: a longer run "
+                       "from a later output.averages_from_step, and carrom replicas",
+                       fmt::join(all, ", "));
 }
 
 } // namespace
@@ -141,18 +148,12 @@ std::string changes_of(std::span<const WatchedNumber> watched) {
 std::string doubts_of_averages(const Averages& averages, std::span<const WatchedNumber> watched) {
     if (averages.steps == 0 || averages.n_blocks < static_cast<std::int64_t>(fewest_blocks))
         return "none: " + reason_without_error({averages.temperature.value}, averages);
-    std::vector<std::string> changing, uncertain;
+    std::vector<std::string_view> changing, uncertain;
     std::size_t n_errors = 0;
     for (const auto& [name, estimate] : averages.named()) {
         n_errors += std::isfinite(estimate.error);
-        if (estimate.is_changing) changing.emplace_back(name);
-        if (estimate.independent_samples < fewest_independent_samples) uncertain.emplace_back(name);
-    }
-    for (const WatchedNumber& one : watched) {
-        if (one.mean.is_changing || std::isnan(one.mean.error)) continue;
-        ++n_errors;
-        if (one.mean.independent_samples < fewest_independent_samples)
-            uncertain.push_back(one.name);
+        if (estimate.is_changing) changing.push_back(name);
+        if (estimate.independent_samples < fewest_independent_samples) uncertain.push_back(name);
     }
     std::string text;
     if (!changing.empty())
