@@ -8,6 +8,7 @@
 #include "catch.hpp"
 
 #include "measure/order_watch.hpp"
+#include "core/bond_order.hpp"
 #include "measured_runs.hpp"
 #include "statistics/hexatic_order.hpp"
 
@@ -100,6 +101,27 @@ TEST_CASE("measurements: a watch goes on after a restart") {
     OrderWatch anew(scene, second, world);
     anew.begin(damaged);
     CHECK(anew.watched().empty());
+}
+
+TEST_CASE("measurements: the order of some discs is that of each of them") {
+    const Communicator world = Communicator::world();
+    const TestScene test = dense_discs();
+    const DiscSystem system = system_of(scene_with_steps(test), test, world);
+    const HexaticSums sums = system.sampled_order(33); // every fourth id
+    const std::vector<BondOrder> orders = system.bond_orders();
+    ExactSum real(200), modulus(200);
+    for (std::size_t k = 0; k < orders.size(); ++k) {
+        if (system.discs()[k].id % 4 != 0) continue;
+        real.add(orders[k].real);
+        modulus.add(std::sqrt(orders[k].real * orders[k].real +
+                              orders[k].imaginary * orders[k].imaginary));
+    }
+    world.sum(real), world.sum(modulus);
+    CHECK(sums.real.value() == real.value());
+    CHECK(sums.modulus.value() == modulus.value());
+    std::uint64_t n = 0;
+    for (const std::uint64_t one : sums.neighbours) n += one;
+    CHECK(n == 25);
 }
 
 TEST_CASE("measurements: dilute discs are not watched") {
