@@ -95,8 +95,8 @@ OrderWatch::Sample OrderWatch::sampled() const {
     }
     if (!has_order_) return sample;
     const HexaticSums sums = run_.system.sampled_order(most_discs);
-    const auto n = static_cast<double>(std::accumulate(sums.neighbours.begin(),
-                                                       sums.neighbours.end(), std::uint64_t{0}));
+    const auto n = static_cast<double>(
+        std::accumulate(sums.neighbours.begin(), sums.neighbours.end(), std::uint64_t{0}));
     if (!(n > 0)) return sample;
     const double real = sums.real.value(), imaginary = sums.imaginary.value();
     sample.psi6 = std::sqrt(real * real + imaginary * imaginary) / n;

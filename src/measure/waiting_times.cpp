@@ -36,8 +36,8 @@ VectorBlocks& WaitingTimes::cell(std::size_t octave, std::size_t lag) {
 void WaitingTimes::add(std::size_t lag, std::uint64_t origin, std::span<const MovedDiscs> moved) {
     std::vector<double> numbers;
     for (const MovedDiscs& one : moved)
-        numbers.insert(numbers.end(), {one.squares, one.scattering, one.overlap,
-                                       one.scattering * one.scattering});
+        numbers.insert(numbers.end(),
+                       {one.squares, one.scattering, one.overlap, one.scattering * one.scattering});
     cell(static_cast<std::size_t>(std::bit_width(origin)), lag).add(numbers);
 }
 

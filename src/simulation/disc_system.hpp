@@ -118,7 +118,7 @@ public:
     /// psi6 of all discs together, and of their pairs up to that distance, of all ranks.
     /// **Collective.**
     HexaticSums hexatic_order(double largest_distance, std::size_t n_bins) const;
-    /// psi6 of no more than `most_discs` discs, which are spread evenly over the ids, without pairs.
+    /// psi6 of no more than `most_discs` discs, evenly spread over the ids, without pairs.
     /// **Collective.**
     HexaticSums sampled_order(std::uint64_t most_discs) const;
     /// psi6 of each of the own discs, along `discs()` as they lie then: this moves them in memory.

@@ -7,7 +7,8 @@ import math
 
 from program import SOURCES, ProgramTest, main
 
-SIDES = "".join(f'{side} = {{ kind = "periodic" }}\n' for side in ("left", "right", "bottom", "top"))
+SIDES = "".join(f'{side} = {{ kind = "periodic" }}\n'
+                for side in ("left", "right", "bottom", "top"))
 
 
 def box(discs_area, packing):

@@ -78,8 +78,8 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
 
 /// The errors that replicas claim, beside how they scatter.
 struct Claims {
-    double claimed = NAN; ///< the root of the mean square of the errors; NaN if there is none
-    double ratio = NAN;   ///< the scatter over it
+    double claimed = NAN;       ///< the root of the mean square of the errors; NaN if there is none
+    double ratio = NAN;         ///< the scatter over it
     std::size_t n_changing = 0; ///< replicas that are still changing
 
     bool are_too_small(std::size_t n_replicas) const;
@@ -98,8 +98,7 @@ double most_of_chi_squared(double freedom) {
 bool Claims::are_too_small(std::size_t n_replicas) const {
     constexpr double allowed = 1.15;
     return n_replicas > 1 &&
-           ratio > allowed *
-                       std::sqrt(most_of_chi_squared(static_cast<double>(n_replicas - 1)));
+           ratio > allowed * std::sqrt(most_of_chi_squared(static_cast<double>(n_replicas - 1)));
 }
 
 Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantity, double scatter) {

@@ -60,6 +60,13 @@ nlohmann::ordered_json watched_json(const std::vector<WatchedNumber>& watched) {
     return all;
 }
 
+/// What is watched, and the line of doubts, if there are any.
+void add_doubts(nlohmann::ordered_json& report, const RunResult& result) {
+    if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
+    if (const std::string doubts = doubts_of_run(result); !doubts.empty())
+        report["doubts"] = doubts;
+}
+
 nlohmann::ordered_json averages_json(const Averages& averages) {
     const auto estimate_json = [&averages](const Estimate& estimate) {
         return carrom::estimate_json(estimate, averages);
@@ -183,9 +190,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         report[energy.name] = result.end.*energy.value;
     for (const EndNumber& number : result.end_numbers) report[number.name] = number.value;
     if (scene.last_packing() != scene.packing()) report["last_packing"] = scene.last_packing();
-    if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
-    if (const std::string doubts = doubts_of_run(result); !doubts.empty())
-        report["doubts"] = doubts;
+    add_doubts(report, result);
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);
     // A scene's name may have any bytes that the file system allows; invalid UTF-8 is replaced.

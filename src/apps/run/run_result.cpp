@@ -138,8 +138,8 @@ std::string changes_of(std::span<const WatchedNumber> watched) {
                                       one.mean.independent_samples, quarters));
     }
     if (all.empty()) return {};
-    return fmt::format("{}, so the errors of other averages may be far too small; try: a longer run "
-                       "from a later output.averages_from_step, and carrom replicas",
+    return fmt::format("{}, so the errors of other averages may be far too small; try: a longer "
+                       "run from a later output.averages_from_step, and carrom replicas",
                        fmt::join(all, ", "));
 }
 

@@ -32,11 +32,11 @@ struct RunResult {
     std::vector<WatchedNumber> watched; ///< order and energy, if they may change
     std::vector<MeasuredTable> tables;  ///< the measurements of the scene
     std::vector<std::string> doubts_of_tables;
-    RollbackCounts runs;               ///< in the event-driven method
-    PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
-    PhaseSeconds phase_imbalance;      ///< relative to the mean of all ranks
-    double imbalance = 1;              ///< this ratio for `busy_seconds`
-    double peak_bytes_per_disc = 0;    ///< the sum of the ranks' peaks, per disc
+    RollbackCounts runs;            ///< in the event-driven method
+    PhaseSeconds phase_seconds;     ///< each on the rank where it took longest
+    PhaseSeconds phase_imbalance;   ///< relative to the mean of all ranks
+    double imbalance = 1;           ///< this ratio for `busy_seconds`
+    double peak_bytes_per_disc = 0; ///< the sum of the ranks' peaks, per disc
 };
 
 /// Fills in what the run has at its end. **Collective.**

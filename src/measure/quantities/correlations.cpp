@@ -219,8 +219,7 @@ private:
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {
-            all.push_back(
-                waiting_.table(std::move(name), kind, scheme_, run_.output.every_steps));
+            all.push_back(waiting_.table(std::move(name), kind, scheme_, run_.output.every_steps));
         };
         add("correlations_waiting", ends_.size());
         for (std::size_t kind = 0; ends_.size() > 1 && kind < ends_.size(); ++kind)

@@ -7,8 +7,8 @@
 
 #include "catch.hpp"
 
-#include "measure/order_watch.hpp"
 #include "core/bond_order.hpp"
+#include "measure/order_watch.hpp"
 #include "measured_runs.hpp"
 #include "statistics/hexatic_order.hpp"
 
@@ -113,8 +113,8 @@ TEST_CASE("measurements: the order of some discs is that of each of them") {
     for (std::size_t k = 0; k < orders.size(); ++k) {
         if (system.discs()[k].id % 4 != 0) continue;
         real.add(orders[k].real);
-        modulus.add(std::sqrt(orders[k].real * orders[k].real +
-                              orders[k].imaginary * orders[k].imaginary));
+        modulus.add(
+            std::sqrt(orders[k].real * orders[k].real + orders[k].imaginary * orders[k].imaginary));
     }
     world.sum(real), world.sum(modulus);
     CHECK(sums.real.value() == real.value());
