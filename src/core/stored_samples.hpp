@@ -29,6 +29,7 @@ inline constexpr std::int32_t most_images = 1 << 30;
 
 struct StoredSamples {
     std::vector<std::int64_t> averages; ///< equal on all ranks; empty before the first block
+    std::vector<std::int64_t> watched;  ///< equal on all ranks; empty if no order is watched
     std::vector<std::int64_t> sums;     ///< equal on all ranks; empty if nothing is measured
     std::vector<std::int64_t> effects;  ///< StoredState::kept_by_effects, which comes along
     bool have_first_places = false;     ///< equal on all ranks

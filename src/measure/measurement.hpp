@@ -107,6 +107,8 @@ public:
     virtual std::optional<MeasuredTable> rows_from(std::size_t /*first*/) const {
         return std::nullopt;
     }
+    /// One line if the samples contradict what the tables take for granted; else empty.
+    virtual std::string doubt() const { return {}; }
     virtual std::optional<ThermoColumn> thermo_column() const { return std::nullopt; }
 
 protected:

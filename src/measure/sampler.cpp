@@ -217,6 +217,13 @@ std::vector<MeasuredTable> Sampler::tables() const {
     return all;
 }
 
+std::vector<std::string> Sampler::doubts() const {
+    std::vector<std::string> all;
+    for (const auto& measurement : measurements_)
+        if (std::string one = measurement->doubt(); !one.empty()) all.push_back(std::move(one));
+    return all;
+}
+
 std::vector<MeasuredTable> Sampler::rows_from(std::size_t first) const {
     std::vector<MeasuredTable> all;
     if (!has_begun_ || run_.counts.n_samples <= first) return all;

@@ -56,6 +56,8 @@ public:
     StoredSamples stored() const;
     /// Tables of all samples; none before the first one. All ranks get the same.
     std::vector<MeasuredTable> tables() const;
+    /// A line for each quantity whose samples contradict what its tables take for granted.
+    std::vector<std::string> doubts() const;
     /// Tables that grow by a row at each sample, from row number `first` on; none if
     /// there are no such rows.
     std::vector<MeasuredTable> rows_from(std::size_t first) const;

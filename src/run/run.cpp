@@ -35,7 +35,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
     : ranks_(ranks), scene_(decided(std::move(scene), start, ranks_, tuning, messages)),
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
       system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_),
-      heap_warning_(scene_, system_, ranks_, messages) {
+      watch_(scene_, system_, ranks_), heap_warning_(scene_, system_, ranks_, messages) {
     if (const double more = system_.bytes_for_crowds(); more > 0 && !is_restart_)
         check_memory(scene_, ranks_, more); // now that places are known
     refuse_hard_cases(scene_, system_, ranks_, messages);
@@ -47,6 +47,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
     }
     if (is_restart_) sampler_.go_on(start.samples);
     sampler_.sample_if_due();
+    watch_.begin(start.samples.watched);
 }
 
 bool Run::advance_to(std::int64_t last_step) {
@@ -63,6 +64,7 @@ void Run::commit() {
 
 StoredSamples Run::stored_samples() {
     StoredSamples samples = sampler_.stored();
+    samples.watched = watch_.stored();
     samples.effects = system_.kept_by_effects();
     samples.have_images = images_.has_value();
     if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);

@@ -13,6 +13,7 @@
 
 #include "engine/tuning.hpp"
 #include "measure/image_counts.hpp"
+#include "measure/order_watch.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "run/heap_warning.hpp"
@@ -45,6 +46,8 @@ public:
     /// The averages, and the measurements that the scene asks for.
     Sampler& sampler() { return sampler_; }
     const Sampler& sampler() const { return sampler_; }
+    /// Order and energy, if the run has some that may change unseen.
+    const OrderWatch& watch() const { return watch_; }
     /// Counts for a trajectory that shows images; null if there is none. They go on
     /// from a checkpoint that has some.
     ImageCounts* images() { return images_ ? &*images_ : nullptr; }
@@ -74,9 +77,10 @@ private:
     DiscSystem system_;
     std::optional<ImageCounts> images_;
     Sampler sampler_;
+    OrderWatch watch_;
     HeapWarning heap_warning_;
     /// The sampler is the first, so that all others see the sample of the present step.
-    std::vector<StepAction*> actions_{&sampler_, &heap_warning_};
+    std::vector<StepAction*> actions_{&sampler_, &watch_, &heap_warning_};
     StretchSeconds seconds_;
 };
 

@@ -282,7 +282,9 @@ void DiscSystem::count_pair_distances(double bin_width, std::span<const DiscId> 
 
 /// The orders of all discs of the view that are at most `reach_beyond` from the own
 /// ones. The view is good until images are forgotten. **Collective.**
-LocalView DiscSystem::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
+/// The orders of all discs of the view, or of own discs whose id is a multiple of `ids_apart`.
+LocalView DiscSystem::find_orders(double reach_beyond, std::uint64_t ids_apart,
+                                  std::vector<BondOrder>& orders) const {
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
     CellSizes sizes;
@@ -294,8 +296,10 @@ LocalView DiscSystem::find_orders(double reach_beyond, std::vector<BondOrder>& o
     for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs()));;
          reach *= 2) {
         const LocalView now = engine_->local_view(reach_beyond + reach);
-        if (communicator_.all(find_bond_orders(now, box, sizes, reach, n_threads_, orders)))
-            return now;
+        const bool are_whole = ids_apart == 0
+                                   ? find_bond_orders(now, box, sizes, reach, n_threads_, orders)
+                                   : find_bond_orders(now, box, sizes, reach, ids_apart, orders);
+        if (communicator_.all(are_whole)) return now;
         engine_->forget_images();
     }
 }
@@ -303,7 +307,7 @@ LocalView DiscSystem::find_orders(double reach_beyond, std::vector<BondOrder>& o
 HexaticSums DiscSystem::hexatic_order(double largest_distance, std::size_t n_bins) const {
     HexaticSums sums(engine_->n_discs(), n_bins);
     std::vector<BondOrder> orders;
-    const LocalView now = find_orders(largest_distance, orders);
+    const LocalView now = find_orders(largest_distance, 0, orders);
     add_order(now, orders, largest_distance / static_cast<double>(n_bins), n_threads_, sums);
     engine_->forget_images();
     for (auto* counts : {&sums.neighbours, &sums.moduli, &sums.pairs})
@@ -313,9 +317,21 @@ HexaticSums DiscSystem::hexatic_order(double largest_distance, std::size_t n_bin
     return sums;
 }
 
+HexaticSums DiscSystem::sampled_order(std::uint64_t most_discs) const {
+    const std::uint64_t n = engine_->n_discs(), ids_apart = (n + most_discs - 1) / most_discs;
+    HexaticSums sums(n, 1);
+    std::vector<BondOrder> orders;
+    static_cast<void>(find_orders(0, std::max<std::uint64_t>(ids_apart, 1), orders));
+    engine_->forget_images();
+    add_discs(orders, sums);
+    communicator_.sum(std::span(sums.neighbours));
+    for (ExactSum* sum : {&sums.real, &sums.imaginary, &sums.modulus}) communicator_.sum(*sum);
+    return sums;
+}
+
 std::vector<BondOrder> DiscSystem::bond_orders() const {
     std::vector<BondOrder> orders;
-    const LocalView now = find_orders(0, orders);
+    const LocalView now = find_orders(0, 0, orders);
     orders.resize(now.population.n_own);
     engine_->forget_images();
     orders.resize(discs().size()); // departed discs come last, and have no order

@@ -122,6 +122,9 @@ public:
     /// psi6 of all discs together, and of their pairs up to that distance, of all ranks.
     /// **Collective.**
     HexaticSums hexatic_order(double largest_distance, std::size_t n_bins) const;
+    /// psi6 of no more than `most_discs` discs, evenly spread over the ids, without pairs.
+    /// **Collective.**
+    HexaticSums sampled_order(std::uint64_t most_discs) const;
     /// psi6 of each of the own discs, along `discs()` as they lie then: this moves them in memory.
     /// **Collective.**
     std::vector<BondOrder> bond_orders() const;
@@ -145,7 +148,8 @@ public:
 private:
     void advance_checked();
     const SpeciesTable* table_if_mixed() const; ///< null if all discs are equal
-    LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
+    LocalView find_orders(double reach_beyond, std::uint64_t ids_apart,
+                          std::vector<BondOrder>& orders) const;
     /// Like `shown()`, but only the velocities are right.
     std::span<const DiscState> in_motion() const;
     /// Like in_motion, without the mean flow between sheared sides, which is no temperature.

@@ -42,6 +42,11 @@ private:
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, int n_threads, std::vector<BondOrder>& orders);
 
+/// The same for those own discs whose id is a multiple of `ids_apart`, in one list. One thread does
+/// it, because they are few.
+bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
+                      double reach, std::uint64_t ids_apart, std::vector<BondOrder>& orders);
+
 /// Sums over discs at one time. They are exact, so ranks may add them in any order.
 struct HexaticSums {
     static constexpr std::size_t most_neighbours = 12; ///< the last count includes discs with more
@@ -55,6 +60,8 @@ struct HexaticSums {
     std::vector<ExactSum> products;        ///< sum of the real part of psi6* psi6 over these pairs
 };
 
+/// Adds discs alone.
+void add_discs(std::span<const BondOrder> orders, HexaticSums& sums);
 /// Adds this rank's discs and pairs; bins of distance are `bin_width` wide. A pair is counted once,
 /// by the rank that owns its disc of the lower id.
 void add_order(const LocalView& local_view, std::span<const BondOrder> orders, double bin_width,

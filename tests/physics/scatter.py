@@ -29,8 +29,8 @@ import tempfile
 
 # Packing: discs, steps before averages begin, averaged steps, each of about a collision per disc,
 # and steps from sample to sample.
-LONG = {0.3: (400, 400, 8000, 4), 0.5: (400, 400, 8000, 4), 0.65: (400, 4000, 16000, 4),
-        0.7: (400, 20000, 200000, 20)}
+LONG = {0.3: (400, 400, 8000, 4), 0.5: (400, 400, 8000, 4), 0.62: (400, 4000, 16000, 4),
+        0.65: (400, 4000, 16000, 4), 0.69: (400, 20000, 200000, 100), 0.7: (400, 20000, 200000, 20)}
 SHORT = {0.5: (100, 100, 2000, 4)}
 
 SCENE = """[box]

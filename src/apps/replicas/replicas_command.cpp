@@ -33,8 +33,9 @@ does what is missing: replicas that are done are left alone, and one that was
 stopped goes on from its last checkpoint.
 
 FOLDER/replicas.csv has a line for each replica. replicas.json has the averages
-over replicas, each with the standard error of the mean. Measured tables are
-averaged line by line.
+over replicas, each with the standard error of the mean, and the scatter between
+replicas over the errors that they claim. A warning says where it is too large.
+Measured tables are averaged line by line.
 
 Examples:
   mpirun -np 8 carrom replicas inputs/gas.toml --count 64 -o FOLDER
@@ -124,20 +125,23 @@ ExitCode run_replicas(const ReplicasOptions& options, const std::vector<Problem>
                            "replicas differ by the seed of their discs, and this scene lists its "
                            "discs; let it generate them"}});
     if (!all_are_done(options, scene, ranks)) return ExitCode::stopped;
-    std::string text, failure;
+    JoinedReplicas joined;
+    std::string failure;
     let_root(ranks, [&] {
         std::vector<Replica> replicas;
         for (std::int64_t k = 0; k < options.count; ++k)
             replicas.push_back(
                 {options_of(options, scene, k).folder, scene.seed + static_cast<std::uint64_t>(k)});
         try {
-            text = join_replicas(replicas, options.folder);
+            joined = join_replicas(replicas, options.folder);
         } catch (const CollectiveError& error) {
             failure = error.what();
         }
     });
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
-    if (ranks.is_root() && !options.run.quiet) print_text(text);
+    if (ranks.is_root() && !options.run.quiet) print_text(joined.averages);
+    if (ranks.is_root() && !joined.warning.empty())
+        print_message("warning: {}: {}\n", scene.name, joined.warning);
     return ExitCode::success;
 }
 

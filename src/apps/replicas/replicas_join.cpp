@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
@@ -39,29 +41,92 @@ Json or_null(double number) { return std::isfinite(number) ? Json(number) : Json
 double number_of_json(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
 std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
-/// One average of a report; `path` is a JSON pointer.
+/// One average of a report; `path` is a JSON pointer to it, or to its number alone.
 struct AveragedColumn {
     const char* name;
     const char* path;
 };
 constexpr AveragedColumn averaged_columns[] = {
-    {"temperature", "/temperature/value"},
-    {"pressure", "/pressure/value"},
-    {"compressibility", "/compressibility/value"},
-    {"pressure_xx", "/pressure_tensor/xx/value"},
-    {"pressure_xy", "/pressure_tensor/xy/value"},
-    {"pressure_yy", "/pressure_tensor/yy/value"},
-    {"collision_frequency", "/averages/collision_frequency/value"},
-    {"mean_free_time", "/averages/mean_free_time/value"},
-    {"wall_pressure", "/averages/wall_pressure/value"},
-    {"mean_speed", "/averages/mean_speed/value"},
-    {"speed_kurtosis", "/averages/speed_kurtosis/value"},
+    {"temperature", "/temperature"},
+    {"pressure", "/pressure"},
+    {"compressibility", "/compressibility"},
+    {"pressure_xx", "/pressure_tensor/xx"},
+    {"pressure_xy", "/pressure_tensor/xy"},
+    {"pressure_yy", "/pressure_tensor/yy"},
+    {"collision_frequency", "/averages/collision_frequency"},
+    {"mean_free_time", "/averages/mean_free_time"},
+    {"wall_pressure", "/averages/wall_pressure"},
+    {"mean_speed", "/averages/mean_speed"},
+    {"speed_kurtosis", "/averages/speed_kurtosis"},
     {"kinetic_energy", "/kinetic_energy"},
+    {"psi6", "/watched/psi6"},
+    {"local_psi6", "/watched/local_psi6"},
 };
 
-double value_in(const Json& report, const AveragedColumn& quantity) {
+/// Part of an average: "value" or "error". A number alone is its own value.
+double part_of(const Json& report, const AveragedColumn& quantity, const char* part) {
     const Json::json_pointer path(quantity.path);
-    return report.contains(path) ? number_of_json(report.at(path)) : NAN;
+    if (!report.contains(path)) return NAN;
+    const Json& average = report.at(path);
+    if (average.is_object()) return average.contains(part) ? number_of_json(average[part]) : NAN;
+    return std::string_view(part) == "value" ? number_of_json(average) : NAN;
+}
+
+double value_in(const Json& report, const AveragedColumn& quantity) {
+    return part_of(report, quantity, "value");
+}
+
+/// The errors that replicas claim, beside how they scatter.
+struct Claims {
+    double claimed = NAN;       ///< the root of the mean square of the errors; NaN if there is none
+    double ratio = NAN;         ///< the scatter over it
+    std::size_t n_changing = 0; ///< replicas that are still changing
+
+    bool are_too_small(std::size_t n_replicas) const;
+};
+
+/// 999 of 1000 values of chi squared over its degrees of freedom are below this (Wilson and
+/// Hilferty, Proc. Natl. Acad. Sci. 17, 684 (1931)).
+double most_of_chi_squared(double freedom) {
+    constexpr double deviations = 3.09;
+    const double spread = 2 / (9 * freedom);
+    return std::pow(1 - spread + deviations * std::sqrt(spread), 3);
+}
+
+/// Errors from some ten independent samples are too small by more than a tenth
+/// (statistics/blocking.hpp). That alone is no reason to warn.
+bool Claims::are_too_small(std::size_t n_replicas) const {
+    constexpr double allowed = 1.15;
+    return n_replicas > 1 &&
+           ratio > allowed * std::sqrt(most_of_chi_squared(static_cast<double>(n_replicas - 1)));
+}
+
+Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantity, double scatter) {
+    Claims claims;
+    double squares = 0, n = 0;
+    for (const Json& report : reports) {
+        const double error = part_of(report, quantity, "error");
+        if (std::isfinite(error) && error > 0) squares += error * error, n += 1;
+        const Json::json_pointer reason(std::string(quantity.path) + "/without_error");
+        if (report.contains(reason) && report.at(reason).is_string())
+            claims.n_changing += report.at(reason).get<std::string>().starts_with("still changing");
+    }
+    if (n > 0) claims.claimed = std::sqrt(squares / n), claims.ratio = scatter / claims.claimed;
+    return claims;
+}
+
+/// What is wrong with single runs, or nothing.
+std::string warning_of(const std::vector<std::string>& too_small,
+                       const std::vector<std::string>& changing) {
+    if (too_small.empty() && changing.empty()) return {};
+    std::string text = "single runs are shorter than their memory: ";
+    if (!too_small.empty())
+        text += fmt::format("replicas scatter more than their errors claim ({})",
+                            fmt::join(too_small, ", "));
+    if (!changing.empty())
+        text += fmt::format("{}replicas are still changing ({})", too_small.empty() ? "" : ", and ",
+                            fmt::join(changing, ", "));
+    return text + "; the errors over replicas hold for runs of this length alone; try: longer runs";
 }
 
 Json read_report(const std::string& folder) {
@@ -182,19 +247,31 @@ std::optional<std::int64_t> last_step_reported(const std::string& folder) {
     return last;
 }
 
-std::string join_replicas(const std::vector<Replica>& replicas, const std::string& folder) {
+JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::string& folder) {
     std::vector<Json> reports;
     for (const Replica& replica : replicas) reports.push_back(read_report(replica.folder));
     write(folder, "replicas.csv", lines_of_replicas(replicas, reports));
     std::string text = fmt::format("replicas           {}\n", replicas.size());
     Json joined = {{"replicas", replicas.size()}};
+    std::vector<std::string> too_small, changing;
     for (const AveragedColumn& quantity : averaged_columns) {
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);
         if (!std::isfinite(mean.value)) continue; // a replica does not have it
-        joined[quantity.name] = {{"value", mean.value}, {"error", or_null(mean.error)}};
+        const double scatter = mean.error * std::sqrt(static_cast<double>(replicas.size()));
+        const Claims claims = claims_of(reports, quantity, scatter);
+        joined[quantity.name] = {{"value", mean.value},
+                                 {"error", or_null(mean.error)},
+                                 {"claimed", or_null(claims.claimed)},
+                                 {"scatter_over_claimed", or_null(claims.ratio)},
+                                 {"still_changing", claims.n_changing}};
         text += fmt::format("{:<20}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
+        if (claims.are_too_small(replicas.size()))
+            too_small.push_back(fmt::format("{} {:.1f} times", quantity.name, claims.ratio));
+        if (claims.n_changing * 4 > replicas.size())
+            changing.push_back(
+                fmt::format("{} in {} of {}", quantity.name, claims.n_changing, replicas.size()));
     }
     write(folder, "replicas.json", joined.dump(2) + '\n');
     if (reports.front().contains("measurements"))
@@ -202,7 +279,7 @@ std::string join_replicas(const std::vector<Replica>& replicas, const std::strin
             const JoinedTable means(name, reports);
             if (means.is_whole()) write(folder, name + ".csv", means.csv());
         }
-    return text;
+    return {text, warning_of(too_small, changing)};
 }
 
 } // namespace carrom

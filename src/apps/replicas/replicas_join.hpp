@@ -18,12 +18,19 @@ struct Replica {
 /// The last step in the folder's report; nothing if there is no complete report.
 std::optional<std::int64_t> last_step_reported(const std::string& folder);
 
+/// Lines for the terminal.
+struct JoinedReplicas {
+    std::string averages;
+    std::string warning; ///< one line, or empty
+};
+
 /// Reads the replicas' reports and writes to `folder`:
 ///   replicas.csv   a line for each replica: folder, seed, state hash, averages
-///   replicas.json  each average over the replicas: value and standard error of the mean
+///   replicas.json  each average over the replicas: value and standard error of the mean, and how
+///                  the scatter between replicas compares with the errors that they claim
 ///   NAME.csv       each measured table that all have in the same form: means and their errors
-/// Returns lines for the terminal. Throws CollectiveError, code 4, where a file cannot be written,
-/// and InputError where a report cannot be read. Call it on one rank.
-std::string join_replicas(const std::vector<Replica>& replicas, const std::string& folder);
+/// Throws CollectiveError, code 4, where a file cannot be written, and InputError where a report
+/// cannot be read. Call it on one rank.
+JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::string& folder);
 
 } // namespace carrom

@@ -2,6 +2,7 @@
 #include "apps/run/report.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -33,6 +34,37 @@ nlohmann::ordered_json estimate_json(const Estimate& estimate, const Averages& a
     const std::string reason = reason_without_error(estimate, averages);
     if (!reason.empty()) json["without_error"] = reason;
     return json;
+}
+
+nlohmann::ordered_json watched_json(const std::vector<WatchedNumber>& watched) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::object();
+    for (const WatchedNumber& one : watched) {
+        const SampledMean& mean = one.mean;
+        const bool has_error = std::isfinite(mean.error) && !mean.is_changing && !mean.is_constant;
+        const auto number = [=](double value) {
+            return number_or_null(has_error ? value : std::numeric_limits<double>::quiet_NaN());
+        };
+        nlohmann::ordered_json quarters = nlohmann::ordered_json::array();
+        for (const double quarter : one.quarters) quarters.push_back(number_or_null(quarter));
+        all[one.name] = {{"value", number_or_null(mean.value)},
+                         {"error", number(mean.error)},
+                         {"correlation_time", number(mean.correlation_time)},
+                         {"independent_samples", number(mean.independent_samples)},
+                         {"quarters", quarters}};
+        if (!has_error)
+            all[one.name]["without_error"] = mean.is_constant   ? "conserved"
+                                             : mean.is_changing ? "still changing: a trend is "
+                                                                  "not an error"
+                                                                : "too few samples";
+    }
+    return all;
+}
+
+/// What is watched, and the line of doubts, if there are any.
+void add_doubts(nlohmann::ordered_json& report, const RunResult& result) {
+    if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
+    if (const std::string doubts = doubts_of_run(result); !doubts.empty())
+        report["doubts"] = doubts;
 }
 
 nlohmann::ordered_json averages_json(const Averages& averages) {
@@ -167,6 +199,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         report[energy.name] = result.end.*energy.value;
     for (const EndNumber& number : result.end_numbers) report[number.name] = number.value;
     if (scene.last_packing() != scene.packing()) report["last_packing"] = scene.last_packing();
+    add_doubts(report, result);
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);
     // A scene's name may have any bytes that the file system allows; invalid UTF-8 is replaced.

@@ -41,7 +41,9 @@ void fill_end(RunResult& result, const Run& run) {
     result.averages = run.sampler().averages();
     if (!reason_without_z(run.scene().effects).empty())
         result.averages.compressibility = {.value = std::numeric_limits<double>::quiet_NaN()};
+    result.watched = run.watch().watched();
     result.tables = run.sampler().tables();
+    result.doubts_of_tables = run.sampler().doubts();
     result.runs = system.rollback_counts();
     if (result.runs.simultaneous > 0)
         result.end_numbers.push_back(
@@ -126,7 +128,30 @@ std::string reason_without_error(const Estimate& estimate, const Averages& avera
                        averages.steps, averages.n_blocks, fewest_blocks);
 }
 
-std::string doubts_of_averages(const Averages& averages) {
+namespace {
+
+/// Which watched numbers change, or forget so slowly that the run is too short for them, and what
+/// follows; empty if none does.
+std::string changes_of(std::span<const WatchedNumber> watched) {
+    std::vector<std::string> all;
+    for (const WatchedNumber& one : watched) {
+        const std::string quarters = fmt::format("{:.3g} by quarters of the run",
+                                                 fmt::join(one.quarters, ", "));
+        if (one.mean.is_changing)
+            all.push_back(fmt::format("{} is still changing ({})", one.name, quarters));
+        else if (one.mean.independent_samples < fewest_independent_samples)
+            all.push_back(fmt::format("{} has only {:.1f} independent samples ({})", one.name,
+                                      one.mean.independent_samples, quarters));
+    }
+    if (all.empty()) return {};
+    return fmt::format("{}, so the errors of other averages may be far too small; try: a longer "
+                       "run from a later output.averages_from_step, and carrom replicas",
+                       fmt::join(all, ", "));
+}
+
+} // namespace
+
+std::string doubts_of_averages(const Averages& averages, std::span<const WatchedNumber> watched) {
     if (averages.steps == 0 || averages.n_blocks < static_cast<std::int64_t>(fewest_blocks))
         return "none: " + reason_without_error({averages.temperature.value}, averages);
     std::vector<std::string_view> changing, uncertain;
@@ -146,7 +171,17 @@ std::string doubts_of_averages(const Averages& averages) {
             text.empty() ? "" : "; ",
             uncertain.size() == n_errors ? "" : fmt::format(" for {}", fmt::join(uncertain, ", ")),
             fewest_independent_samples);
+    if (const std::string changes = changes_of(watched); !changes.empty())
+        text += (text.empty() ? "" : "; ") + changes;
     return text;
+}
+
+std::string doubts_of_run(const RunResult& result) {
+    std::vector<std::string> all;
+    if (std::string text = doubts_of_averages(result.averages, result.watched); !text.empty())
+        all.push_back(std::move(text));
+    all.insert(all.end(), result.doubts_of_tables.begin(), result.doubts_of_tables.end());
+    return fmt::format("{}", fmt::join(all, "; "));
 }
 
 namespace {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "measure/order_watch.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "run/run.hpp"
@@ -27,12 +29,14 @@ struct RunResult {
     int threads = 1;         ///< per rank; the largest if ranks differ
     double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
     Averages averages;       ///< over the run, restarts included
-    std::vector<MeasuredTable> tables; ///< the measurements of the scene
-    RollbackCounts runs;               ///< in the event-driven method
-    PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
-    PhaseSeconds phase_imbalance;      ///< relative to the mean of all ranks
-    double imbalance = 1;              ///< this ratio for `busy_seconds`
-    double peak_bytes_per_disc = 0;    ///< the sum of the ranks' peaks, per disc
+    std::vector<WatchedNumber> watched; ///< order and energy, if they may change
+    std::vector<MeasuredTable> tables;  ///< the measurements of the scene
+    std::vector<std::string> doubts_of_tables;
+    RollbackCounts runs;            ///< in the event-driven method
+    PhaseSeconds phase_seconds;     ///< each on the rank where it took longest
+    PhaseSeconds phase_imbalance;   ///< relative to the mean of all ranks
+    double imbalance = 1;           ///< this ratio for `busy_seconds`
+    double peak_bytes_per_disc = 0; ///< the sum of the ranks' peaks, per disc
 };
 
 /// Fills in what the run has at its end. **Collective.**
@@ -64,8 +68,11 @@ double rejected_share(const RunResult& result);
 /// The reason why an average has no error; empty if it has one.
 std::string reason_without_error(const Estimate& estimate, const Averages& averages);
 /// One line on averages that are still changing, and on those whose errors rest on few
-/// independent samples; empty if there are none.
-std::string doubts_of_averages(const Averages& averages);
+/// independent samples; empty if there are none. Numbers that are watched may be among them.
+std::string doubts_of_averages(const Averages& averages,
+                               std::span<const WatchedNumber> watched = {});
+/// These doubts and those of measured tables, joined to one line.
+std::string doubts_of_run(const RunResult& result);
 
 /// An estimate of what a time-stepped run misses; docs/understanding/pressure.md has the formula.
 struct LostCollisions {

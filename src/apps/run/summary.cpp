@@ -177,7 +177,22 @@ std::string time_lines(const RunResult& result) {
     return text;
 }
 
-std::string average_lines(const SceneParameters& scene, const Averages& averages) {
+/// "psi6 = 0.207 +- 0.02, local_psi6 = 0.6 +- 0.001"
+std::string watched_text(const std::vector<WatchedNumber>& watched) {
+    std::string text;
+    for (const WatchedNumber& one : watched) {
+        Estimate estimate{one.mean.value, one.mean.error};
+        estimate.is_conserved = one.mean.is_constant;
+        estimate.is_changing = one.mean.is_changing;
+        estimate.first = one.quarters.front(), estimate.last = one.quarters.back();
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", one.name,
+                            estimate_text(estimate));
+    }
+    return text;
+}
+
+std::string average_lines(const SceneParameters& scene, const RunResult& result) {
+    const Averages& averages = result.averages;
     std::string text;
     if (averages.steps == 0) return text;
     if (!std::isnan(averages.collision_frequency.value))
@@ -194,7 +209,8 @@ std::string average_lines(const SceneParameters& scene, const Averages& averages
     if (!scene.effects.are_any())
         text += labelled_line("pressure", counted_pressure_text(averages));
     text += labelled_line("speeds", speeds_text(scene, averages));
-    const std::string doubts = doubts_of_averages(averages);
+    if (!result.watched.empty()) text += labelled_line("watched", watched_text(result.watched));
+    const std::string doubts = doubts_of_run(result);
     return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
@@ -224,7 +240,7 @@ std::string collision_lines(const SceneParameters& scene, const RunResult& resul
         fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step "
                     "(nu dt)",
                     end.wall_collisions, end.pair_collisions, collisions_per_disc(scene, result)));
-    text += average_lines(scene, result.averages) + method_line(scene, result);
+    text += average_lines(scene, result) + method_line(scene, result);
     text += labelled_line(
         "overlapping",
         fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the "

@@ -17,6 +17,7 @@
 #include "measure/followed_discs.hpp"
 #include "measure/hdf5_key.hpp"
 #include "measure/multiple_tau.hpp"
+#include "measure/waiting_times.hpp"
 #include "parallel/pieces.hpp"
 #include "statistics/blocking.hpp"
 
@@ -136,6 +137,7 @@ public:
         DiscId end = 0;
         for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
         if (ends_.empty()) ends_.push_back(run.scene.n_discs);
+        waiting_ = WaitingTimes(ends_.size() + 1);
     }
 
     void begin() override { discs_.begin(); }
@@ -178,17 +180,53 @@ public:
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
             for (FollowedStates& states : level) keep_states(kept, states);
+        if (kept.is_restored() && kept.is_at_end()) return; // stored by an earlier version
+        waiting_.keep(kept);
     }
 
     std::vector<MeasuredTable> tables() const override {
         std::vector<MeasuredTable> all = {table_of("correlations", ends_.size())};
         for (std::size_t kind = 0; ends_.size() > 1 && kind < ends_.size(); ++kind)
             all.push_back(table_of(fmt::format("correlations_{}", kind + 1), kind));
+        add_waiting_times(all);
         return all;
+    }
+
+    /// Of the last lag of each level, the one whose F_s depends most on the waiting time. Longer
+    /// lags have too few independent origins.
+    std::string doubt() const override {
+        WaitingTimes::Comparison most;
+        std::uint64_t length = 0;
+        for (std::size_t lag = scheme_.points() - 1; lag < lags_.size();
+             lag += scheme_.points() / 2) {
+            if (scheme_.lag(lag) * lags_per_run > n_samples_) break;
+            const WaitingTimes::Comparison one = waiting_.compare(lag, ends_.size(),
+                                                                  scheme_.lag(lag), n_samples_);
+            if (one.deviation > most.deviation) most = one, length = scheme_.lag(lag);
+        }
+        if (most.deviation < most_deviations) return {};
+        const auto steps = [&](std::uint64_t samples) {
+            return samples * static_cast<std::uint64_t>(run_.output.every_steps);
+        };
+        return fmt::format("F_s of {} steps depends on the waiting time: {:.3g} at first, and "
+                           "{:.3g} after {} steps or more; the discs age, or are not in "
+                           "equilibrium, and correlations_waiting shows how",
+                           steps(length), most.early, most.late, steps(most.late_from));
     }
 
 private:
     using Level = std::vector<FollowedStates>;
+    static constexpr std::uint64_t lags_per_run = 32;
+    static constexpr double most_deviations = 4; ///< chance exceeds that in one of some 300 runs
+
+    void add_waiting_times(std::vector<MeasuredTable>& all) const {
+        const auto add = [&](std::string name, std::size_t kind) {
+            all.push_back(waiting_.table(std::move(name), kind, scheme_, run_.output.every_steps));
+        };
+        add("correlations_waiting", ends_.size());
+        for (std::size_t kind = 0; ends_.size() > 1 && kind < ends_.size(); ++kind)
+            add(fmt::format("correlations_waiting_{}", kind + 1), kind);
+    }
 
     /// For each species and for all discs: the moments, and the square of the overlap.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
@@ -236,8 +274,10 @@ private:
         const std::uint64_t* next = words.data();
         for (const std::size_t lag : lags) {
             std::vector<double> values;
+            std::vector<MovedDiscs> moved;
             std::array<double, n_moments> all{};
-            const auto add = [&values](const std::array<double, n_moments>& totals, double n) {
+            const auto add = [&](const std::array<double, n_moments>& totals, double n) {
+                moved.push_back({totals[squares] / n, totals[waves] / n, totals[overlaps] / n});
                 for (const double total : totals) values.push_back(total / n);
                 values.push_back((totals[overlaps] / n) * (totals[overlaps] / n));
             };
@@ -250,6 +290,7 @@ private:
             }
             add(all, static_cast<double>(discs_.n_discs()));
             lags_[lag].add(values);
+            waiting_.add(lag, n_samples_ - scheme_.lag(lag), moved);
         }
     }
 
@@ -306,6 +347,7 @@ private:
     std::uint64_t n_samples_ = 0;
     std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
     std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
+    WaitingTimes waiting_;           ///< the same by the time before the origin
 };
 
 bool needs_another_box(const SceneParameters& s) {
@@ -338,7 +380,8 @@ MeasuredQuantity correlations_quantity() {
                  [](const SceneDraft& draft) {
                      if (!measures(draft.scene, "transport")) warn_without_lags(draft);
                  }},
-            make_measurement<Correlations>};
+            make_measurement<Correlations>,
+            {"correlations_waiting"}};
 }
 
 } // namespace carrom

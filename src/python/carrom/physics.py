@@ -103,6 +103,7 @@ def _averages(run: Run) -> dict[str, Any]:
         **{name: report.get(name) for name in ("temperature", "pressure", "compressibility")},
         **{f"pressure_{part}": tensor.get(part) for part in ("xx", "xy", "yy")},
         **report["averages"],
+        **report.get("watched", {}),
     }
 
 

@@ -42,13 +42,18 @@ void unwrap(std::vector<SeenFrame>& frames, double side) {
         }
 }
 
-/// What a row has from column "count" on, without errors, for ids from `begin` to `end`.
+constexpr int all_samples = last_sample + 1;
+
+/// What a row has from column "count" on, without errors, for ids from `begin` to `end` and origins
+/// from `first` to before `last`.
 std::vector<double> correlations_of(const std::vector<SeenFrame>& frames, int lag, int spacing,
-                                    int begin, int end, double k, double overlap) {
+                                    int begin, int end, double k, double overlap, int first = 0,
+                                    int last = all_samples) {
     double r2 = 0, r4 = 0, vv = 0, waves = 0, q = 0, q2 = 0;
     const double n = end - begin;
     int count = 0;
     for (int t = 0; t + lag < static_cast<int>(frames.size()); t += spacing) {
+        if (t < first || t >= last) continue;
         double near = 0;
         for (int i = begin; i < end; ++i) {
             const SeenDisc
@@ -105,7 +110,7 @@ TEST_CASE("measurements: correlations are those of frames, pair by pair") {
         }
         unwrap(frames, scene.box.x);
         const std::vector<MeasuredTable> tables = sampler.tables();
-        REQUIRE(tables.size() == 3);
+        REQUIRE(tables.size() == 6);
         const int ends[][2] = {{0, n_correlated}, {0, n_light}, {n_light, n_correlated}};
         for (std::size_t table = 0; table < 3; ++table) {
             INFO(tables[table].name);
@@ -125,6 +130,29 @@ TEST_CASE("measurements: correlations are those of frames, pair by pair") {
                 for (std::size_t k = 1; k < found.size(); ++k)
                     CHECK(found[k] == Approx(expected[k]).epsilon(1e-12).margin(1e-12));
             }
+            const MeasuredTable& waiting = tables[3 + table];
+            INFO(waiting.name);
+            double n_origins = 0;
+            for (const std::vector<double>& row : waiting.rows) {
+                const int from = static_cast<int>(row[0]) / sample_steps,
+                          to = static_cast<int>(row[1]) / sample_steps,
+                          lag = static_cast<int>(row[2]) / sample_steps;
+                CHECK(to == std::max(1, 2 * from));
+                int spacing = 1;
+                while (4 * spacing < lag) spacing *= 2;
+                const std::vector<double> expected = correlations_of(
+                    frames, lag, spacing, ends[table][0], ends[table][1], 0.7 / scene.radius,
+                    2 * scene.radius, from, to);
+                INFO(from << " " << lag);
+                CHECK(row[3] == expected[0]);
+                CHECK(row[4] == Approx(expected[1]).epsilon(1e-12));
+                CHECK(row[6] == Approx(expected[3]).epsilon(1e-12).margin(1e-12));
+                CHECK(row[8] == Approx(expected[5]).epsilon(1e-12).margin(1e-12));
+                n_origins += row[3];
+            }
+            double expected_origins = 0;
+            for (const std::vector<double>& row : tables[table].rows) expected_origins += row[1];
+            CHECK(n_origins == expected_origins);
         }
     }
 }

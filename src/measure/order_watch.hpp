@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Watches whether a run is still changing where its averages do not show it: psi6 of dense discs,
+// and the energy of discs that do not conserve it.
+//
+// A melting crystal has almost the pressure of the fluid, while its order falls by half. So psi6
+// is sampled in every run that is denser than `least_watched_packing`, or that measures it anyway.
+// Samples are at least the time apart in which discs at their usual speed go eight radii, and a
+// run as long as planned has some 32. They never exceed `most_samples`: at that number each second
+// one is dropped, and later ones are twice as far apart. Their times are not quite regular, so that
+// a periodic drive cannot look like a trend.
+//
+// Price of a sample of psi6: a microsecond for each of at most 4096 discs, and an exchange of the
+// halo. That is the time of some five collisions of each disc. Memory: 24 bytes a sample.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measure/measurement.hpp"
+#include "simulation/advance.hpp"
+#include "statistics/blocking.hpp"
+
+namespace carrom {
+
+/// A number that has been watched over the run.
+struct WatchedNumber {
+    std::string name; ///< "psi6": the modulus of its mean; "local_psi6": the mean modulus of
+                      ///< discs; "energy": of motion, rotation and height
+    SampledMean mean;
+    std::array<double, 4> quarters{}; ///< means over the quarters of the run; NaN if it is short
+};
+
+class OrderWatch : public StepAction {
+public:
+    static constexpr double least_watched_packing = 0.65;
+    static constexpr std::size_t most_samples = 64;
+
+    /// All arguments must outlive this.
+    OrderWatch(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
+    OrderWatch(const OrderWatch&) = delete;
+    OrderWatch& operator=(const OrderWatch&) = delete;
+
+    /// Begins at the present step if averages do, or goes on from a checkpoint. **Collective.**
+    void begin(std::span<const std::int64_t> stored = {});
+    std::int64_t next_due(std::int64_t step) const override;
+    bool act() override;
+    /// For a checkpoint; empty if nothing is watched.
+    std::vector<std::int64_t> stored();
+
+    std::vector<WatchedNumber> watched() const;
+
+private:
+    struct Sample {
+        double psi6 = 0, local = 0, energy = 0;
+    };
+
+    bool is_watching() const { return has_order_ || has_energy_; }
+    void start();
+    void keep(KeptNumbers& kept);
+    std::int64_t step_of_next() const;
+    Sample sampled() const;
+    WatchedNumber number(std::string name, double Sample::* one) const;
+
+    MeasuredRun run_;
+    bool has_order_, has_energy_, has_begun_ = false;
+    std::int64_t first_step_ = 0, interval_ = 1;
+    std::vector<Sample> samples_;
+};
+
+/// The means of the quarters of a series; NaN where it has fewer than eight terms.
+std::array<double, 4> quarters_of(std::span<const double> terms);
+
+} // namespace carrom
