@@ -56,10 +56,11 @@ std::unique_ptr<std::istream> open(const std::string& input) {
 
 /// Files that the options name. They are checked because a run must not end in a file
 /// that cannot be written, nor empty its own input.
-std::vector<NamedFile> named_by(const RunOptions& options) {
-    std::vector<NamedFile> destinations;
-    if (!options.output.empty()) destinations.push_back({"--output", options.output, true});
-    if (!options.report.empty()) destinations.push_back({"--report", options.report});
+std::vector<Destination> named_by(const RunOptions& options) {
+    std::vector<Destination> destinations;
+    if (!options.output.empty()) destinations.push_back({"--output", options.output, Output::text});
+    if (!options.report.empty())
+        destinations.push_back({"--report", options.report, Output::report});
     return destinations;
 }
 
