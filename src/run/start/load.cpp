@@ -231,6 +231,8 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     check_threads(tuning.threads, ranks);
+    const std::string crowded = warning_of_crowded_threads(tuning.threads, scene.n_discs, ranks);
+    if (!crowded.empty()) options.messages.warn("warning: {}\n", crowded);
     if (!loaded.start.stored)
         loaded.start.discs = first_discs(scene, source.stream.get(), ranks, tuning);
     warn_of_units(options, scene, loaded.start.discs, ranks);
