@@ -30,6 +30,7 @@ SceneLike = Union[Mapping[str, Any], str, "os.PathLike[str]"]
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _REMARK = "# --set "
 _DEEPEST = 64  # tables and lists in each other; the program takes no more than 256
+_LONG_KEY = re.compile(rf"(?<![\w-])(?:[\w-]+\s*\.\s*){{{_DEEPEST}}}")
 _NESTING = (list, tuple, Mapping)
 _TOO_DEEP = f"has tables or lists nested more than {_DEEPEST} deep, or in themselves"
 
@@ -203,13 +204,24 @@ def read_scene(scene: SceneLike) -> dict[str, Any]:
 def parsed(text: str, name: str, overrides: Iterable[str]) -> dict[str, Any]:
     """Read a scene's text, with overrides `key=value`. The name tells legacy text from TOML."""
     try:
-        known = {} if name.endswith(".in") or name == "-" else tomllib.loads(text)
+        known = {} if name.endswith(".in") or name == "-" else _loaded(text)
     except tomllib.TOMLDecodeError as error:
         raise FileError(f"{name}: {error}") from None
     except RecursionError:
         raise FileError(f"{name}: {_TOO_DEEP}") from None
     pairs = [line.partition("=") for line in overrides]
     return merged(known, {key: _value_of(word) for key, _, word in pairs})
+
+
+def _loaded(text: str) -> dict[str, Any]:
+    """Read TOML. The time that a key takes grows with the square of its dots.
+
+    Raises:
+        RecursionError: something is nested too deeply
+    """
+    if _LONG_KEY.search(text):
+        raise RecursionError
+    return tomllib.loads(text)
 
 
 def is_text(scene: object) -> bool:
@@ -227,7 +239,7 @@ def _file_text(path: Path) -> tuple[str, str]:
 def _value_of(word: str) -> Any:
     """Read the value of `--set key=value`, whose words need no quotes."""
     try:
-        return tomllib.loads(f"value = {word}")["value"]
+        return _loaded(f"value = {word}")["value"]
     except (tomllib.TOMLDecodeError, RecursionError):
         return word
 
@@ -305,7 +317,7 @@ def with_absolute_files(scene: dict[str, Any], beside: Path = Path()) -> dict[st
 
 def _absolute_file_words(text: str, words: list[str]) -> list[str]:
     try:
-        file = tomllib.loads(text).get("discs", {}).get("file")
+        file = _loaded(text).get("discs", {}).get("file")
     except (tomllib.TOMLDecodeError, AttributeError, RecursionError):
         return []  # the program reports it
     if not isinstance(file, str) or any(word.startswith("discs.file=") for word in words):
