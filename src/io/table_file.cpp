@@ -30,9 +30,9 @@ void check_tables(hid_t file) {
     h5::checked(H5Gget_info(file, &all), "cannot be listed");
     if (all.nlinks == 0) throw FileError("has no table");
     for (hsize_t k = 0; k < all.nlinks; ++k)
-        if (h5::checked(
-                H5Aexists_by_name(file, h5::name_of_link(file, k).c_str(), remarks_name, H5P_DEFAULT),
-                "cannot be read") == 0)
+        if (h5::checked(H5Aexists_by_name(file, h5::name_of_link(file, k).c_str(), remarks_name,
+                                          H5P_DEFAULT),
+                        "cannot be read") == 0)
             throw FileError("has what is no table");
 }
 

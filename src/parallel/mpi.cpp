@@ -62,9 +62,9 @@ void end_after_library() {
     if (exit_now == Exit::regular) return;
     if (exit_now == Exit::of_abort) std::_Exit(abort_code_now); // MPI has not come to its own end
     abort_all("error",
-              "MPI's or OpenMP's library has ended the program, perhaps with a message above; limits "
-              "of memory or of threads (ulimit -v, ulimit -u), or settings such as OMP_STACKSIZE "
-              "and GOMP_CPU_AFFINITY, may not fit this machine",
+              "MPI's or OpenMP's library has ended the program, perhaps with a message above; "
+              "limits of memory or of threads (ulimit -v, ulimit -u), or settings such as "
+              "OMP_STACKSIZE and GOMP_CPU_AFFINITY, may not fit this machine",
               static_cast<int>(ExitCode::collective_failure));
 }
 

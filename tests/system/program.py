@@ -72,7 +72,9 @@ class ProgramTest(unittest.TestCase):
         return [LAUNCHER, "-n", str(ranks), *past, *words]
 
     def run_program(self, ranks, *words, code=0, says=(), patience=120):
-        """Fails unless the run ends with this code, or one of these, and prints `says` as errors or messages."""
+        """Fails unless the run ends with this code, or one of these, and prints `says` as errors
+        or messages.
+        """
         names = [self.folder.parent / name for name in ("out", "err")]
         with open(names[0], "wb") as out, open(names[1], "wb") as err:
             ended = subprocess.run(self.command(ranks, words), cwd=self.folder, env=ENVIRONMENT,

@@ -12,7 +12,6 @@ import h5py
 from carrom.errors import FileError
 from carrom.plain import open_plain
 
-
 _MOST_OBJECTS = 100_000
 _DEEPEST_GROUP = 16
 _MOST_KNOWN = 10_000

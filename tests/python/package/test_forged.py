@@ -243,9 +243,7 @@ def with_storage_elsewhere(file: Any, place: Path, how: str) -> None:
     shape = file[POSITIONS].shape
     del file[POSITIONS]
     if how == "external":
-        file.create_dataset(
-            POSITIONS, shape, "f8", external=[(str(place), 0, h5py.h5f.UNLIMITED)]
-        )
+        file.create_dataset(POSITIONS, shape, "f8", external=[(str(place), 0, h5py.h5f.UNLIMITED)])
     elif how == "link":
         file[POSITIONS] = h5py.ExternalLink(str(place), "/x")
     else:

@@ -111,7 +111,8 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """Answer a request for the page, the state, curves or a frame."""
         self.server.note_use(self.connection)
-        if not _LOOPBACK.fullmatch(self.headers.get("Host", "")):  # a page of another site must not reach this one by its name
+        # A page of another site must not reach this one by its name.
+        if not _LOOPBACK.fullmatch(self.headers.get("Host", "")):
             self._answer(403, b"this page is for this machine only", "text/plain")
             return
         try:
