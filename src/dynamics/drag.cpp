@@ -2,6 +2,7 @@
 #include "dynamics/drag.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace carrom {
 
@@ -21,8 +22,10 @@ constexpr int most_halvings = 2100; ///< the product of the two largest doubles 
 struct Halving {
     Halving(double rate, double time) {
         for (; rate * time > 0.5 && count < most_halvings; time /= 2) ++count;
-        const double integral = short_integral(rate * time);
-        slowing = 1 - rate * time * integral;
+        const double z = rate * time,
+                     integral = z <= 0.5 ? short_integral(z)
+                                         : std::numeric_limits<double>::quiet_NaN();
+        slowing = 1 - z * integral;
         clock = time * integral;
     }
 
