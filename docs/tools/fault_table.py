@@ -33,7 +33,7 @@ FAULTS = {  # of a test: what it does, and how its output counts that
     "destinations": ("outputs named as files of a run, of replicas, or of another kind", RUNS),
     "special_files": ("pipes and sockets in the place of files, texts nested without end", RUNS),
     "sizes": ("radii from the tails of a distribution, and from narrow ones", RUNS),
-    "limits": ("limits and settings for which OpenMP or MPI ends a program", RUNS),
+    "machine_limits": ("limits and settings for which OpenMP or MPI ends a program", RUNS),
     "compare": ("wrong lines of students, numbers that no run has", RUNS),
     "python_sweeps": ("two sweeps in one folder, sweeps that are stopped", PYTEST),
     "python_forged": ("forged and damaged files, numbers kept in files of others", PYTEST),

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <set>
+#include <string_view>
 
 #include <fcntl.h>
 
@@ -143,14 +144,15 @@ void refuse_other_files(hid_t file, const std::string& path) {
             continue; // whoever needs it reports that it is not there
         try {
             const Descriptor plain(part, O_RDONLY);
-            const File opened(checked(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
-                                      "cannot be opened"));
+            const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
             if (!parts_named_in(opened.id()).empty())
                 throw FileError("has numbers in further files");
         } catch (const MachineError&) {
             throw;
         } catch (const FileError& error) {
-            throw FileError(fmt::format("its part {}: {}", name, error.what()));
+            const bool is_damaged = std::string_view(error.what()).starts_with("is damaged");
+            throw FileError(fmt::format("its part {}: {}", name,
+                                        is_damaged ? "its structure is damaged" : error.what()));
         }
     }
 }

@@ -31,6 +31,8 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
+/// Threads for each core where ranks share cores. A few are usual in trials on small machines.
+constexpr int most_crowded = 4;
 /// With fewer discs a thread works mostly on copies of discs of others. Two threads are no matter.
 constexpr std::uint64_t least_discs_per_thread = 16, few_threads = 2;
 
@@ -196,11 +198,6 @@ int default_threads(const Communicator& ranks) {
     return asked > 0 ? asked : std::max(1, mine.count / sharers);
 }
 
-int cores_per_rank(const Communicator& ranks) {
-    // Where threads are bound, only OpenMP knows the cores that they may use together.
-    return std::max(1, omp_get_num_procs() / sharers_of(allowed_cores().key, ranks));
-}
-
 void check_threads(int threads, const Communicator& ranks) {
     std::string failure;
     const std::size_t stack = stack_of_threads();
@@ -217,15 +214,19 @@ void check_threads(int threads, const Communicator& ranks) {
 
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks) {
-    const int cores = cores_per_rank(ranks);
+    // Where threads are bound, only OpenMP knows the cores that they may use together.
+    const int cores = std::max(1, omp_get_num_procs());
+    const int sharers = sharers_of(allowed_cores().key, ranks);
     const std::uint64_t own = n_discs / static_cast<std::uint64_t>(ranks.size());
     const auto useful = static_cast<int>(
         std::clamp<std::uint64_t>(own / least_discs_per_thread, few_threads, most_threads));
-    const int best = std::min(cores, useful);
+    const int best = std::min(std::max(1, cores / sharers), useful);
     const std::string advice = "; try: --threads " + std::to_string(best);
-    if (threads > cores)
-        return std::to_string(threads) + " threads of a rank share " + std::to_string(cores) +
-               (cores == 1 ? " core" : " cores") + ", and wait for each other" + advice;
+    if (threads > cores || (threads > best && threads * sharers > most_crowded * cores))
+        return std::to_string(threads) + " threads" +
+               (sharers > 1 ? " of each of " + std::to_string(sharers) + " ranks" : std::string{}) +
+               " share " + std::to_string(cores) + (cores == 1 ? " core" : " cores") +
+               ", and wait for each other" + advice;
     if (threads > useful)
         return std::to_string(threads) + " threads share the " + std::to_string(own) +
                " discs of a rank, and wait for each other longer than they work" + advice;
