@@ -30,10 +30,14 @@ FAULTS = {  # of a test: what it does, and how its output counts that
     "shared_places": ("two runs in one folder, links in the place of files", RUNS),
     "checkpoint_failure_all": ("full disks, short writes, no threads for a checkpoint", RUNS),
     "output_failure": ("outputs that cannot be written", RUNS),
+    "destinations": ("outputs named as files of a run, of replicas, or of another kind", RUNS),
+    "special_files": ("pipes and sockets in the place of files, texts nested without end", RUNS),
+    "sizes": ("radii from the tails of a distribution, and from narrow ones", RUNS),
+    "machine_limits": ("limits and settings for which OpenMP or MPI ends a program", RUNS),
     "compare": ("wrong lines of students, numbers that no run has", RUNS),
     "python_sweeps": ("two sweeps in one folder, sweeps that are stopped", PYTEST),
-    "python_forged": ("forged and damaged files for Python's readers", PYTEST),
-    "watch": ("idle and wrong connections, damaged files for the watch server", WATCH),
+    "python_forged": ("forged and damaged files, numbers kept in files of others", PYTEST),
+    "watch": ("idle and wrong connections, clients that go, hostile files for the watch server", WATCH),
 }
 GROUPS = {  # tests whose names begin so: what they do together
     "one rank leaves: ": "one rank of three returns, or throws an error",
@@ -72,8 +76,10 @@ def main() -> None:
     for test, (what, count) in FAULTS.items():
         if test in found:
             outcome, output = found[test]
-            trials = re.search(count, output)
-            number = trials.group(1) if trials else "unknown"
+            trials = [int(number) for number in re.findall(count, output)]
+            if count != WATCH:  # which is printed by each of its files
+                trials = trials[:1]
+            number = str(sum(trials)) if trials else "unknown"
             rows.append([what, number, outcome, f"ctest -C long -R '^{test}$'"])
     for begin, what in GROUPS.items():
         ends = [outcome for test, (outcome, _) in found.items() if test.startswith(begin)]

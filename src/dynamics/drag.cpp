@@ -2,6 +2,7 @@
 #include "dynamics/drag.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace carrom {
 
@@ -14,20 +15,39 @@ double short_integral(double z) {
     return sum;
 }
 
+constexpr int most_halvings = 2100; ///< the product of the two largest doubles needs fewer
+
+/// A time that was halved until the series serves for it, and what drag does until then. Of an
+/// infinite time or rate the results are no numbers.
+struct Halving {
+    Halving(double rate, double time) {
+        for (; rate * time > 0.5 && count < most_halvings; time /= 2) ++count;
+        const double z = rate * time,
+                     integral = z <= 0.5 ? short_integral(z)
+                                         : std::numeric_limits<double>::quiet_NaN();
+        slowing = 1 - z * integral;
+        clock = time * integral;
+    }
+
+    int count = 0;
+    double slowing = 1, clock = 0;
+};
+
 } // namespace
 
 double drag_slowing(double rate, double time) {
-    const double z = rate * time;
-    if (z <= 0.5) return 1 - z * short_integral(z);
-    const double half = drag_slowing(rate, time / 2);
-    return half * half;
+    const Halving halving(rate, time);
+    double slowing = halving.slowing;
+    for (int k = 0; k < halving.count; ++k) slowing *= slowing;
+    return slowing;
 }
 
 double drag_clock(double rate, double time) {
-    const double z = rate * time;
-    if (z <= 0.5) return time * short_integral(z);
-    // s(t) = s(t/2) (1 + exp(-c t/2)) avoids subtracting like numbers.
-    return drag_clock(rate, time / 2) * (1 + drag_slowing(rate, time / 2));
+    const Halving halving(rate, time);
+    double slowing = halving.slowing, clock = halving.clock;
+    for (int k = 0; k < halving.count; ++k, slowing *= slowing)
+        clock *= 1 + slowing; // s(t) = s(t/2) (1 + exp(-c t/2)): no like numbers are subtracted
+    return clock;
 }
 
 double time_of_drag_clock(double rate, double clock) {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/errors.hpp"
+#include "core/plain_file.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/exchange.hpp"
 #include "scene/disc_reader.hpp"
@@ -63,7 +64,7 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
                                                   const Communicator& communicator, int n_threads) {
     const std::uint64_t n_bytes = bytes_of_file(scene, communicator);
     if (n_bytes == 0) return std::nullopt;
-    std::ifstream file(discs_path(scene), std::ios::binary);
+    std::ifstream file = open_plain_file(discs_path(scene));
     if (communicator.any(!file)) return std::nullopt;
     DiscReader reader(file, scene, go_to_part(file, n_bytes, communicator));
     const Slab share = share_of(scene, communicator);

@@ -4,6 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
+#include <string_view>
+
+#include <fcntl.h>
+
+#include <fmt/format.h>
 
 #include "io/files.hpp"
 
@@ -58,7 +64,98 @@ void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_p
     if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
 }
 
+/// Carrom's files have some dozen links, and tables a column each.
+constexpr std::size_t most_objects = 100000, deepest_group = 16;
+
+/// Returns the result of a call that fails for damaged files only.
+template <class Result> Result sound(Result result, const std::string& name) {
+    return checked(result, "is damaged: " + name);
+}
+
+/// The files that a data set names as its parts; throws if it has external storage.
+void add_parts_of(hid_t dataset, const std::string& name, std::set<std::string>& parts) {
+    const Properties creation(sound(H5Dget_create_plist(dataset), name));
+    if (H5Pget_external_count(creation.id()) != 0)
+        throw FileError(name + " has its numbers in a file of another kind, which is not opened");
+    if (H5Pget_layout(creation.id()) != H5D_VIRTUAL) return;
+    std::size_t n_parts = 0;
+    sound(H5Pget_virtual_count(creation.id(), &n_parts), name);
+    for (std::size_t k = 0; k < n_parts; ++k) {
+        std::string file(longest_path, '\0');
+        sound(H5Pget_virtual_filename(creation.id(), k, file.data(), file.size()), name);
+        parts.insert(file.c_str());
+    }
+}
+
+/// The files that all data sets of a file name as their parts. Groups wait in a list, so that no
+/// stack grows with the file. Soft links lead to what is found by another link, too.
+std::set<std::string> parts_named_in(hid_t file) {
+    std::set<std::string> parts;
+    struct Waiting {
+        std::string path;
+        std::size_t depth;
+    };
+    std::vector<Waiting> groups = {{"/", 0}};
+    for (std::size_t n_objects = 0; !groups.empty();) {
+        const Waiting next = std::move(groups.back());
+        groups.pop_back();
+        const Group group(sound(H5Gopen2(file, next.path.c_str(), H5P_DEFAULT), next.path));
+        H5G_info_t all{};
+        sound(H5Gget_info(group.id(), &all), next.path);
+        n_objects += all.nlinks;
+        if (next.depth > deepest_group || n_objects > most_objects)
+            throw FileError("has more groups and data sets than this program writes");
+        for (hsize_t k = 0; k < all.nlinks; ++k) {
+            const std::string name = name_of_link(group.id(), k), path = next.path + name;
+            H5L_info_t link{};
+            sound(H5Lget_info(group.id(), name.c_str(), &link, H5P_DEFAULT), path);
+            if (link.type == H5L_TYPE_SOFT) continue;
+            if (link.type != H5L_TYPE_HARD) throw FileError(path + " is a link to another file");
+            const Object object(sound(H5Oopen(group.id(), name.c_str(), H5P_DEFAULT), path));
+            const H5I_type_t kind = H5Iget_type(object.id());
+            if (kind == H5I_DATASET) add_parts_of(object.id(), path, parts);
+            if (kind == H5I_GROUP) groups.push_back({path + '/', next.depth + 1});
+        }
+    }
+    return parts;
+}
+
 } // namespace
+
+std::string name_of_link(hid_t group, hsize_t number) {
+    std::string name(longest_path, '\0');
+    const ssize_t length = checked(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC,
+                                                      number, name.data(), name.size(),
+                                                      H5P_DEFAULT),
+                                   "is damaged: a name cannot be read");
+    if (static_cast<std::size_t>(length) >= name.size()) throw FileError("has a name too long");
+    name.resize(static_cast<std::size_t>(length));
+    return name;
+}
+
+void refuse_other_files(hid_t file, const std::string& path) {
+    for (const std::string& name : parts_named_in(file)) {
+        const std::filesystem::path relative = name;
+        const bool leads_out = relative.is_absolute() ||
+                               std::find(relative.begin(), relative.end(), "..") != relative.end();
+        if (leads_out) throw FileError(name + " is named as a part, and is not below its folder");
+        const std::string part = (std::filesystem::path(folder_of(path)) / relative).string();
+        if (std::error_code error; !std::filesystem::exists(part, error) && !error)
+            continue; // whoever needs it reports that it is not there
+        try {
+            const Descriptor plain(part, O_RDONLY);
+            const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
+            if (!parts_named_in(opened.id()).empty())
+                throw FileError("has numbers in further files");
+        } catch (const MachineError&) {
+            throw;
+        } catch (const FileError& error) {
+            const bool is_damaged = std::string_view(error.what()).starts_with("is damaged");
+            throw FileError(fmt::format("its part {}: {}", name,
+                                        is_damaged ? "its structure is damaged" : error.what()));
+        }
+    }
+}
 
 void check_storage(const Dataset& dataset, const std::string& name) {
     const Properties creation(checked(H5Dget_create_plist(dataset.id()), name));

@@ -20,6 +20,14 @@ using Shape = std::vector<std::optional<hsize_t>>;
 Dataset open_checked(hid_t parent, const std::string& name,
                      const std::optional<Shape>& shape = std::nullopt);
 
+/// The name of a link of a group, by its place in the order of names. Throws FileError.
+std::string name_of_link(hid_t group, hsize_t number);
+
+/// Throws FileError if any numbers of a file lie outside it, except in plain files below its
+/// folder that hold all of their own. HDF5 would open whatever such a file names, wait for a pipe
+/// and return the bytes of any file as numbers.
+void refuse_other_files(hid_t file, const std::string& path);
+
 /// The number of entries of an ascending column that are <= `last`.
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last);
 

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include <fcntl.h>
+
 #include "io/checked_dataset.hpp"
 #include "io/files.hpp"
 #include "io/start_io.hpp"
@@ -171,10 +173,13 @@ void create_file(const std::string& path, const std::function<void(hid_t file)>&
 
 File open_file(const std::string& path, Access access) {
     be_quiet();
+    const Descriptor plain(path, O_RDONLY); // HDF5 would wait for the other end of a pipe
     if (H5Fis_hdf5(path.c_str()) == 0)
         throw FileError("is no HDF5 file, so none that carrom has written");
     try {
-        return opened(path, access, H5P_DEFAULT);
+        File file = opened(path, access, H5P_DEFAULT);
+        if (access == Access::read) refuse_other_files(file.id(), path);
+        return file;
     } catch (const FileError& error) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
         throw FileError("is cut short, or its first bytes are damaged");

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 
+#include "io/checked_dataset.hpp"
 #include "io/child_process.hpp"
 #include "io/files.hpp"
 #include "io/hdf5.hpp"
@@ -12,19 +13,6 @@ namespace carrom {
 namespace {
 
 constexpr const char* remarks_name = "remarks";
-constexpr std::size_t longest_name = 1000;
-
-/// Fails for names that no table has.
-std::string name_of_link(hid_t group, hsize_t number) {
-    std::string name(longest_name, '\0');
-    const ssize_t length = h5::checked(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC,
-                                                          number, name.data(), name.size(),
-                                                          H5P_DEFAULT),
-                                       "a name cannot be read");
-    if (static_cast<std::size_t>(length) >= name.size()) throw FileError("has a name too long");
-    name.resize(static_cast<std::size_t>(length));
-    return name;
-}
 
 void write_table(hid_t file, const MeasuredTable& table) {
     const h5::Group group = h5::create_group(file, table.name);
@@ -42,9 +30,9 @@ void check_tables(hid_t file) {
     h5::checked(H5Gget_info(file, &all), "cannot be listed");
     if (all.nlinks == 0) throw FileError("has no table");
     for (hsize_t k = 0; k < all.nlinks; ++k)
-        if (h5::checked(
-                H5Aexists_by_name(file, name_of_link(file, k).c_str(), remarks_name, H5P_DEFAULT),
-                "cannot be read") == 0)
+        if (h5::checked(H5Aexists_by_name(file, h5::name_of_link(file, k).c_str(), remarks_name,
+                                          H5P_DEFAULT),
+                        "cannot be read") == 0)
             throw FileError("has what is no table");
 }
 

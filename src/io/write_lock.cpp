@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -59,9 +60,15 @@ WriteLock::WriteLock(WriteLock&& other) noexcept
 /// Returns true if there is nothing to wait for.
 bool WriteLock::try_once() {
     holder_.clear();
-    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    const int file = ::open(path_.c_str(),
+                            O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (file < 0) {
         problem_ = fmt::format("{} cannot be opened: {}", path_, std::strerror(errno));
+        return true;
+    }
+    if (struct stat status{}; ::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+        problem_ = path_ + " is not a plain file";
+        ::close(file);
         return true;
     }
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {

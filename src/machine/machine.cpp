@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <climits>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,9 +14,10 @@
 #include <limits>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <vector>
 
+#include <omp.h>
+#include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -28,6 +31,10 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
+/// Threads for each core where ranks share cores. A few are usual in trials on small machines.
+constexpr int most_crowded = 4;
+/// With fewer discs a thread works mostly on copies of discs of others. Two threads are no matter.
+constexpr std::uint64_t least_discs_per_thread = 16, few_threads = 2;
 
 /// A batch script may set it from a variable that does not exist; then it counts as unset.
 std::string thread_variable() {
@@ -96,6 +103,56 @@ std::uint64_t memory_of_control_group() {
     return least;
 }
 
+/// The stack that OpenMP gives each of its threads, in bytes, if the environment says it; else 0.
+/// Its format is a number, and B, K, M or G; K without any.
+std::size_t stack_of_threads() {
+    for (const char* name : {"OMP_STACKSIZE", "GOMP_STACKSIZE"}) {
+        const char* const text = std::getenv(name);
+        if (text == nullptr) continue;
+        char* end = nullptr;
+        const double number = std::strtod(text, &end);
+        const std::size_t unit = std::string_view("bBkKmMgG").find(*end);
+        const int power = *end == '\0' || unit == std::string_view::npos
+                              ? 1
+                              : static_cast<int>(unit / 2);
+        const double bytes = std::ldexp(number, 10 * power);
+        return bytes >= PTHREAD_STACK_MIN && bytes < 0x1p62 ? static_cast<std::size_t>(bytes) : 0;
+    }
+    return 0;
+}
+
+/// Threads that do nothing until all of them have started, or one could not.
+class WaitingThreads {
+public:
+    /// A `stack` of 0 bytes is the system's.
+    WaitingThreads(int n, std::size_t stack) {
+        pthread_attr_t attributes;
+        pthread_attr_init(&attributes);
+        if (stack > 0) pthread_attr_setstacksize(&attributes, stack);
+        const auto wait = [](void* latch) -> void* {
+            static_cast<std::latch*>(latch)->wait();
+            return nullptr;
+        };
+        for (pthread_t thread{}; count() < n;) {
+            if (pthread_create(&thread, &attributes, wait, &may_end_) != 0) break;
+            threads_.push_back(thread);
+        }
+        pthread_attr_destroy(&attributes);
+    }
+    ~WaitingThreads() {
+        may_end_.count_down();
+        for (const pthread_t thread : threads_) pthread_join(thread, nullptr);
+    }
+    WaitingThreads(const WaitingThreads&) = delete;
+    WaitingThreads& operator=(const WaitingThreads&) = delete;
+
+    int count() const { return static_cast<int>(threads_.size()); }
+
+private:
+    std::latch may_end_{1};
+    std::vector<pthread_t> threads_;
+};
+
 struct AllowedCores {
     int count = 1;
     std::uint64_t key = 0; ///< equal on two ranks that may use the very same cores of the same node
@@ -143,18 +200,37 @@ int default_threads(const Communicator& ranks) {
 
 void check_threads(int threads, const Communicator& ranks) {
     std::string failure;
-    std::latch may_end(1);
-    std::vector<std::jthread> others; // joined at the end
-    try {
-        for (int k = 1; k < threads; ++k) others.emplace_back([&may_end] { may_end.wait(); });
-    } catch (const std::system_error&) {
-        failure = "rank " + std::to_string(ranks.rank()) + " can start " +
-                  std::to_string(others.size() + 1) + " of its " + std::to_string(threads) +
-                  " threads only; take fewer by --threads, or raise the limits of threads and "
-                  "memory (ulimit -u, ulimit -v)";
-    }
-    may_end.count_down();
+    const std::size_t stack = stack_of_threads();
+    if (const int started = 1 + WaitingThreads(threads - 1, stack).count(); started < threads)
+        failure = "rank " + std::to_string(ranks.rank()) + " can start " + std::to_string(started) +
+                  " of its " + std::to_string(threads) + " threads only" +
+                  (stack > 0 ? ", with stacks of " + std::to_string(stack) +
+                                   " bytes (OMP_STACKSIZE, take less)"
+                             : std::string{}) +
+                  "; take fewer by --threads, or raise the limits of threads and memory "
+                  "(ulimit -u, ulimit -v)";
     agree(ranks, failure.empty(), failure);
+}
+
+std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
+                                       const Communicator& ranks) {
+    // Where threads are bound, only OpenMP knows the cores that they may use together.
+    const int cores = std::max(1, omp_get_num_procs());
+    const int sharers = sharers_of(allowed_cores().key, ranks);
+    const std::uint64_t own = n_discs / static_cast<std::uint64_t>(ranks.size());
+    const auto useful = static_cast<int>(
+        std::clamp<std::uint64_t>(own / least_discs_per_thread, few_threads, most_threads));
+    const int best = std::min(std::max(1, cores / sharers), useful);
+    const std::string advice = "; try: --threads " + std::to_string(best);
+    if (threads > cores || (threads > best && threads * sharers > most_crowded * cores))
+        return std::to_string(threads) + " threads" +
+               (sharers > 1 ? " of each of " + std::to_string(sharers) + " ranks" : std::string{}) +
+               " share " + std::to_string(cores) + (cores == 1 ? " core" : " cores") +
+               ", and wait for each other" + advice;
+    if (threads > useful)
+        return std::to_string(threads) + " threads share the " + std::to_string(own) +
+               " discs of a rank, and wait for each other longer than they work" + advice;
+    return {};
 }
 
 std::string warning_of_thread_variable() {

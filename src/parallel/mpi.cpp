@@ -31,8 +31,15 @@ constexpr int abort_code = 70;
 int world_rank = 0;          // kept, so that any thread may print it without calling MPI
 bool is_mpi_running = false; // kept for handlers of signals
 
+/// What an exit of this process means.
+enum class Exit { regular, of_library, of_abort };
+std::atomic<Exit> exit_now = Exit::regular;
+std::atomic<int> abort_code_now = 0;
+
 /// Ends all ranks, or this process if MPI does not run.
 [[noreturn]] void end_all(int code) {
+    abort_code_now = code;
+    exit_now = Exit::of_abort;
     if (is_mpi_running) MPI_Abort(MPI_COMM_WORLD, code);
     std::_Exit(code);
 }
@@ -47,6 +54,18 @@ bool is_mpi_running = false; // kept for handlers of signals
 
 void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
+}
+
+/// OpenMP's and MPI's libraries end a process by `exit` with codes of their own, 1 and 2, which are
+/// those of a difference and of a wrong input here.
+void end_after_library() {
+    if (exit_now == Exit::regular) return;
+    if (exit_now == Exit::of_abort) std::_Exit(abort_code_now); // MPI has not come to its own end
+    abort_all("error",
+              "MPI's or OpenMP's library has ended the program, perhaps with a message above; "
+              "limits of memory or of threads (ulimit -v, ulimit -u), or settings such as "
+              "OMP_STACKSIZE and GOMP_CPU_AFFINITY, may not fit this machine",
+              static_cast<int>(ExitCode::collective_failure));
 }
 
 /// The memory may be missing on any thread, in a parallel region, which exceptions must not leave.
@@ -140,6 +159,10 @@ void abort_on_errors_of(MPI_Comm comm) {
     MPI_Errhandler_free(&handler);
 }
 
+void guard_exit() {
+    if (std::atexit(end_after_library) == 0) exit_now = Exit::of_library;
+}
+
 bool has_mpi_started() {
     int has_started = 0;
     MPI_Initialized(&has_started);
@@ -212,6 +235,7 @@ Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 Mpi::~Mpi() {
     if (is_mpi_running && !has_mpi_ended()) MPI_Finalize(); // the program may have ended MPI
     is_mpi_running = false;
+    exit_now = Exit::regular;
 }
 
 int run_on_all(const Communicator& communicator,

@@ -11,6 +11,10 @@
 
 namespace carrom {
 
+/// Until `Mpi` ends, all ranks end with code 3 and a message if a library calls `exit`, as OpenMP's
+/// and MPI's do where they have too little memory. To be called by a program before `Mpi` begins.
+void guard_exit();
+
 /// Holds MPI open. Only the thread that made it talks to other ranks (MPI_THREAD_FUNNELED,
 /// checked). From then on an MPI error or a failed `ensure` prints rank and text and aborts all
 /// ranks; where memory runs out, on any thread, the code is 3. One per program.

@@ -147,6 +147,22 @@ void check_sizes(const SceneDraft& draft) {
     check_width(draft, smallest);
 }
 
+/// Why no radii lie between the limits of a distribution, or empty.
+std::string problem_of_limits(const SizeDistribution& sizes) {
+    const auto [smallest, largest] = size_limits(sizes);
+    if (!(smallest > 0 && smallest <= largest))
+        return fmt::format("radii from {:.4g} to {:.4g} times the mean: the smallest must be "
+                           "positive and not above the largest; set discs.radius.smallest, or a "
+                           "smaller polydispersity",
+                           smallest, largest);
+    const double share = share_within_limits(sizes);
+    if (share >= smallest_share) return {};
+    return fmt::format("radii from {:.10g} to {:.10g} times the mean hold {:.2g} of a distribution "
+                       "of polydispersity {:g}, and must hold at least {:g} of it; try: "
+                       "discs.radius.smallest below 1, the mean, and discs.radius.largest above",
+                       smallest, largest, share, sizes.polydispersity, smallest_share);
+}
+
 /// Whether radii can follow the distribution: its limits are in order and not too small.
 bool check_distribution(const SceneDraft& draft) {
     const SizeDistribution& sizes = *draft.scene.sizes;
@@ -168,13 +184,10 @@ bool check_distribution(const SceneDraft& draft) {
     if (!has_mean && !has_packing)
         draft.refuse({}, "'discs.radius.mean' is missing, or 'discs.packing', which gives it");
     if (!is_alone || has_mean == has_packing) return false;
-    const auto [smallest, largest] = size_limits(sizes);
-    if (smallest > 0 && smallest <= largest) return true;
+    const std::string text = problem_of_limits(sizes);
+    if (text.empty()) return true;
     draft.refuse({"discs.radius.smallest", "discs.radius.largest", "discs.radius.polydispersity"},
-                 fmt::format("radii from {:.4g} to {:.4g} times the mean: the smallest must be "
-                             "positive and not above the largest; set discs.radius.smallest, "
-                             "or a smaller polydispersity",
-                             smallest, largest));
+                 text);
     return false;
 }
 
@@ -198,6 +211,11 @@ bool fill_sizes(const SceneDraft& draft) {
         if (!check_distribution(draft)) return false;
         scene.effects.species = species_of_sizes(*scene.sizes, scene.n_discs,
                                                  packing * scene.box.area());
+        for (const Species* one : {&scene.effects.species.front(), &scene.effects.species.back()})
+            if (const std::string text = body_problem(one->radius, one->mass); !text.empty()) {
+                draft.refuse_first(size_keys, "of the distribution of radii " + text);
+                return false;
+            }
     } else if (has_packing) {
         scene.radius = std::sqrt(scene.box.area()) *
                        std::sqrt(packing / (static_cast<double>(scene.n_discs) * std::numbers::pi));

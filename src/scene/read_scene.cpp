@@ -2,14 +2,13 @@
 #include "scene/read_scene.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <limits>
 #include <sstream>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "core/plain_file.hpp"
 #include "scene/checked_scene.hpp"
 #include "scene/legacy_header.hpp"
 #include "scene/line_reader.hpp"
@@ -72,16 +71,12 @@ bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
 } // namespace
 
 std::ifstream open_input(const std::string& path) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    if (std::filesystem::is_directory(status)) refuse(path, 0, "is a directory, not a file");
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        refuse(path, 0,
-               "is not a plain file; the legacy text format from a pipe or a device is read from "
-               "standard input, as in `carrom run -`");
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) refuse(path, 0, "cannot be opened: " + std::generic_category().message(errno));
+    OpenProblem problem;
+    std::ifstream stream = open_plain_file(path, problem);
+    if (problem.is_special)
+        problem.text += "; the legacy text format from a pipe or a device is read from standard "
+                        "input, as in `carrom run -`";
+    if (!problem.text.empty()) refuse(path, 0, problem.text);
     return stream;
 }
 

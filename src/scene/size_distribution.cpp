@@ -12,6 +12,11 @@ namespace carrom {
 namespace {
 
 constexpr double widest_deviations = 3; ///< from the middle to the limits
+/// Cells that are as wide as a range of so many deviations would be too coarse for the density, so
+/// the range is cut where nothing of the distribution is left.
+constexpr double widest_range = 64, end_of_density = 12;
+/// Below it the square of the polydispersity loses too many digits when 1 is added.
+constexpr double narrow = 0x1p-13;
 
 /// e to the power of x.
 double exponential(double x) { return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x); }
@@ -33,10 +38,12 @@ struct Measure {
     double middle = 1, deviation = 0;
     bool is_logarithm = false, is_flat = false;
 
+    /// Deviations from the middle.
+    double score(double x) const { return (x - middle) / deviation; }
     double of_radius(double radius) const { return is_logarithm ? logarithm(radius) : radius; }
     double radius_of(double x) const { return is_logarithm ? exponential(x) : x; }
     double density(double x) const {
-        const double z = (x - middle) / deviation;
+        const double z = score(x);
         return is_flat ? 1 : exponential(-z * z / 2);
     }
 };
@@ -44,15 +51,25 @@ struct Measure {
 Measure measure_of(const SizeDistribution& sizes) {
     const double s = sizes.polydispersity;
     if (sizes.kind != SizeKind::lognormal) return {1, s, false, sizes.kind == SizeKind::uniform};
-    const double variance = logarithm(1 + s * s); // of the logarithm; its mean makes radii's 1
+    // The variance is that of the logarithm; with this middle the mean of the radii is 1.
+    if (s < narrow) { // by the series of log(1 + s^2)
+        const double per_square = 1 - s * s * (0.5 - s * s / 3);
+        return {-s * s * per_square / 2, s * std::sqrt(per_square), true, false};
+    }
+    const double variance = logarithm(1 + s * s);
     return {-variance / 2, std::sqrt(variance), true, false};
+}
+
+/// From the middle to where the distribution ends by default.
+double reach_of(const SizeDistribution& sizes) {
+    return sizes.kind == SizeKind::uniform ? std::sqrt(3.0) : widest_deviations;
 }
 
 } // namespace
 
 SizeLimits size_limits(const SizeDistribution& sizes) {
     const Measure measure = measure_of(sizes);
-    const double reach = sizes.kind == SizeKind::uniform ? std::sqrt(3.0) : widest_deviations;
+    const double reach = reach_of(sizes);
     const double low = measure.radius_of(measure.middle - reach * measure.deviation),
                  high = measure.radius_of(measure.middle + reach * measure.deviation);
     // A uniform distribution ends by itself; wider limits would change its deviation.
@@ -62,11 +79,30 @@ SizeLimits size_limits(const SizeDistribution& sizes) {
     return {sizes.smallest.value_or(low), sizes.largest.value_or(high)};
 }
 
+double share_within_limits(const SizeDistribution& sizes) {
+    const auto [smallest, largest] = size_limits(sizes);
+    if (sizes.polydispersity == 0) return smallest <= 1 && 1 <= largest ? 1 : 0;
+    const Measure measure = measure_of(sizes);
+    const double reach = reach_of(sizes);
+    const auto score = [&measure](const std::optional<double>& limit, double otherwise) {
+        return limit ? measure.score(measure.of_radius(*limit)) : otherwise;
+    };
+    const double low = score(sizes.smallest, -reach), high = score(sizes.largest, reach);
+    if (measure.is_flat) return (std::min(high, reach) - std::max(low, -reach)) / (2 * reach);
+    // Of the two tails the smaller ones are subtracted, because they keep their digits.
+    const auto tail = [](double z) { return std::erfc(z / std::numbers::sqrt2) / 2; };
+    return low > 0 ? tail(low) - tail(high) : tail(-high) - tail(-low);
+}
+
 std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n) {
     if (sizes.polydispersity == 0) return std::vector<double>(n, 1.0);
     const Measure measure = measure_of(sizes);
     const SizeLimits limits = size_limits(sizes);
-    const double low = measure.of_radius(limits.smallest), high = measure.of_radius(limits.largest);
+    double low = measure.of_radius(limits.smallest), high = measure.of_radius(limits.largest);
+    if (high - low > widest_range * measure.deviation) {
+        low = std::max(low, measure.middle - end_of_density * measure.deviation);
+        high = std::min(high, measure.middle + end_of_density * measure.deviation);
+    }
     const std::size_t n_cells = 32 * n + 16384;
     const double width = (high - low) / static_cast<double>(n_cells);
     std::vector<double> up_to(n_cells + 1); // the density's integral, by Simpson's rule

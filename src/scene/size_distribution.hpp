@@ -6,7 +6,8 @@
 // velocities only; a thousand parts tell a distribution from its limit by less than a thousandth.
 // Each disc's radius and mass are found by its id, 2 bytes a disc on every rank (species.hpp).
 //
-// + - * / and sqrt only: the same bits on every machine.
+// Quantiles come from a sum of the density, with + - * / and sqrt only: the same bits on every
+// machine. Those of a library would differ with its error function, and so would radii.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +39,15 @@ struct SizeLimits {
 };
 SizeLimits size_limits(const SizeDistribution& sizes);
 
+/// The probability of a radius between the limits, which are positive and in order. It uses the C
+/// library's error function, so it serves for checks only.
+double share_within_limits(const SizeDistribution& sizes);
+
+/// Limits must hold at least this share of a distribution; so its density does not vanish there.
+constexpr double smallest_share = 1e-12;
+
 /// The radii in the middle of `n` parts of equal probability, rising, in units of the mean. The
-/// limits must be positive and in order. Cost: some 1e6 operations.
+/// limits must be positive, in order, and hold `smallest_share`. Cost: some 1e6 operations.
 std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n);
 
 /// Species for so many discs, from the smallest to the largest. Where `sizes` has no mean, it is

@@ -23,7 +23,7 @@ if ! has_all python3; then
     has_all "$python" || skip 'Python is older than 3.9'
 fi
 export PYTHONPATH=$CARROM_SOURCE_DIR/src/python PYTHONDONTWRITEBYTECODE=1
-for test in watch_test watch_browser_test; do
+for test in watch_test watch_hostile_test watch_browser_test; do
     "$python" "$CARROM_SOURCE_DIR/tests/python/$test.py" -v || complain "$test"
 done
 finish

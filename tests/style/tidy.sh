@@ -25,7 +25,8 @@ cmake -S "$top" -B "$commands" "${choices[@]/#/-D}" -DCARROM_TESTS=OFF -DCMAKE_U
     { cat "$environment/cmake.log"; exit 1; }
 # The package has no omp.h, and that of GCC is for GCC alone.
 mkdir -p "$environment/openmp"
-echo 'extern "C" int omp_get_thread_num(void);' >"$environment/openmp/omp.h"
+printf 'extern "C" int omp_get_%s(void);\n' thread_num num_threads num_procs \
+    >"$environment/openmp/omp.h"
 
 if [ "${1:-}" = --files ]; then
     shift

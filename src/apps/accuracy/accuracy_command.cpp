@@ -10,6 +10,7 @@
 #include "apps/run/run_options.hpp"
 #include "apps/shell/number_words.hpp"
 #include "apps/shell/standard_streams.hpp"
+#include "run/files/destinations.hpp"
 #include "run/start/load.hpp"
 
 namespace carrom {
@@ -43,6 +44,9 @@ ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems,
     if (ranks.size() > 1)
         problems.push_back({"carrom accuracy", 0,
                             "runs on one rank; share the work out with --share instead of mpirun"});
+    const auto of_table = problems_with({{"--output", options.study.table, Output::table}},
+                                        {{"the input", options.run.input}});
+    problems.insert(problems.end(), of_table.begin(), of_table.end());
     RunOptions run = options.run;
     run.messages = messages_of(ranks, run.quiet);
     Loaded loaded = load(run, problems, ranks);

@@ -53,6 +53,7 @@ ComparedRuns::ComparedRuns(const SceneParameters& scene, const std::vector<Input
     : ranks_(ranks), n_discs_(scene.n_discs) {
     Tuning tuning;
     tuning.threads = default_threads(ranks);
+    check_threads(tuning.threads, ranks);
     SceneParameters with_other_formulas = scene;
     with_other_formulas.arithmetic = Arithmetic::naive;
     const auto add = [&](const SceneParameters& of, std::vector<InputDisc> from) {

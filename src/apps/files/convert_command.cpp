@@ -196,7 +196,7 @@ std::string convert_alone(const std::string& path, Format format, const std::str
     for (const std::string& segment : file.segments())
         sources.push_back({"a part of the file to convert", segment});
     std::vector<Problem> problems;
-    if (!target.empty()) problems = problems_with({{"--output", target, true}}, sources);
+    if (!target.empty()) problems = problems_with({{"--output", target}}, sources);
     if (!problems.empty()) throw InputError(std::move(problems));
     file.check_numbers();
     if (const std::string failure = reason_against(file.summary(), format); !failure.empty())

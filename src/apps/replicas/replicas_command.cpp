@@ -18,6 +18,7 @@
 #include "apps/shell/number_words.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/destinations.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/start/load.hpp"
 #include "scene/key.hpp"
@@ -61,7 +62,7 @@ std::vector<const Key*> seeds_of(const SceneParameters& scene) {
 RunOptions options_of(const ReplicasOptions& options, const SceneParameters& scene,
                       std::int64_t k) {
     RunOptions one = options.run;
-    one.folder = (std::filesystem::path(options.folder) / fmt::format("{:04}", k)).string();
+    one.folder = (std::filesystem::path(options.folder) / name_of_replica(k)).string();
     one.quiet = true;
     for (const Key* key : seeds_of(scene))
         one.overrides.push_back(
@@ -115,8 +116,11 @@ bool all_are_done(const ReplicasOptions& options, const SceneParameters& scene,
     return ranks.all(code == ExitCode::success);
 }
 
-ExitCode run_replicas(const ReplicasOptions& options, const std::vector<Problem>& problems,
+ExitCode run_replicas(const ReplicasOptions& options, std::vector<Problem> problems,
                       const Communicator& ranks) {
+    for (const auto& found : {problems_with({{"--folder", options.folder, Output::folder}}, {}),
+                              problems_with_joined_files(options.folder)})
+        problems.insert(problems.end(), found.begin(), found.end());
     RunOptions first = options.run;
     first.overrides.push_back("output.folder=" + options.folder);
     const SceneParameters scene = load_scene_alone(first, problems, ranks);

@@ -14,6 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "core/plain_file.hpp"
+#include "measure/measurement.hpp"
+#include "run/files/owned_files.hpp"
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
 
@@ -130,7 +133,7 @@ std::string warning_of(const std::vector<std::string>& too_small,
 }
 
 Json read_report(const std::string& folder) {
-    std::ifstream file(report_of_run(folder));
+    std::ifstream file = open_plain_file(report_of_run(folder));
     Json report = Json::parse(file, nullptr, false);
     const bool is_whole = report.is_object() && report.contains("state_hash") &&
                           report["state_hash"].is_string();
@@ -145,9 +148,30 @@ void write(const std::string& folder, const std::string& name, const std::string
     if (!failure.empty()) throw CollectiveError(failure, ExitCode::output_failure);
 }
 
+constexpr const char *lines_begin = "replica,seed,state_hash",
+                     *means_remark = "means over replicas, and their errors";
+
+std::string remark_of_means(const std::string& table) {
+    return fmt::format("# {}: {}\n", table, means_remark);
+}
+
+/// Whether a file in the folder of replicas may be replaced by one of theirs.
+bool may_be_replaced(const std::filesystem::path& path) {
+    const std::string name = path.filename().string(), stem = path.stem().string();
+    if (name == "replicas.json") {
+        const FileContent content = content_of(path.string());
+        return content == FileContent::report || content == FileContent::nothing;
+    }
+    if (path.extension() != ".csv" || !(stem == "replicas" || is_name_of_table(stem))) return true;
+    std::string line;
+    std::ifstream file = open_plain_file(path.string());
+    if (!std::getline(file, line)) return file.eof();
+    return line.starts_with(lines_begin) || line + '\n' == remark_of_means(stem);
+}
+
 std::string lines_of_replicas(const std::vector<Replica>& replicas,
                               const std::vector<Json>& reports) {
-    std::string text = "replica,seed,state_hash";
+    std::string text = lines_begin;
     for (const AveragedColumn& quantity : averaged_columns)
         text += fmt::format(",{}", quantity.name);
     for (std::size_t k = 0; k < reports.size(); ++k) {
@@ -176,7 +200,7 @@ public:
 
     bool is_whole() const { return is_whole_; }
     std::string csv() const {
-        std::string text = fmt::format("# {}: means over replicas, and their errors\n", name_);
+        std::string text = remark_of_means(name_);
         for (std::size_t k = 0; k < columns_.size(); ++k)
             text += (k == 0 ? "" : ",") + columns_[k].name;
         for (std::size_t row = 0; !columns_.empty() && row < columns_[0].numbers.size(); ++row) {
@@ -231,8 +255,21 @@ private:
 
 } // namespace
 
+std::vector<Problem> problems_with_joined_files(const std::string& folder) {
+    std::vector<Problem> problems;
+    std::error_code error;
+    std::filesystem::directory_iterator entry(folder, error);
+    for (const std::filesystem::directory_iterator end; !error && entry != end;
+         entry.increment(error))
+        if (!may_be_replaced(entry->path()))
+            problems.push_back({entry->path().string(), 0,
+                                "is no file of replicas, and these may write one of that name; "
+                                "move it away"});
+    return problems;
+}
+
 std::optional<std::int64_t> last_step_reported(const std::string& folder) {
-    std::ifstream file(report_of_run(folder));
+    std::ifstream file = open_plain_file(report_of_run(folder));
     const Json report = Json::parse(file, nullptr, false);
     // A damaged report is none: the replica goes on from its checkpoint and writes a new one.
     std::int64_t last = 0;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.hpp"
+
 namespace carrom {
 
 /// A run that has ended: its folder and the seed of its discs.
@@ -14,6 +16,9 @@ struct Replica {
     std::string folder;
     std::uint64_t seed = 0;
 };
+
+/// The problems of files in the folder that are not of replicas, and that theirs may replace.
+std::vector<Problem> problems_with_joined_files(const std::string& folder);
 
 /// The last step in the folder's report; nothing if there is no complete report.
 std::optional<std::int64_t> last_step_reported(const std::string& folder);

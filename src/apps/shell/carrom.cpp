@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
     const carrom::Action action = carrom::parse_command_line(argc, argv);
     if (action.needs_mpi || action.stops_on_request) carrom::let_threads_sleep(argv);
     if (action.stops_on_request) carrom::note_stop_signals();
+    carrom::guard_exit();
     carrom::start_io();
     const carrom::Mpi mpi(argc, argv,
                           action.needs_mpi ? carrom::Mpi::Start::always

@@ -15,7 +15,8 @@ from collections.abc import Iterator, Sequence
 from contextvars import ContextVar
 from pathlib import Path
 
-from carrom.errors import ProgramNotFoundError
+from carrom.errors import OutputError, ProgramNotFoundError
+from carrom.plain import open_plain
 from carrom.progress import Show, is_progress
 from carrom.words import in_python
 
@@ -51,7 +52,7 @@ class Process:
         self._rest = ""
         self._master, slave = pty.openpty()
         try:
-            with open(text, "ab") as lines:
+            with open_plain(text, "ab") as lines:
                 self._child = subprocess.Popen(
                     command,
                     stdin=subprocess.DEVNULL,
@@ -62,6 +63,9 @@ class Process:
                 )
         except BaseException as error:
             os.close(self._master)
+            if isinstance(error, OSError) and error.filename == text:
+                message = f"{text}: cannot be written to: {error.strerror}"
+                raise OutputError([message], 4) from None
             if isinstance(error, OSError):
                 what = f"{command[0]} cannot be started: {error.strerror}"
                 raise ProgramNotFoundError(what) from None

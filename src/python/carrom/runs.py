@@ -17,6 +17,7 @@ from carrom.checking import check as check_file
 from carrom.checkpoints import Checkpoint
 from carrom.errors import FileError, NoDataError
 from carrom.frames import Frames
+from carrom.plain import open_plain, read_text
 from carrom.scene import flattened, parsed, read_scene
 from carrom.tables import Table, Tables
 
@@ -102,9 +103,11 @@ class Run:
                 f"{self.name}: has no report.json: the program writes it at the end of a run"
             )
         try:
-            report: Any = json.loads(path.read_text(encoding="utf-8"))
+            report: Any = json.loads(read_text(path))
         except (OSError, ValueError) as error:
             raise FileError(f"{path}: cannot be read: {error}") from None
+        except RecursionError:
+            raise FileError(f"{path}: is no report of carrom: it is nested too deeply") from None
         if not isinstance(report, dict) or not report.keys() >= _IN_REPORTS:
             raise FileError(f"{path}: is no report of carrom")
         return report
@@ -285,7 +288,7 @@ def read_lines(
     """Read lines `step id x y vx vy`: {step: (N, 4) of x, y, vx, vy}, to the bit."""
     frames: dict[int, list[list[float]]] = {}
     try:
-        with open(path, encoding="ascii") as lines:
+        with open_plain(path, "r", encoding="ascii") as lines:
             for line in lines:
                 words = line.split()
                 step, disc = int(words[0]), int(words[1])

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from carrom.errors import CarromError, FileError
+from carrom.plain import open_plain
 from carrom.running import run
 
 MEASURED = (
@@ -131,7 +132,7 @@ def write_table(rows: Iterable[Row], path: str | os.PathLike[str]) -> None:
 def read_table(path: str | os.PathLike[str], *, is_weak: bool = False) -> list[Row]:
     """Read a table that this module or a job script has written, and add what it lacks."""
     try:
-        with open(path, encoding="ascii", newline="") as file:
+        with open_plain(path, "r", encoding="ascii", newline="") as file:
             rows = [{name: row[name] for name in MEASURED} for row in csv.DictReader(file)]
         return with_efficiency(rows, is_weak=is_weak)
     except (OSError, ValueError, KeyError, TypeError, ZeroDivisionError) as error:

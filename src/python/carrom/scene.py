@@ -17,6 +17,7 @@ from typing import Any, Union
 import numpy as np
 
 from carrom.errors import FileError
+from carrom.plain import read_text
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -28,6 +29,38 @@ SceneLike = Union[Mapping[str, Any], str, "os.PathLike[str]"]
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _REMARK = "# --set "
+_DEEPEST = 64  # tables and lists in each other; the program takes no more than 256
+_LONG_KEY = re.compile(rf"(?<![\w-])(?:[\w-]+\s*\.\s*){{{_DEEPEST}}}")
+_NESTING = (list, tuple, Mapping)
+_TOO_DEEP = f"has tables or lists nested more than {_DEEPEST} deep, or in themselves"
+
+
+def _check_depth(value: Any, kinds: Any = Mapping) -> None:
+    """Refuse a scene whose values of these kinds are in themselves, or deeper than in any scene.
+
+    Raises:
+        ValueError: they are
+    """
+    level = [value]
+    for _ in range(_DEEPEST):
+        inner: list[Any] = []
+        seen: set[int] = set()
+        for item in level:
+            if isinstance(item, Mapping):
+                words = [key for key in item if isinstance(key, str)]
+                if any(key.count(".") + key.count("__") >= _DEEPEST for key in words):
+                    raise ValueError(f"a key of the scene {_TOO_DEEP}")
+                parts: Iterable[Any] = item.values()
+            else:
+                parts = item
+            for part in parts:
+                if isinstance(part, kinds) and id(part) not in seen:
+                    seen.add(id(part))
+                    inner.append(part)
+        if not inner:
+            return
+        level = inner
+    raise ValueError(f"the scene {_TOO_DEEP}")
 
 
 def toml_value(value: Any) -> str:
@@ -36,6 +69,12 @@ def toml_value(value: Any) -> str:
     Raises:
         TypeError: TOML has no such value, for example None
     """
+    if isinstance(value, _NESTING):
+        _check_depth(value, _NESTING)
+    return _toml_value(value)
+
+
+def _toml_value(value: Any) -> str:
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, np.generic):
@@ -47,10 +86,10 @@ def toml_value(value: Any) -> str:
     if isinstance(value, (str, os.PathLike)):
         return _quoted(os.fspath(value))
     if isinstance(value, Mapping):
-        words = [f"{_key(key)} = {toml_value(item)}" for key, item in value.items()]
+        words = [f"{_key(key)} = {_toml_value(item)}" for key, item in value.items()]
         return "{" + ", ".join(words) + "}"
     if isinstance(value, (list, tuple, range)):
-        return "[" + ", ".join(toml_value(item) for item in value) + "]"
+        return "[" + ", ".join(_toml_value(item) for item in value) + "]"
     raise TypeError(f"a scene cannot have {value!r}: TOML has no {type(value).__name__}")
 
 
@@ -85,17 +124,22 @@ def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def flattened(overrides: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+def flattened(overrides: Mapping[str, Any]) -> dict[str, Any]:
     """Return overrides by the program's keys.
 
     `{"time": {"steps": 5}}`, `{"time.steps": 5}` and `{"time__steps": 5}` all give
     `{"time.steps": 5}`.
     """
+    _check_depth(overrides)
+    return _flattened(overrides, "")
+
+
+def _flattened(overrides: Mapping[str, Any], above: str) -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for name, value in overrides.items():
         key = above + str(name).replace("__", ".")
         if isinstance(value, Mapping):
-            flat |= flattened(value, key + ".")
+            flat |= _flattened(value, key + ".")
         else:
             flat[key] = value
     return flat
@@ -103,9 +147,14 @@ def flattened(overrides: Mapping[str, Any], above: str = "") -> dict[str, Any]:
 
 def nested(scene: Mapping[str, Any]) -> dict[str, Any]:
     """Return a copy of a scene in which each dot of a key has become a table."""
+    _check_depth(scene)
+    return _nested(scene)
+
+
+def _nested(scene: Mapping[str, Any]) -> dict[str, Any]:
     result: dict[str, Any] = {}
     for name, value in scene.items():
-        _put(result, name, nested(value) if isinstance(value, Mapping) else value)
+        _put(result, name, _nested(value) if isinstance(value, Mapping) else value)
     return result
 
 
@@ -155,11 +204,24 @@ def read_scene(scene: SceneLike) -> dict[str, Any]:
 def parsed(text: str, name: str, overrides: Iterable[str]) -> dict[str, Any]:
     """Read a scene's text, with overrides `key=value`. The name tells legacy text from TOML."""
     try:
-        known = {} if name.endswith(".in") or name == "-" else tomllib.loads(text)
+        known = {} if name.endswith(".in") or name == "-" else _loaded(text)
     except tomllib.TOMLDecodeError as error:
         raise FileError(f"{name}: {error}") from None
+    except RecursionError:
+        raise FileError(f"{name}: {_TOO_DEEP}") from None
     pairs = [line.partition("=") for line in overrides]
     return merged(known, {key: _value_of(word) for key, _, word in pairs})
+
+
+def _loaded(text: str) -> dict[str, Any]:
+    """Read TOML. The time that a key takes grows with the square of its dots.
+
+    Raises:
+        RecursionError: something is nested too deeply
+    """
+    if _LONG_KEY.search(text):
+        raise RecursionError
+    return tomllib.loads(text)
 
 
 def is_text(scene: object) -> bool:
@@ -169,7 +231,7 @@ def is_text(scene: object) -> bool:
 
 def _file_text(path: Path) -> tuple[str, str]:
     try:
-        return path.read_text(encoding="utf-8"), str(path)
+        return read_text(path), str(path)
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(f"{path}: cannot be read: {error}") from None
 
@@ -177,8 +239,8 @@ def _file_text(path: Path) -> tuple[str, str]:
 def _value_of(word: str) -> Any:
     """Read the value of `--set key=value`, whose words need no quotes."""
     try:
-        return tomllib.loads(f"value = {word}")["value"]
-    except tomllib.TOMLDecodeError:
+        return _loaded(f"value = {word}")["value"]
+    except (tomllib.TOMLDecodeError, RecursionError):
         return word
 
 
@@ -255,8 +317,8 @@ def with_absolute_files(scene: dict[str, Any], beside: Path = Path()) -> dict[st
 
 def _absolute_file_words(text: str, words: list[str]) -> list[str]:
     try:
-        file = tomllib.loads(text).get("discs", {}).get("file")
-    except (tomllib.TOMLDecodeError, AttributeError):
+        file = _loaded(text).get("discs", {}).get("file")
+    except (tomllib.TOMLDecodeError, AttributeError, RecursionError):
         return []  # the program reports it
     if not isinstance(file, str) or any(word.startswith("discs.file=") for word in words):
         return []

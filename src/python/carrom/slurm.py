@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from carrom.errors import CarromError, ProgramNotFoundError
+from carrom.plain import read_text
 from carrom.runs import SCENE_FILES
 from carrom.scene import set_words, to_toml
 from carrom.sweeps import Point
@@ -76,7 +77,7 @@ def submit(
 def _check_queue(folder: Path) -> None:
     """Refuse a second job for runs that a first one still works at."""
     note = folder / "job.txt"
-    job = note.read_text().strip() if note.exists() else ""
+    job = read_text(note).strip() if note.exists() else ""
     if not job:
         return
     queue = subprocess.run(

@@ -18,6 +18,7 @@ import numpy as np
 from carrom import display, labelled
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.physics import average, compressibility
+from carrom.plain import read_text
 from carrom.runs import SCENE_FILES, Run
 from carrom.scene import (
     SceneLike,
@@ -146,7 +147,7 @@ def _comparable(scene: Mapping[str, Any]) -> dict[str, str]:
 def _without_remarks(path: Path) -> list[str]:
     """Return lines of legacy text. A run's copy has remarks on top."""
     try:
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        lines = read_text(path, errors="replace").splitlines()
     except OSError as error:
         raise FileError(f"{path}: cannot be read: {error}") from None
     return [line for line in lines if not line.startswith("#")]
@@ -319,6 +320,10 @@ def _grid_values(
         ValueError: a key has no values, or the same twice, or is set elsewhere too
     """
     keys: dict[str, list[Any]] = {}
+    if "output.folder" in flattened(overrides) or "output.folder" in flattened(grid):
+        raise ValueError(
+            "a sweep cannot set output.folder: each of its runs has a folder of its own in `folder`"
+        )
     for name, values in grid.items():
         key = str(name).replace("__", ".")
         if isinstance(values, (str, Mapping)) or not isinstance(values, Iterable):

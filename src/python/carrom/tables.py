@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from carrom import display, labelled
 from carrom.errors import FileError, NoDataError
+from carrom.plain import read_text
 
 if TYPE_CHECKING:
     import pandas
@@ -87,7 +88,7 @@ def read_csv(path: str | os.PathLike[str]) -> Table:
     Columns of counts and steps become int64, all others float64.
     """
     try:
-        lines = Path(path).read_text(encoding="utf-8").splitlines()
+        lines = read_text(path).splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(f"{path}: cannot be read: {error}") from None
     remarks = [line[1:].strip() for line in lines if line.startswith("#")]

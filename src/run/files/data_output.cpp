@@ -69,10 +69,13 @@ void DataOutput::close() {
 }
 
 WriteProblem write_problem_of_stream(const std::string& path) {
+    // To open and close a pipe would be the end of the file for a reader that waits already.
+    if (struct stat status{}; ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode))
+        return ::access(path.c_str(), W_OK) == 0 ? WriteProblem{}
+                                                 : write_problem("cannot be written", errno);
     int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     const bool is_new = file < 0 && errno == ENOENT;
     if (is_new) file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && errno == ENXIO) return {}; // a named pipe without a reader yet
     if (file < 0) return write_problem("cannot be written", errno);
     ::close(file);
     if (is_new) ::unlink(path.c_str());

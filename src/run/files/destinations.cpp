@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "run/files/owned_files.hpp"
+
 namespace carrom {
 
 namespace {
@@ -27,20 +29,53 @@ bool is_special(const std::string& path) {
            !std::filesystem::is_directory(status);
 }
 
+const char* words_for(FileContent content) {
+    switch (content) {
+    case FileContent::hdf5: return "an HDF5 file";
+    case FileContent::report: return "a report";
+    case FileContent::scene: return "a scene or a file of discs";
+    case FileContent::table: return "a table";
+    default: return "another file";
+    }
+}
+
+/// Whether an output may replace a file with this content.
+bool may_replace(Output output, FileContent content) {
+    if (content == FileContent::nothing) return true;
+    return content == (output == Output::report ? FileContent::report : FileContent::other);
+}
+
+/// The reason against an output, apart from those of other outputs and of what is read.
+std::string reason_against(const Destination& target, const std::string& own_folder) {
+    if (target.kind == Output::of_folder) return {};
+    if (target.kind == Output::folder) {
+        const std::string owner = owner_of_folder(target.path);
+        return owner.empty() ? owner : fmt::format("is {}; name another folder", owner);
+    }
+    const std::string owner = owner_of_file(target.path, own_folder);
+    if (!owner.empty()) return fmt::format("is {}; name another file", owner);
+    const FileContent content = content_of(target.path);
+    if (may_replace(target.kind, content)) return {};
+    return fmt::format("is {}, which {} does not replace; name another file, or remove this one",
+                       words_for(content), target.name);
+}
+
 } // namespace
 
-std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations,
-                                   const std::vector<NamedFile>& sources) {
+std::vector<Problem> problems_with(const std::vector<Destination>& destinations,
+                                   const std::vector<NamedFile>& sources,
+                                   const std::string& own_folder) {
     std::vector<Problem> problems;
     for (std::size_t k = 0; k < destinations.size(); ++k) {
-        const NamedFile& target = destinations[k];
+        const Destination& target = destinations[k];
         const auto refuse = [&](const std::string& why) {
             problems.push_back({fmt::format("{} {}", target.name, target.path), 0, why});
         };
         if (is_special(target.path)) {
-            if (!target.may_be_special) refuse("is not a plain file");
+            if (target.kind != Output::text) refuse("is not a plain file");
             continue;
         }
+        const std::size_t n_before = problems.size();
         for (const NamedFile& source : sources)
             if (is_same_file(target.path, source.path))
                 refuse(fmt::format("is {} itself", source.name));
@@ -48,6 +83,9 @@ std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations,
             if (is_same_file(target.path, destinations[other].path))
                 refuse(fmt::format("is the same file as {}; each needs its own",
                                    destinations[other].name));
+        if (problems.size() > n_before) continue;
+        if (const std::string reason = reason_against(target, own_folder); !reason.empty())
+            refuse(reason);
     }
     return problems;
 }

@@ -12,6 +12,7 @@
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/owned_files.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/start/restart.hpp"
 
@@ -61,7 +62,7 @@ std::string problem_in_folder(const RunOptions& options, const SceneParameters& 
 }
 
 WriteLock locked(const std::string& folder, PlaceProblems& found) {
-    WriteLock lock(folder + "/.carrom.lock");
+    WriteLock lock(fmt::format("{}/{}", folder, lock_of_run));
     found.note(folder_key, folder, {lock.problem()});
     if (!lock.holder().empty())
         found.note(folder_key, folder,
@@ -74,16 +75,21 @@ WriteLock locked(const std::string& folder, PlaceProblems& found) {
 /// Makes and locks nothing without `locks`. With `locks` it adds to them, and only if
 /// there are no problems.
 void check_places(PlaceProblems& found, const RunOptions& options, const SceneParameters& scene,
-                  const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations,
+                  const std::vector<NamedFile>& sources, std::vector<Destination> destinations,
                   std::vector<WriteLock>* locks) {
     const std::string& folder = scene.folder;
     if (!folder.empty())
         for (const std::string& path : files_of_run(folder))
             if (!goes_on(options) || path != scene_copy_of(folder))
-                destinations.push_back({"a file of output.folder,", path});
-    for (const Problem& problem : problems_with(destinations, sources))
+                destinations.push_back({"a file of output.folder,", path, Output::of_folder});
+    if (!folder.empty()) destinations.push_back({folder_key, folder, Output::folder});
+    for (const Problem& problem : problems_with(destinations, sources, folder))
         found.problems.push_back(problem);
     if (folder.empty()) return;
+    for (const NamedFile& source : sources)
+        if (options.overwrite && is_in_subfolder_of_run(source.path, folder))
+            found.note(source.name, source.path,
+                       {"is of the run that --overwrite removes; copy it to another folder first"});
     std::error_code ignored;
     const bool may_try = (locks && found.all().empty()) || std::filesystem::exists(folder, ignored);
     found.note(folder_key, folder,
@@ -115,7 +121,7 @@ void PlaceProblems::agree(const Communicator& ranks) const {
 
 std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParameters& scene,
                                      const std::vector<NamedFile>& sources,
-                                     const std::vector<NamedFile>& others,
+                                     const std::vector<Destination>& others,
                                      const Communicator& ranks) {
     PlaceProblems found;
     std::vector<WriteLock> locks;

@@ -34,7 +34,7 @@ struct PlaceProblems {
 /// the folder. Rank 0's lock must live as long as the run writes. **Collective.**
 std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParameters& scene,
                                      const std::vector<NamedFile>& sources,
-                                     const std::vector<NamedFile>& others,
+                                     const std::vector<Destination>& others,
                                      const Communicator& ranks);
 
 /// The problems of a run that will not begin, so that all are printed at once. Makes

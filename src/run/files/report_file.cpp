@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace carrom {
@@ -98,12 +99,15 @@ std::string write_whole_file(const std::string& path, const std::string& text) {
 }
 
 int append_whole(const std::string& path, const std::string& text, bool is_new) {
-    const int flags = O_WRONLY | O_APPEND | O_CLOEXEC | (is_new ? O_CREAT | O_EXCL : 0);
+    const int flags = O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK |
+                      (is_new ? O_CREAT | O_EXCL : 0);
     const int file = ::open(path.c_str(), flags, 0666);
     if (file < 0) return errno;
-    const off_t size = ::lseek(file, 0, SEEK_END);
-    int error = write_all(file, text);
-    if (error != 0) static_cast<void>(::ftruncate(file, size)); // leaves no half line
+    struct stat status{};
+    int error = ::fstat(file, &status) != 0 ? errno : S_ISREG(status.st_mode) ? 0 : ESPIPE;
+    if (error == 0) error = write_all(file, text);
+    if (error != 0 && S_ISREG(status.st_mode)) // leaves no half line
+        static_cast<void>(::ftruncate(file, status.st_size));
     if (::close(file) != 0 && error == 0) error = errno;
     return error;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/files/run_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/plain_file.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
 #include "io/frame_file.hpp"
@@ -59,7 +61,7 @@ bool is_of_start(const std::string& path) {
 
 /// Whether a table has one line of names and at most one row, that of the first sample.
 bool has_rows_of_start(const fs::path& path) {
-    std::ifstream file(path);
+    std::ifstream file = open_plain_file(path);
     std::size_t n_lines = 0;
     for (std::string line; std::getline(file, line);) n_lines += line.starts_with('#') ? 0 : 1;
     return file.eof() && path.stem() == "thermo" && n_lines <= 2;
@@ -80,7 +82,7 @@ bool is_written_by_run(std::string_view folder, const fs::path& path) {
     const std::string stem = path.stem().string();
     if (folder == "measurements") {
         if (path.filename() == table_file) return is_table_file(path.string());
-        std::ifstream file(path);
+        std::ifstream file = open_plain_file(path);
         std::string line;
         std::getline(file, line);
         return path.extension() == ".csv" && line.starts_with("# ") && line.ends_with(": " + stem);
@@ -118,6 +120,12 @@ std::string text_of_copy(const SceneParameters& scene) {
 }
 
 } // namespace
+
+bool is_subfolder_of_run(std::string_view name) {
+    return std::find(folders.begin(), folders.end(), name) != folders.end();
+}
+
+std::string name_of_replica(std::int64_t k) { return fmt::format("{:04}", k); }
 
 std::vector<std::string> files_of_run(const std::string& folder) {
     std::vector<std::string> paths;
@@ -179,10 +187,11 @@ std::string problem_with_tables(const SceneParameters& scene) {
     });
     if (error) return fmt::format("{} cannot be listed: {}", folder, error.message());
     if (found.empty()) return {};
-    const bool is_readable = std::ifstream(in(folder, found)).good();
+    OpenProblem problem;
+    static_cast<void>(open_plain_file(in(folder, found), problem));
     return fmt::format("{} {}, and this run may write a table of that name; move it away",
                        in(folder, found),
-                       is_readable ? "is no table that a run has written" : "cannot be read");
+                       problem.text.empty() ? "is no table that a run has written" : problem.text);
 }
 
 std::string problem_with_copy(const SceneParameters& scene) {
@@ -202,7 +211,7 @@ std::string scene_copy_of(const std::string& folder) {
 
 std::vector<std::string> overrides_of_copy(const std::string& path) {
     std::vector<std::string> overrides;
-    std::ifstream file(path);
+    std::ifstream file = open_plain_file(path);
     for (std::string line; std::getline(file, line) && line.starts_with(override_mark);)
         overrides.push_back(line.substr(override_mark.size()));
     return overrides;
@@ -212,7 +221,7 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
     const std::string path = scene_copy_of(folder);
     if (path.empty()) return "there is no scene.toml";
     try {
-        std::ifstream file(path);
+        std::ifstream file = open_plain_file(path);
         const std::vector<std::string> overrides = overrides_of_copy(path);
         std::string skipped;
         for (std::size_t k = 0; k < overrides.size(); ++k) std::getline(file, skipped);

@@ -6,12 +6,22 @@
 // without a run. Rank 0 makes all these calls.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
+
+/// The name of the lock in the folder of a run that is writing there.
+inline constexpr const char* lock_of_run = ".carrom.lock";
+
+/// Whether a run keeps files in a subfolder of this name.
+bool is_subfolder_of_run(std::string_view name);
+/// The name of replica `k`'s folder of a run.
+std::string name_of_replica(std::int64_t k);
 
 /// The files in the folder itself.
 std::vector<std::string> files_of_run(const std::string& folder);

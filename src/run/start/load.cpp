@@ -57,10 +57,11 @@ std::unique_ptr<std::istream> open(const std::string& input) {
 
 /// Files that the options name. They are checked because a run must not end in a file
 /// that cannot be written, nor empty its own input.
-std::vector<NamedFile> named_by(const RunOptions& options) {
-    std::vector<NamedFile> destinations;
-    if (!options.output.empty()) destinations.push_back({"--output", options.output, true});
-    if (!options.report.empty()) destinations.push_back({"--report", options.report});
+std::vector<Destination> named_by(const RunOptions& options) {
+    std::vector<Destination> destinations;
+    if (!options.output.empty()) destinations.push_back({"--output", options.output, Output::text});
+    if (!options.report.empty())
+        destinations.push_back({"--report", options.report, Output::report});
     return destinations;
 }
 
@@ -245,6 +246,8 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     check_threads(tuning.threads, ranks);
+    const std::string crowded = warning_of_crowded_threads(tuning.threads, scene.n_discs, ranks);
+    if (!crowded.empty()) options.messages.warn("warning: {}\n", crowded);
     if (!loaded.start.stored)
         loaded.start.discs = first_discs(scene, source.stream.get(), ranks, tuning);
     warn_of_units(options, scene, loaded.start.discs, ranks);

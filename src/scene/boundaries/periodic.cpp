@@ -35,11 +35,13 @@ void check_periodic_box(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);
     const double period = periods.shortest();
-    if (!periods.are_any() || period >= 4 * scene.radius * (1 + 1e-6)) return;
+    const double least = 4 * scene.radius * (1 + 1e-6);
+    if (!periods.are_any() || period >= least) return;
     draft.refuse({side_key(periods.x == period ? 0 : 2, "kind")},
-                 fmt::format("a box of side {} is too small to be periodic: up to two diameters "
-                             "({}) a disc could touch another one on both sides at once",
-                             period, 4 * scene.radius));
+                 fmt::format("a box of side {} is too small to be periodic: it must be at least "
+                             "{}, two diameters and a millionth of them, so that a disc cannot "
+                             "touch another one on both sides at once",
+                             period, least));
 }
 
 } // namespace

@@ -233,3 +233,103 @@ def test_open_without_the_program_warns(run: carrom.Run, monkeypatch: pytest.Mon
     monkeypatch.setenv("CARROM", "/nowhere/carrom")
     with pytest.warns(UserWarning, match="without comparing checksums"):
         assert len(carrom.open(str(run.folder)).frames) == 5
+
+
+POSITIONS = f"{DISCS}/position/value"
+
+
+def with_storage_elsewhere(file: Any, place: Path, how: str) -> None:
+    """Bring the positions of a recording from another file, in each way that HDF5 has."""
+    shape = file[POSITIONS].shape
+    del file[POSITIONS]
+    if how == "external":
+        file.create_dataset(POSITIONS, shape, "f8", external=[(str(place), 0, h5py.h5f.UNLIMITED)])
+    elif how == "link":
+        file[POSITIONS] = h5py.ExternalLink(str(place), "/x")
+    else:
+        layout = h5py.VirtualLayout(shape, "f8")
+        layout[...] = h5py.VirtualSource(str(place), "x", shape)
+        file.create_virtual_dataset(POSITIONS, layout)
+
+
+@pytest.mark.parametrize("how", ["external", "link", "virtual", "part", "up"])
+@pytest.mark.parametrize("kind", ["pipe", "file"])
+def test_numbers_in_files_of_others_are_refused(
+    run: carrom.Run, program: Path, tmp_path: Path, how: str, kind: str
+) -> None:
+    """A pipe would make every reader wait, and a file's bytes would become positions."""
+    place = tmp_path / "elsewhere" / "secret"
+    place.parent.mkdir()
+    if kind == "pipe":
+        os.mkfifo(place)
+    else:
+        place.write_bytes(b"precious" * 10000)
+    path = tmp_path / "run/trajectory.h5"
+    path.parent.mkdir()
+
+    def change(file: Any) -> None:
+        if how == "part":  # a segment where it may be, whose own numbers are elsewhere
+            (path.parent / "trajectory").mkdir()
+            shape = file[POSITIONS].shape
+            with h5py.File(path.parent / "trajectory/0001.h5", "w") as part:
+                external = [(str(place), 0, h5py.h5f.UNLIMITED)]
+                part.create_dataset("x", shape, "f8", external=external)
+            with_storage_elsewhere(file, Path("trajectory/0001.h5"), "virtual")
+        elif how == "up":
+            with_storage_elsewhere(file, Path("x/../../elsewhere/secret"), "virtual")
+        else:
+            with_storage_elsewhere(file, place, how)
+
+    rewritten(run, path, change)
+    for words in (
+        ["info", path],
+        ["verify", path],
+        ["convert", path, "--to", "csv", "--output", tmp_path / "out.csv"],
+        ["diff", path, run.frames.path],
+        ["run", from_scene(path, tmp_path), "--quiet"],
+    ):
+        code, text, _ = asked(program, *words)
+        assert code == 2, f"{words[0]}: {text}"
+        assert str(path) in text
+        assert "waited" not in text
+    assert not (tmp_path / "out.csv").exists()
+    for check in (False, True):
+        with pytest.raises(carrom.FileError, match=r"elsewhere|kind|another file|below|damaged"):
+            print(carrom.open(path, check=check).frames[-1].x)
+    with pytest.raises(carrom.FileError):
+        print(carrom.open(path.parent, check=False).frames[-1].x)
+
+
+def test_pipes_in_the_place_of_files_of_a_run(run: carrom.Run, tmp_path: Path) -> None:
+    shutil.copytree(Path(str(run.folder)), tmp_path / "copy")
+    copy = carrom.open(tmp_path / "copy", check=False)
+    assert copy.tables["thermo"] is not None
+    paths = [path for path in (tmp_path / "copy").rglob("*") if path.is_file()]
+    for path in paths:
+        path.unlink()
+        os.mkfifo(path)
+    for reader in (
+        lambda: copy.report,
+        lambda: copy.scene,
+        lambda: copy.state_hash,
+        lambda: copy.tables["thermo"],
+        lambda: copy.frames,
+        lambda: copy.checkpoints[-1],
+        lambda: copy.collisions,
+        lambda: copy.lines,
+        lambda: carrom.read_lines(tmp_path / "copy/lines.txt"),
+        lambda: carrom.open(tmp_path / "copy/trajectory.h5", check=False),
+        lambda: carrom.run(tmp_path / "copy/scene.toml"),
+    ):
+        with pytest.raises(carrom.CarromError):
+            reader()
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, '{"a":' * 100_000, "1" * 10_000])
+def test_reports_nested_without_end_are_no_reports(
+    run: carrom.Run, tmp_path: Path, text: str
+) -> None:
+    shutil.copytree(Path(str(run.folder)), tmp_path / "copy")
+    (tmp_path / "copy/report.json").write_text(text)
+    with pytest.raises(carrom.FileError, match=r"report\.json"):
+        print(carrom.open(tmp_path / "copy", check=False).report)

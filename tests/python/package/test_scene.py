@@ -64,6 +64,27 @@ def test_none_is_an_error_that_names_the_key() -> None:
         carrom.to_toml({"time": {"steps": None}})
 
 
+def test_a_scene_in_itself_is_an_error(tmp_path: Path) -> None:
+    scene = gas()
+    scene["discs"]["list"] = rows = [[1, 1, 0, 0]]
+    rows.append(rows)
+    looped: Any = gas()
+    looped["box"]["again"] = looped
+    deep: Any = {"size": 5}
+    for _ in range(100_000):
+        deep = {"box": deep}
+    for wrong in (scene, looped, deep, {".".join("a" * 100_000): 1}):
+        for act in (carrom.to_toml, lambda s: carrom.run(s, folder=tmp_path / "no")):
+            with pytest.raises(ValueError, match="deep, or in themselves"):
+                act(wrong)
+    with pytest.raises(ValueError, match="deep, or in themselves"):
+        carrom.sweep(looped, {"discs.seed": [1, 2]}, folder=tmp_path / "no")
+    for text in (f"a = {'[' * 100_000}\n", f"{'.'.join('a' * 100_000)} = 1\n"):
+        (tmp_path / "deep.toml").write_text(text)
+        with pytest.raises((carrom.FileError, ValueError), match="deep"):
+            carrom.read_scene(tmp_path / "deep.toml")
+
+
 def test_overrides_have_three_spellings() -> None:
     wanted = {"time.steps": 5}
     for spelling in ({"time": {"steps": 5}}, {"time.steps": 5}, {"time__steps": 5}):

@@ -139,6 +139,8 @@ def test_grids_without_values_are_errors(tmp_path: Path) -> None:
         ({"box.size": [20], "box__size": [30]}, {}, r"box\.size is given twice"),
         ({"box.size": [20]}, {"box__size": 30}, r"box\.size is given twice"),
         ({"discs.seed": [1, 2]}, {"repeats": 2}, r"discs\.seed cannot be in the grid too"),
+        ({"output.folder": ["a", "b"]}, {}, r"cannot set output\.folder"),
+        ({"discs.seed": [1]}, {"output__folder": "a"}, r"cannot set output\.folder"),
         ({"discs.seed": [1]}, {"ranks": 0}, "ranks must be at least 1, not 0"),
         ({"discs.seed": [1]}, {"threads": 0}, "threads must be at least 1, not 0"),
         ({"discs.seed": [1]}, {"workers": 0}, "workers must be at least 1, not 0"),

@@ -68,7 +68,7 @@ TEST_CASE("Discs and periodic sides must fit along both edges") {
     const Texts round_y = {"box.bottom.kind=periodic", "box.top.kind=periodic"},
                 round_x = {"box.left.kind=periodic", "box.right.kind=periodic"};
     CHECK(mentions(problems_in(with_line(2, "size = [1000, 3.9]"), round_y),
-                   "a box of side 3.9 is too small to be periodic"));
+                   "a box of side 3.9 is too small to be periodic: it must be at least 4.000004"));
     CHECK(problems_in(with_line(2, "size = [1000, 3.9]"), round_x).empty());
     CHECK(problems_in(with_line(2, "size = [1000, 2]"), round_x).empty());
     CHECK(mentions(problems_in(with_line(2, "size = [30, 20]"), {"discs.list=[[25, 15, 0, 0], "

@@ -63,6 +63,62 @@ TEST_CASE("each part of a distribution has the radius in its middle") {
     }
 }
 
+TEST_CASE("a range that is much wider than the distribution does not coarsen it") {
+    for (const SizeKind kind : {SizeKind::normal, SizeKind::lognormal})
+        for (const double s : {1e-6, 1e-3, 0.02}) {
+            SizeDistribution sizes = distribution(kind, s);
+            sizes.smallest = 0x1p-20;
+            sizes.largest = 0x1p20;
+            CAPTURE(static_cast<int>(kind));
+            CAPTURE(s);
+            // Radii near 1 have steps of 2^-53, which are 1e-10 of the smallest deviation.
+            CHECK(largest_deviation(sizes, 7) < 1e-6);
+            CHECK(largest_deviation(sizes, 1000) < 1e-6);
+        }
+}
+
+TEST_CASE("any deviation gives finite radii that rise from limit to limit") {
+    for (const SizeKind kind : {SizeKind::uniform, SizeKind::normal, SizeKind::lognormal})
+        for (const double s : {1e-300, 1e-160, 1e-17, 1e-16, 1e-8, 1e-5, 1e-4, 2e-4, 0.3}) {
+            const SizeDistribution sizes = distribution(kind, s);
+            const std::vector<double> radii = radii_of_parts(sizes, 1000);
+            const SizeLimits limits = size_limits(sizes);
+            CAPTURE(static_cast<int>(kind));
+            CAPTURE(s);
+            CHECK(std::is_sorted(radii.begin(), radii.end()));
+            CHECK(radii.front() >= limits.smallest * (1 - 1e-15));
+            CHECK(radii.back() <= limits.largest * (1 + 1e-15));
+            CHECK(share_within_limits(sizes) > 0.99);
+            double sum = 0, squares = 0;
+            for (const double r : radii) {
+                sum += (r - 1) / 1000;
+                squares += (r - 1) * (r - 1) / 1000;
+            }
+            if (s > 1e-10) CHECK(std::sqrt(squares - sum * sum) == Approx(s).epsilon(0.04));
+        }
+}
+
+TEST_CASE("the share of a distribution between limits is that of the error function") {
+    SizeDistribution sizes = distribution(SizeKind::normal, 0.01);
+    sizes.smallest = 1.05; // five deviations above the mean, and six below 1.06
+    sizes.largest = 1.06;
+    CHECK(share_within_limits(sizes) == Approx(2.8665157e-7 - 9.8658765e-10).epsilon(1e-6));
+    sizes.smallest = 0.94;
+    sizes.largest = 0.95;
+    CHECK(share_within_limits(sizes) == Approx(2.8665157e-7 - 9.8658765e-10).epsilon(1e-6));
+    sizes.smallest = 2;
+    sizes.largest = 3;
+    CHECK(share_within_limits(sizes) < smallest_share);
+    sizes = distribution(SizeKind::uniform, 0.1);
+    sizes.largest = 1;
+    CHECK(share_within_limits(sizes) == Approx(0.5));
+    sizes = distribution(SizeKind::normal, 0); // all of it is at 1
+    CHECK(share_within_limits(sizes) == 1);
+    sizes.smallest = 1.5;
+    sizes.largest = 2;
+    CHECK(share_within_limits(sizes) == 0);
+}
+
 TEST_CASE("mean and deviation are those that are asked for") {
     for (const SizeKind kind : {SizeKind::uniform, SizeKind::normal, SizeKind::lognormal}) {
         const SizeDistribution sizes = distribution(kind, 0.23);
@@ -133,4 +189,12 @@ TEST_CASE("what is wrong with a distribution of radii is told") {
               .find("exclude each other") != std::string::npos);
     CHECK(with("radius = {distribution = \"uniform\", mean = 1, smallest = 2, largest = 0.5}")
               .find("not above the largest") != std::string::npos);
+    const std::string empty =
+        with("radius = {distribution = \"lognormal\", mean = 1, polydispersity = 0.01, "
+             "smallest = 2, largest = 3}");
+    CHECK(empty.find("radii from 2 to 3 times the mean hold") != std::string::npos);
+    CHECK(empty.find("discs.radius.smallest") != std::string::npos);
+    CHECK(with("radius = {distribution = \"normal\", mean = 1e-69, polydispersity = 0.3, "
+               "smallest = 0.1}")
+              .find("the radius must be from 2^-230") != std::string::npos);
 }

@@ -18,6 +18,7 @@ from typing import Any
 
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.frames import Frames
+from carrom.plain import read_bytes
 from carrom.runs import SCENE_FILES, Checkpoints, Run, open_run
 from carrom.scene import flattened
 from carrom.watch.curves import Curves, steps_of
@@ -125,7 +126,7 @@ class Follower:
         """Text that changes with the scene. A run that is gone on with may write the same again."""
         for name in SCENE_FILES:
             try:
-                return hashlib.sha256((self.path / name).read_bytes()).hexdigest()[:16]
+                return hashlib.sha256(read_bytes(self.path / name)).hexdigest()[:16]
             except OSError:
                 continue
         return "file" if self.path.is_file() else ""

@@ -8,6 +8,8 @@ import time
 from collections import deque
 from pathlib import Path
 
+from carrom.plain import open_plain
+
 _REMEMBERED = 60  # steps that a rate is taken over
 _FRESH = 30.0  # seconds
 
@@ -66,7 +68,7 @@ def newest_change(folder: Path) -> float:
 def legacy_steps(path: Path) -> int | None:
     """Return S, the fourth line of legacy text."""
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open_plain(path, "r", encoding="utf-8", errors="replace") as file:
             words = [line.strip() for line in file.readlines(4096) if line.strip()]
         return int([word for word in words if not word.startswith("#")][3])
     except (OSError, ValueError, IndexError):

@@ -6,7 +6,9 @@ from __future__ import annotations
 import contextlib
 import errno
 import json
+import re
 import socket
+import sys
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
@@ -27,7 +29,7 @@ _PAGES = {
     "/fields.js": ("fields.js", "text/javascript; charset=utf-8"),
 }
 _MOST_CONNECTIONS = 64
-_LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
+_LOOPBACK = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:[0-9]{1,5})?", re.ASCII)
 
 
 class Server(ThreadingHTTPServer):
@@ -62,6 +64,11 @@ class Server(ThreadingHTTPServer):
         with self._guard:
             self._open.pop(connection, None)
             self._open[connection] = None
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Print nothing where a client has gone or is silent, because nothing is wrong here."""
+        if not isinstance(sys.exc_info()[1], (ConnectionError, TimeoutError)):
+            super().handle_error(request, client_address)
 
     def shutdown_request(self, request: Any) -> None:
         """Close a connection."""
@@ -104,8 +111,8 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """Answer a request for the page, the state, curves or a frame."""
         self.server.note_use(self.connection)
-        host = self.headers.get("Host", "").rsplit(":", 1)[0]
-        if host not in _LOOPBACK:  # a page of another site must not reach this one by its name
+        # A page of another site must not reach this one by its name.
+        if not _LOOPBACK.fullmatch(self.headers.get("Host", "")):
             self._answer(403, b"this page is for this machine only", "text/plain")
             return
         try:
@@ -148,19 +155,22 @@ class _Handler(BaseHTTPRequestHandler):
     def _answer(
         self, code: int, body: bytes, kind: str, headers: dict[str, str] | None = None
     ) -> None:
+        try:
+            self._send(code, body, kind, headers or {})
+        except ConnectionError:
+            self.close_connection = True  # the page has been closed
+
+    def _send(self, code: int, body: bytes, kind: str, headers: dict[str, str]) -> None:
         self.send_response(code)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(body)))
         self.send_header("Cache-Control", "no-store")
         self.send_header("Content-Security-Policy", "default-src 'self'; img-src 'self' data:")
         self.send_header("X-Content-Type-Options", "nosniff")
-        for name, value in (headers or {}).items():
+        for name, value in headers.items():
             self.send_header(name, value)
         self.end_headers()
-        try:
-            self.wfile.write(body)
-        except (BrokenPipeError, ConnectionResetError):
-            self.close_connection = True  # the page has been closed
+        self.wfile.write(body)
 
     def log_message(self, format: str, *words: Any) -> None:
         """Print nothing for each request."""
