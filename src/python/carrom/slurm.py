@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from carrom.errors import CarromError, ProgramNotFoundError
-from carrom.runs import SCENE_FILES
-from carrom.scene import set_words, to_toml
+from carrom.scene import SCENE_FILES, set_words, to_toml
 from carrom.sweeps import Point
 
 _SCRIPT = r"""#!/bin/bash

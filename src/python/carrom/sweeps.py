@@ -18,8 +18,9 @@ import numpy as np
 from carrom import display, labelled
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.physics import average, compressibility
-from carrom.runs import SCENE_FILES, Run
+from carrom.runs import Run
 from carrom.scene import (
+    SCENE_FILES,
     SceneLike,
     flattened,
     is_text,
