@@ -42,7 +42,7 @@ cut -d' ' -f1-6 lines | cmp - "$test_folder/out" ||
 shown kept/trajectory.h5 --to xyz --output t.xyz
 [ "$(grep -c '^300$' t.xyz)" -eq 21 ] || complain 'not 21 frames of 300 discs'
 [ "$(wc -l <t.xyz)" -eq $((21 * 302)) ] || complain 'extended XYZ of another length'
-columns=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1
+columns=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1:momenta:R:3
 sed -n 2p t.xyz | grep -q "^Lattice=\"1023 0 0 0 1023 0 0 0 1\" Properties=$columns Time=0" ||
     complain 'another second line'
 sed -n 2p t.xyz | grep -q 'pbc="F F F"$' || complain 'walls are told as periodic'

@@ -75,14 +75,16 @@ private:
     std::uint64_t end_ = 0;
 };
 
-/// The first two lines of a frame of extended XYZ.
+/// The first two lines of a frame of extended XYZ. OVITO takes velocities from `velo`, ASE takes
+/// them from `momenta` and `mass`.
 void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int64_t step) {
     std::string others;
     for (const std::size_t k : other_columns(summary))
         others += fmt::format(":{}:R:1", summary.columns[k]);
     fmt::format_to(std::back_inserter(out),
                    "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" "
-                   "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1{} Time={} "
+                   "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1:"
+                   "momenta:R:3{} Time={} "
                    "pbc=\"{} {} F\"\n",
                    summary.n_rows, summary.box.x, summary.box.y, others, step,
                    summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
@@ -104,9 +106,10 @@ public:
         const char separator = format_ == Format::xyz ? ' ' : ',';
         if (format_ == Format::xyz) {
             const Species& body = bodies_.of(id);
-            fmt::format_to(end, "{} {} {} 0 {} {} 0 {} {} {}", bodies_.symbol(), number(rows, i, 0),
-                           number(rows, i, 1), number(rows, i, 2), number(rows, i, 3), id,
-                           body.radius, body.mass);
+            const double vx = number(rows, i, 2), vy = number(rows, i, 3);
+            fmt::format_to(end, "{} {} {} 0 {} {} 0 {} {} {} {} {} 0", bodies_.symbol(),
+                           number(rows, i, 0), number(rows, i, 1), vx, vy, id, body.radius,
+                           body.mass, body.mass * vx, body.mass * vy);
         } else {
             fmt::format_to(end, "{},{}", step, id);
             for (const std::size_t place : places_) { // columns that it does not have stay empty

@@ -8,6 +8,7 @@ the scene's unit of mass. `docs/reference/python.md` lists all there is.
 from carrom import plot
 from carrom.checking import verify
 from carrom.checkpoints import Checkpoint
+from carrom.completion import trust
 from carrom.errors import (
     CarromError,
     CollectiveError,
@@ -24,6 +25,7 @@ from carrom.errors import (
 from carrom.frame import Frame
 from carrom.frames import Frames
 from carrom.gsd_file import to_gsd
+from carrom.launching import CarromWarning
 from carrom.physics import (
     Measured,
     average,
@@ -33,7 +35,7 @@ from carrom.physics import (
     virial_equation,
 )
 from carrom.program import find_program, program_version
-from carrom.running import CarromWarning, resume, run
+from carrom.running import resume, run
 from carrom.runs import Checkpoints, Run, open_run, read_lines
 from carrom.runs import open_run as open  # noqa: F401 - see below
 from carrom.scene import read_scene, to_toml
@@ -41,8 +43,12 @@ from carrom.slurm import SlurmError
 from carrom.sweeping import sweep
 from carrom.sweeps import Sweep, SweepError
 from carrom.tables import Table, Tables, read_csv
+from carrom.trajectory_frame import TrajectoryFrame
 
 __version__ = "0.3.0"
+
+trust([Run, TrajectoryFrame, Checkpoint, Frames, Sweep], [Tables, Frames, Checkpoints])
+del trust, TrajectoryFrame
 
 # `open` is left out, so that `from carrom import *` does not replace that of Python.
 __all__ = [

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from carrom.disc_arrays import Array, DiscArrays
 from carrom.errors import MissingPackageError, NoDataError
-from carrom.frame import Array, Frame
 
 # What the wheel of OVITO 3 links and Debian's smallest system lacks, by ldd.
 _OVITO_PACKAGES = "libegl1 libgl1 libopengl0 libxkbcommon0 libfontconfig1 libdbus-1-3 libglib2.0-0"
@@ -37,7 +37,7 @@ def _of_the_system(wanted_by: str, name: str, error: str) -> str:
     return text
 
 
-def positions_of(frame: Frame, wanted_by: str) -> Array:
+def positions_of(frame: DiscArrays, wanted_by: str) -> Array:
     """Return positions (N, 2), or say which field of the scene is missing."""
     try:
         return frame.x
@@ -52,7 +52,7 @@ def in_three_dimensions(vectors: Array, dtype: npt.DTypeLike = np.float64) -> Ar
     return result
 
 
-def velocities_of(frame: Frame) -> Array | None:
+def velocities_of(frame: DiscArrays) -> Array | None:
     """Return velocities (N, 2), or None where frames have none."""
     try:
         return frame.v
@@ -60,22 +60,39 @@ def velocities_of(frame: Frame) -> Array | None:
         return None
 
 
-def _room(frame: Frame) -> Array:
-    """Return a periodic box in which no disc has neighbours across a wall, (2,)."""
+def periodic_box(frame: DiscArrays, walls: str | None, wanted_by: str) -> Array:
+    """Return the edges (2,) of a periodic box for a package that knows no other.
+
+    `walls="apart"` doubles it between walls, so that no disc has neighbours across one.
+
+    Raises:
+        ValueError: the box has walls, and `walls` does not say what is to become of them
+    """
+    if walls not in (None, "apart"):
+        raise ValueError(f'{wanted_by}: walls is None or "apart", not {walls!r}')
+    if walls is None and not all(frame.periodic):
+        raise ValueError(
+            f"{wanted_by}: the box has walls, but the package repeats its boxes, so that g(r) and "
+            'densities would be wrong; Carrom has g(r) in run.tables["radial_distribution"]. '
+            'try: walls="apart", a box twice as long in which neighbours are right, and '
+            "frame.ideal_pairs(edges) to divide counts of pairs by"
+        )
     return np.where(frame.periodic, 1.0, 2.0) * frame.box
 
 
-def to_freud(frame: Frame) -> Any:
+def to_freud(frame: DiscArrays, walls: str | None = None) -> Any:
     """See `Frame.to_freud`."""
     freud = package("freud", "to_freud", "freud-analysis")
     centres = positions_of(frame, "to_freud")
-    room = _room(frame)
+    room = periodic_box(frame, walls, "to_freud")
     box = freud.box.Box(Lx=room[0], Ly=room[1], is2D=True)
     points = in_three_dimensions(centres[frame.present] - frame.box / 2, np.float32)
     return box, points
 
 
-def to_mdanalysis(frames: Sequence[Frame]) -> Any:
+def to_mdanalysis(
+    frames: Sequence[DiscArrays], unwrapped: bool = True, walls: str | None = None
+) -> Any:
     """See `Frames.to_mdanalysis`."""
     mda = package("MDAnalysis", "to_mdanalysis")
     memory = package("MDAnalysis.coordinates.memory", "to_mdanalysis", "MDAnalysis")
@@ -86,17 +103,16 @@ def to_mdanalysis(frames: Sequence[Frame]) -> Any:
     universe.add_TopologyAttr("masses", first.mass)
     universe.add_TopologyAttr("radii", first.radius)
     universe.add_TopologyAttr("types", [str(number + 1) for number in first.species])
-    positions = np.stack(
-        [in_three_dimensions(positions_of(frame, "to_mdanalysis"), np.float32) for frame in frames]
-    )
+    is_unwrapped = unwrapped and len(frames) > 1
+    centres = [_centres(frame, is_unwrapped) for frame in frames]
     moving = [velocities_of(frame) for frame in frames]
     velocities = None
     if all(v is not None for v in moving):
         velocities = np.stack([in_three_dimensions(v, np.float32) for v in moving if v is not None])
-    rooms = [_room(frame) for frame in frames]
+    rooms = [periodic_box(frame, walls, "to_mdanalysis") for frame in frames]
     dimensions = np.array([[*room, room.max(), 90, 90, 90] for room in rooms], dtype=np.float32)
     universe.load_new(
-        positions,
+        np.stack([in_three_dimensions(x, np.float32) for x in centres]),
         format=memory.MemoryReader,
         order="fac",
         dimensions=dimensions,
@@ -108,7 +124,23 @@ def to_mdanalysis(frames: Sequence[Frame]) -> Any:
     return universe
 
 
-def _interval(frames: Sequence[Frame]) -> float:
+def _centres(frame: DiscArrays, unwrapped: bool) -> Array:
+    """Return positions (N, 2): in the box, or as far as discs have flown through its sides."""
+    inside = positions_of(frame, "to_mdanalysis")
+    if not unwrapped or not any(frame.periodic):
+        return inside
+    try:
+        flown = frame.image
+    except NoDataError as error:
+        raise NoDataError(
+            "to_mdanalysis needs the field image, because a mean squared displacement of wrapped "
+            f"positions is wrong: {error}; try: unwrapped=False"
+        ) from None
+    unwrapped_centres: Array = inside + flown * np.asarray(frame.box)
+    return unwrapped_centres
+
+
+def _interval(frames: Sequence[DiscArrays]) -> float:
     """Return steps from frame to frame.
 
     Raises:
@@ -124,7 +156,7 @@ def _interval(frames: Sequence[Frame]) -> float:
     return float(gaps[0])
 
 
-def to_ase(frame: Frame) -> Any:
+def to_ase(frame: DiscArrays) -> Any:
     """See `Frame.to_ase`."""
     ase = package("ase", "to_ase")
     atoms = ase.Atoms(
@@ -143,14 +175,14 @@ def to_ase(frame: Frame) -> Any:
     return atoms
 
 
-def to_ovito(frame: Frame) -> Any:
+def to_ovito(frame: DiscArrays) -> Any:
     """See `Frame.to_ovito`."""
     data = package("ovito.data", "to_ovito", "ovito").DataCollection()
     fill_ovito(data, frame)
     return data
 
 
-def fill_ovito(data: Any, frame: Frame) -> None:
+def fill_ovito(data: Any, frame: DiscArrays) -> None:
     """Put a frame into an empty DataCollection."""
     cell = np.zeros((3, 4))
     cell[:, :3] = np.diag([*frame.box, 1.0])
@@ -171,7 +203,7 @@ def fill_ovito(data: Any, frame: Frame) -> None:
         particles.create_property("Velocity", data=in_three_dimensions(velocities))
 
 
-def to_ovito_pipeline(frames: Sequence[Frame]) -> Any:
+def to_ovito_pipeline(frames: Sequence[DiscArrays]) -> Any:
     """See `Frames.to_ovito`."""
     module = package("ovito.pipeline", "to_ovito", "ovito")
 

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from carrom import h5
+from carrom.disc_arrays import Array
 from carrom.errors import FileError, NoDataError
-from carrom.frame import Array, Frame
+from carrom.frame import Frame
 from carrom.scene import parsed
 
 _DEPARTED = -1.0  # the own time of a disc that has left through an open side

@@ -12,7 +12,7 @@ import numpy as np
 from carrom.errors import NoDataError
 
 if TYPE_CHECKING:
-    from carrom.frame import Frame
+    from carrom.disc_arrays import DiscArrays
 
 MOST_ROWS = 20
 """A longer table shows its first and last rows."""
@@ -54,7 +54,7 @@ def _word(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
 
 
-def picture(frame: Frame) -> str:
+def picture(frame: DiscArrays) -> str:
     """Return the discs to scale as SVG; nothing where there are too many, or no positions."""
     try:
         centres = frame.x

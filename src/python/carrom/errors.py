@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 
 class CarromError(Exception):
@@ -44,6 +44,11 @@ class ProgramError(CarromError):
 
     def _text(self) -> str:
         return "\n".join(self.lines) or f"carrom ended with exit code {self.returncode}"
+
+    def put_in_words(self, words_of: Callable[[str], str]) -> None:
+        """Replace each line by what `words_of` makes of it."""
+        self.lines = [words_of(line) for line in self.lines]
+        self.args = (self._text(),)
 
     def __reduce__(self) -> tuple[object, ...]:
         """Let the error cross process boundaries."""

@@ -10,8 +10,8 @@ import numpy as np
 from carrom.errors import NoDataError
 
 if TYPE_CHECKING:
-    from carrom.frame import Array
-    from carrom.tables import Table
+    from carrom.disc_arrays import Array
+    from carrom.named_columns import NamedColumns
 
 _PLACES = ("to_step", "x", "y")
 
@@ -31,7 +31,7 @@ class Fields:
         y: centres of the rows, (B, rows)
     """
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: NamedColumns) -> None:
         """Take the table of one species or of all."""
         if not is_grid(table.columns):
             raise NoDataError("the table has no grid; take one of those that profiles write")

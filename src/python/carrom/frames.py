@@ -7,14 +7,15 @@ import operator
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from carrom import display, h5, labelled
+from carrom import adapters, display, h5, labelled
+from carrom.disc_arrays import Array
 from carrom.errors import FileError, NoDataError
-from carrom.frame import Array, Frame
+from carrom.frame import Frame
 from carrom.trajectory_frame import System, TrajectoryFrame
 
 if TYPE_CHECKING:
@@ -144,28 +145,36 @@ class Frames(Sequence[Frame]):
         """Return one xarray Dataset with the dimension `step` too. See `Frame.to_xarray`."""
         return labelled.frames_to_xarray(self)
 
-    def to_freud(self) -> list[tuple[freud.box.Box, npt.NDArray[np.float32]]]:
+    def to_freud(
+        self, *, walls: str | None = None
+    ) -> list[tuple[freud.box.Box, npt.NDArray[np.float32]]]:
         """Return (box, points) of each frame. See `Frame.to_freud`."""
-        return [frame.to_freud() for frame in self]
+        return [frame.to_freud(walls=walls) for frame in self]
 
-    def to_mdanalysis(self) -> Universe:
+    def to_mdanalysis(self, *, unwrapped: bool = True, walls: str | None = None) -> Universe:
         """Return an MDAnalysis Universe of all frames, in memory, with the right `dt`.
 
         Atoms have `radii`, `masses`, `types` (the species) and, where frames have them,
         velocities. Numbers stay in the scene's units; MDAnalysis calls them Angstrom and ps.
         Departed discs stay in, at rest beyond their open side.
 
-        MDAnalysis repeats its boxes in all directions. So between walls the box is twice as long,
-        and it is as high as it is long: no disc is near an image that is not there. An RDF of
-        MDAnalysis counts shells of a sphere; times 2 r / (height of the box) it is that of discs.
+        The box is as high as it is long, so that MDAnalysis has room to search for neighbours. Its
+        RDF counts shells of a sphere; times 2 r / (height of the box) it is that of discs.
+
+        Args:
+            unwrapped: positions go on through periodic sides without end, as `EinsteinMSD` needs
+                them; distances that MDAnalysis takes with its box are the same. False leaves them
+                in the box. A single frame is left in the box.
+            walls: "apart" makes the box twice as long between walls, because MDAnalysis repeats
+                its boxes in all directions: no disc has neighbours across a wall. Its RDF is then
+                wrong: divide its counts of pairs by `Frame.ideal_pairs`.
 
         Raises:
-            NoDataError: there are no frames, or they have no positions
-            ValueError: frames are not equally far apart: MDAnalysis knows one `dt`
+            NoDataError: there are no frames, or they have no positions or images
+            ValueError: frames are not equally far apart: MDAnalysis knows one `dt`; or the box
+                has walls, and `walls` is None
         """
-        from carrom import adapters
-
-        universe: Universe = adapters.to_mdanalysis(self)
+        universe: Universe = adapters.to_mdanalysis(self, unwrapped, walls)
         return universe
 
     def to_ase(self) -> list[ase.Atoms]:
@@ -174,8 +183,6 @@ class Frames(Sequence[Frame]):
 
     def to_ovito(self) -> Pipeline:
         """Return an OVITO Pipeline, which reads frames as OVITO shows them."""
-        from carrom import adapters
-
         pipeline: Pipeline = adapters.to_ovito_pipeline(self)
         return pipeline
 
@@ -186,7 +193,7 @@ class Frames(Sequence[Frame]):
     def __getitem__(self, index: int) -> Frame: ...
     @overload
     def __getitem__(self, index: slice) -> Frames: ...
-    def __getitem__(self, index: int | slice) -> Frame | Frames:
+    def __getitem__(self, index: int | slice) -> Union[Frame, Frames]:  # noqa: UP007 - completion
         """Return a frame, or the frames of a slice."""
         if isinstance(index, slice):
             part = object.__new__(Frames)

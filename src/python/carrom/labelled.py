@@ -11,13 +11,13 @@ import numpy as np
 
 from carrom.errors import MissingPackageError, NoDataError
 from carrom.fields import Fields, is_grid
+from carrom.named_columns import NamedColumns
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from carrom.frame import Array, Frame
-    from carrom.tables import Table
+    from carrom.disc_arrays import Array, DiscArrays
 
 _UNITS = {
     "position": "length",
@@ -38,7 +38,7 @@ def import_package(name: str, wanted_by: str) -> Any:
         raise MissingPackageError(f"{wanted_by} needs {name}: pip install {name}") from None
 
 
-def _arrays_of(frame: Frame) -> dict[str, Array]:
+def _arrays_of(frame: DiscArrays) -> dict[str, Array]:
     """Return all that a frame has of its discs: (N, 2) or (N,). What is not stored is left out."""
     arrays: dict[str, Array] = {}
     for name in (*_FIELDS, *_NUMBERS, *_BODIES):
@@ -47,7 +47,7 @@ def _arrays_of(frame: Frame) -> dict[str, Array]:
     return arrays
 
 
-def table_to_pandas(table: Table) -> pandas.DataFrame:
+def table_to_pandas(table: NamedColumns) -> pandas.DataFrame:
     """See `Table.to_pandas`."""
     pd = import_package("pandas", "to_pandas")
     frame: pandas.DataFrame = pd.DataFrame(
@@ -57,7 +57,7 @@ def table_to_pandas(table: Table) -> pandas.DataFrame:
     return frame
 
 
-def table_to_xarray(table: Table) -> xarray.Dataset:
+def table_to_xarray(table: NamedColumns) -> xarray.Dataset:
     """See `Table.to_xarray`."""
     xr = import_package("xarray", "to_xarray")
     attributes = {"remarks": list(table.remarks)}
@@ -81,7 +81,7 @@ def _fields_to_xarray(xr: Any, fields: Fields, attributes: dict[str, Any]) -> xa
     return data
 
 
-def frame_to_pandas(frame: Frame) -> pandas.DataFrame:
+def frame_to_pandas(frame: DiscArrays) -> pandas.DataFrame:
     """See `Frame.to_pandas`."""
     pd = import_package("pandas", "to_pandas")
     columns: dict[str, Array] = {}
@@ -97,7 +97,7 @@ def frame_to_pandas(frame: Frame) -> pandas.DataFrame:
     return data
 
 
-def frames_to_pandas(frames: Sequence[Frame]) -> pandas.DataFrame:
+def frames_to_pandas(frames: Sequence[DiscArrays]) -> pandas.DataFrame:
     """See `Frames.to_pandas`."""
     pd = import_package("pandas", "to_pandas")
     _need_frames(frames, "to_pandas")
@@ -106,7 +106,7 @@ def frames_to_pandas(frames: Sequence[Frame]) -> pandas.DataFrame:
     return data
 
 
-def frame_to_xarray(frame: Frame) -> xarray.Dataset:
+def frame_to_xarray(frame: DiscArrays) -> xarray.Dataset:
     """See `Frame.to_xarray`."""
     xr = import_package("xarray", "to_xarray")
     variables = {}
@@ -121,7 +121,7 @@ def frame_to_xarray(frame: Frame) -> xarray.Dataset:
     return data
 
 
-def frames_to_xarray(frames: Sequence[Frame]) -> xarray.Dataset:
+def frames_to_xarray(frames: Sequence[DiscArrays]) -> xarray.Dataset:
     """See `Frames.to_xarray`."""
     xr = import_package("xarray", "to_xarray")
     _need_frames(frames, "to_xarray")
@@ -132,12 +132,12 @@ def frames_to_xarray(frames: Sequence[Frame]) -> xarray.Dataset:
     return data
 
 
-def _need_frames(frames: Sequence[Frame], wanted_by: str) -> None:
+def _need_frames(frames: Sequence[DiscArrays], wanted_by: str) -> None:
     if len(frames) == 0:
         raise NoDataError(f"{wanted_by} needs at least one frame")
 
 
-def grid_to_xarray(table: Table, keys: Mapping[str, Sequence[Any]]) -> xarray.Dataset:
+def grid_to_xarray(table: NamedColumns, keys: Mapping[str, Sequence[Any]]) -> xarray.Dataset:
     """Return columns of a table over the axes of a grid; nan where a point has no row."""
     xr = import_package("xarray", "to_xarray")
     shape = tuple(len(values) for values in keys.values())

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -31,7 +32,7 @@ def is_notebook() -> bool:
 
 
 @contextmanager
-def progress_display(wanted: bool | Callable[[int, int], None] | None) -> Iterator[Show]:
+def progress_display(wanted: bool | Callable[..., None] | None) -> Iterator[Show]:
     """Give a function that shows how far a run is, in a line like "step 3 of 10".
 
     A notebook shows a bar, a terminal a line. Both are wiped at the end.
@@ -86,9 +87,29 @@ def bar_html(line: str) -> str:
     return f'<progress value="{done}" max="{whole}"></progress> {escape(line)}'
 
 
-def _caller(function: Callable[[int, int], None]) -> Show:
+def _caller(function: Callable[..., None]) -> Show:
+    """Call a function with the step and the last step, and with the line if it takes three."""
+    takes_line = _takes_three(function)
+
     def show(line: str) -> None:
         if match := _STEP.match(line):
-            function(int(match[1]), int(match[2]))
+            numbers = int(match[1]), int(match[2])
+            function(*numbers, *([line] if takes_line else []))
 
     return show
+
+
+def _takes_three(function: Callable[..., None]) -> bool:
+    """Whether a function names a third argument; `*arguments` get two, as they always did."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    return sum(parameter.kind in kinds for parameter in parameters) >= 3
+
+
+def show_end(wanted: object, steps: int) -> None:
+    """Call a function that was given as `progress` once more, at the end of the last step."""
+    if callable(wanted):
+        _caller(wanted)(f"step {steps} of {steps} (100 %)")

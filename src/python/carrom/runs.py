@@ -7,7 +7,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, overload
+from typing import Any, Union, overload
 
 import h5py
 import numpy as np
@@ -17,13 +17,12 @@ from carrom.checking import check as check_file
 from carrom.checkpoints import Checkpoint
 from carrom.errors import FileError, NoDataError
 from carrom.frames import Frames
+from carrom.launching import go_on
 from carrom.plain import open_plain, read_text
-from carrom.scene import flattened, parsed, read_scene
+from carrom.scene import SCENE_FILES, flattened, parsed, read_scene
 from carrom.tables import Table, Tables
 
 _COLLISIONS = "carrom/collisions"
-SCENE_FILES = ("scene.toml", "scene.in")
-"""A run keeps a copy of its scene under one of these names."""
 _IN_REPORTS = {"first_step", "steps", "state_hash"}
 
 
@@ -202,11 +201,9 @@ class Run:
 
     def resume(self, steps: int | None = None, **options: Any) -> Run:
         """Go on from the newest whole checkpoint. See `carrom.resume`."""
-        from carrom.running import resume
-
         if self.folder is None:
             raise NoDataError(f"{self.name}: is one file; only a folder can be gone on with")
-        return resume(self.folder, steps=steps, **options)
+        return finished(self.folder, go_on(self.folder, steps=steps, **options))
 
     def close(self) -> None:
         """Close the trajectory. The next access to `frames` opens it again."""
@@ -241,6 +238,13 @@ class Run:
         return f"<Run {self.name}, {state}>" if self.folder else f"<Run of the file {self.name}>"
 
 
+def finished(folder: str | os.PathLike[str], log: list[str]) -> Run:
+    """Return the run of a folder, with what the program has printed."""
+    run = Run(folder)
+    run.log = log
+    return run
+
+
 def _with_error(entry: Mapping[str, Any]) -> str:
     error = entry["error"]
     return f"{entry['value']:.6g}" + ("" if error is None else f" +- {error:.1g}")
@@ -262,7 +266,7 @@ class Checkpoints(Sequence[Checkpoint]):
     def __getitem__(self, index: int) -> Checkpoint: ...
     @overload
     def __getitem__(self, index: slice) -> Checkpoints: ...
-    def __getitem__(self, index: int | slice) -> Checkpoint | Checkpoints:
+    def __getitem__(self, index: int | slice) -> Union[Checkpoint, Checkpoints]:  # noqa: UP007 - completion
         """Return a checkpoint, or those of a slice."""
         if isinstance(index, slice):
             return Checkpoints(self.paths[index], self._owner, self._checked)

@@ -27,6 +27,9 @@ else:
 SceneLike = Union[Mapping[str, Any], str, "os.PathLike[str]"]
 """A scene: a dictionary, the path of a file, or TOML text (any string with a line break)."""
 
+SCENE_FILES = ("scene.toml", "scene.in")
+"""A run keeps a copy of its scene under one of these names."""
+
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _REMARK = "# --set "
 _DEEPEST = 64  # tables and lists in each other; the program takes no more than 256

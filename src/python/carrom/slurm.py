@@ -12,8 +12,7 @@ from typing import Any
 
 from carrom.errors import CarromError, ProgramNotFoundError
 from carrom.plain import read_text
-from carrom.runs import SCENE_FILES
-from carrom.scene import set_words, to_toml
+from carrom.scene import SCENE_FILES, set_words, to_toml
 from carrom.sweeps import Point
 
 _SCRIPT = r"""#!/bin/bash

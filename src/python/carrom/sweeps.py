@@ -19,8 +19,9 @@ from carrom import display, labelled
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.physics import average, compressibility
 from carrom.plain import read_text
-from carrom.runs import SCENE_FILES, Run
+from carrom.runs import Run
 from carrom.scene import (
+    SCENE_FILES,
     SceneLike,
     flattened,
     is_text,

@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from carrom import display, labelled
 from carrom.errors import FileError, NoDataError
+from carrom.named_columns import NamedColumns
 from carrom.plain import read_text
 
 if TYPE_CHECKING:
@@ -22,42 +22,12 @@ if TYPE_CHECKING:
 _WHOLE = ("count", "neighbours", "pairs", "steps", "step", "collisions")
 
 
-class Table(np.ndarray[Any, np.dtype[np.void]]):
+class Table(NamedColumns):
     """A structured array: `table["g"]` is a column, `table[3]` a row.
 
     Attributes:
         remarks: what the program wrote about the table: samples, meaning, units
     """
-
-    remarks: tuple[str, ...]
-
-    def __new__(cls, rows: npt.ArrayLike, remarks: Sequence[str] = ()) -> Table:
-        """Take a structured array as it is."""
-        table = np.asarray(rows).view(cls)
-        if table.dtype.names is None:
-            raise TypeError("a table has named columns")
-        table.remarks = tuple(remarks)
-        return table
-
-    def __array_finalize__(self, source: object) -> None:
-        self.remarks = getattr(source, "remarks", ())
-
-    @classmethod
-    def from_columns(
-        cls, columns: Mapping[str, npt.ArrayLike], remarks: Sequence[str] = ()
-    ) -> Table:
-        """Join columns of equal length."""
-        arrays = {name: np.asarray(values) for name, values in columns.items()}
-        length = len(next(iter(arrays.values()), np.empty(0)))
-        rows = np.empty(length, dtype=[(name, array.dtype) for name, array in arrays.items()])
-        for name, array in arrays.items():
-            rows[name] = array
-        return cls(rows, remarks)
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the columns."""
-        return self.dtype.names or ()
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the table as a pandas DataFrame; remarks go to its `attrs`."""

@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
+from carrom.disc_arrays import Array
 from carrom.errors import FileError
-from carrom.frame import Array, Frame
-
-if TYPE_CHECKING:
-    from carrom.frames import Frames
+from carrom.frame import Frame
 
 
 class System:
@@ -46,10 +44,21 @@ def _number_of_discs(discs: Any, file: Any) -> int:
     raise FileError(f"{file.filename}: its frames have no fields")
 
 
+class Trajectory(Protocol):
+    """What a frame needs of the trajectory that it belongs to; `Frames` has it."""
+
+    all_steps: Array
+    all_boxes: Array
+    system: System
+
+    def has(self, name: str) -> bool: ...
+    def field(self, name: str, index: int) -> Array: ...
+
+
 class TrajectoryFrame(Frame):
     """A frame of a trajectory. Arrays are read when they are first asked for."""
 
-    def __init__(self, frames: Frames, index: int) -> None:
+    def __init__(self, frames: Trajectory, index: int) -> None:
         """Stand for the frame at a place in the file."""
         self._frames = frames
         self._index = index

@@ -36,14 +36,15 @@ def neighbours(frame: carrom.Frame, reach: float) -> int:
 
 @pytest.mark.parametrize("which", ["mixture", "run"])
 def test_freud_finds_the_neighbours(which: str, request: pytest.FixtureRequest) -> None:
-    """Between walls there are no neighbours across the sides."""
+    """Between walls that are apart there are no neighbours across the sides."""
     freud = pytest.importorskip("freud", reason="freud is not installed")
     source: carrom.Run = request.getfixturevalue(which)
-    box, points = source.frames[-1].to_freud()
+    walls = None if which == "mixture" else "apart"
+    box, points = source.frames[-1].to_freud(walls=walls)
     assert box.is2D
     query = freud.locality.AABBQuery(box, points).query(points, {"r_max": 3.0, "exclude_ii": True})
     assert len(query.toNeighborList()) == 2 * neighbours(source.frames[-1], 3.0)
-    assert len(source.frames.to_freud()) == 5
+    assert len(source.frames.to_freud(walls=walls)) == 5
 
 
 def test_mdanalysis_has_the_frames(mixture: carrom.Run) -> None:
@@ -53,13 +54,17 @@ def test_mdanalysis_has_the_frames(mixture: carrom.Run) -> None:
     assert universe.trajectory.dt == 5
     assert [moment.time for moment in universe.trajectory] == [0, 5, 10, 15, 20]
     for moment, frame in zip(universe.trajectory, frames):
-        assert np.array_equal(moment.positions[:, :2], frame.x)
+        flown = (frame.x + frame.image * frame.box).astype(np.float32)
+        assert np.array_equal(moment.positions[:, :2], flown)
         assert np.array_equal(moment.velocities[:, :2], frame.v)
         assert moment.dimensions.tolist() == [20, 20, 20, 90, 90, 90]
     assert universe.atoms.radii.tolist() == [1.0] * 10 + [0.5] * 40
     assert universe.atoms.masses.tolist() == [4.0] * 10 + [1.0] * 40
     assert universe.atoms.types.tolist() == ["1"] * 10 + ["2"] * 40
     assert len(universe.select_atoms("type 2")) == 40
+    wrapped = frames.to_mdanalysis(unwrapped=False)
+    for moment, frame in zip(wrapped.trajectory, frames):
+        assert np.array_equal(moment.positions[:, :2], frame.x)
     alone = mixture.checkpoints[-1].to_mdanalysis()
     assert [moment.time for moment in alone.trajectory] == [20]
     with pytest.raises(ValueError, match="not equally far apart"):
@@ -74,7 +79,7 @@ def test_mdanalysis_finds_the_neighbours(which: str, request: pytest.FixtureRequ
     from MDAnalysis.lib.distances import self_capped_distance
 
     source: carrom.Run = request.getfixturevalue(which)
-    universe = source.frames[-1].to_mdanalysis()
+    universe = source.frames[-1].to_mdanalysis(walls=None if which == "mixture" else "apart")
     wanted = neighbours(source.frames[-1], 3.0)
     pairs = self_capped_distance(
         universe.atoms.positions, 3.0, box=universe.dimensions, return_distances=False

@@ -196,6 +196,29 @@ def test_progress_calls_a_function(program: Path, tmp_path: Path) -> None:
     assert seen
     assert all(0 <= step <= last == 20_000 for step, last in seen)
     assert [step for step, _ in seen] == sorted(step for step, _ in seen)
+    assert seen[-1] == (20_000, 20_000)
+
+
+def test_progress_gives_the_line_to_a_third_argument(program: Path, tmp_path: Path) -> None:
+    lines: list[str] = []
+
+    def show(step: int, last: int, line: str) -> None:
+        assert line.startswith(f"step {step} of {last} (")
+        lines.append(line)
+
+    carrom.run(gas(steps=30_000), folder=tmp_path / "run", progress=show)
+    assert any("steps/s" in line and "left" in line for line in lines[:-1])
+    assert lines[-1] == "step 30000 of 30000 (100 %)"
+
+
+def test_an_unknown_argument_is_answered_by_an_argument(program: Path, tmp_path: Path) -> None:
+    for scene in (gas(), carrom.to_toml(gas())):
+        with pytest.raises(carrom.InputError) as caught:
+            carrom.run(scene, folder=tmp_path / "run", seed=3)
+        assert "no such key 'seed'; did you mean discs__seed=3?" in str(caught.value)
+        assert caught.value.lines == str(caught.value).splitlines()
+    with pytest.raises(carrom.InputError, match=r"did you mean 'discs\.seed'\?"):
+        carrom.run(gas() | {"seed": 3}, folder=tmp_path / "run")
 
 
 def wait_for(path: Path, pattern: str, seconds: float = 60) -> None:

@@ -54,3 +54,8 @@ def __getattr__(name: str) -> Any:
         raise MissingPackageError(
             f"carrom.plot needs {error.name}: pip install carrom[plot]"
         ) from None
+
+
+def __dir__() -> list[str]:
+    """Name what can be drawn, so that completion offers that and nothing else."""
+    return sorted(__all__)

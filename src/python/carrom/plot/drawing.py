@@ -16,7 +16,8 @@ from matplotlib.collections import EllipseCollection, LineCollection, PatchColle
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.patches import Circle
 
-from carrom.frame import Array, Frame
+from carrom.disc_arrays import Array
+from carrom.frame import Frame
 from carrom.plot.sources import COLOURS, Drawable, frame_of, scene_of
 
 _LABELS = {

@@ -13,8 +13,8 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from carrom.disc_arrays import Array
 from carrom.fields import Fields, is_grid
-from carrom.frame import Array
 from carrom.plot.fields import draw_field
 from carrom.runs import Run
 from carrom.tables import Table

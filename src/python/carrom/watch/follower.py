@@ -19,8 +19,8 @@ from typing import Any
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.frames import Frames
 from carrom.plain import read_bytes
-from carrom.runs import SCENE_FILES, Checkpoints, Run, open_run
-from carrom.scene import flattened
+from carrom.runs import Checkpoints, Run, open_run
+from carrom.scene import SCENE_FILES, flattened
 from carrom.watch.curves import Curves, steps_of
 from carrom.watch.field import NewestField
 from carrom.watch.picture import MOST_DISCS, View, picture

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carrom.frame import Array
+from carrom.disc_arrays import Array
 
 NEIGHBOURS = 6
 _AT_A_TIME = 8192

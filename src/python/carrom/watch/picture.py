@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from carrom.disc_arrays import Array
 from carrom.errors import NoDataError
-from carrom.frame import Array, Frame
+from carrom.frame import Frame
 from carrom.watch.order import hexatic_order
 from carrom.watch.walls import Walls, at_rest
 
