@@ -47,9 +47,9 @@ void fill_end(RunResult& result, const Run& run) {
     result.runs = system.rollback_counts();
     if (result.runs.simultaneous > 0)
         result.end_numbers.push_back(
-            {"simultaneous_collisions", "simultaneous",
-             "collisions of pairs at the time of an earlier one of the same disc: ids or roundings "
-             "decide their order",
+            {"simultaneous_collisions", "at one time",
+             "collisions of pairs with an earlier one of the same disc: ids or roundings decide "
+             "their order",
              result.runs.simultaneous});
     result.ranks_across = system.most_ranks_across();
 }

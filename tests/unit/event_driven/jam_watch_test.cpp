@@ -63,11 +63,11 @@ TEST_CASE("Runs that end before the jam, and gases in which collisions are frequ
     const JamWatch::Growth growth{0.001, 64, 700, 200};
     CHECK(watch(growth, 0, 1, jam_at(708.6, 1e8)).sign == JamWatch::Sign::none);
     CHECK(watch(growth, 0, 1, [](double t) { return 1e8 * t; }).sign == JamWatch::Sign::none);
-    // A fluid that freezes: collisions become rarer by a half, then more frequent again.
+    // A fluid that would jam at 400 freezes at 300. Collisions become rarer, and it has room.
     const auto freezing = [](double t) {
-        return t < 300 ? 1e8 * t / (400 - t) : 3e8 * 1 + 1e6 * (t - 300) * (1 + 0.001 * t);
+        return t < 300 ? 1e8 * t / (400 - t) : 3e8 + 1e6 * (t - 300) * (1 + 0.001 * t);
     };
-    CHECK(watch(growth, 0, 1, freezing).sign == JamWatch::Sign::none);
+    CHECK(watch({0.001, 64, 480, 200}, 0, 1, freezing).sign == JamWatch::Sign::none);
 }
 
 TEST_CASE("A run that begins a moment before the jam finds it as well") {
