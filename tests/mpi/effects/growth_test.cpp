@@ -130,12 +130,7 @@ TEST_CASE("growth: discs that have no more room end the run with a sentence") {
         text = error.what();
     }
     INFO(text);
-    const std::string before = "(radii ";
-    const std::size_t place = text.find(before);
-    REQUIRE(place != std::string::npos);
-    const double growth = std::stod(text.substr(place + before.size())); // up to which all is well
-    CHECK(growth > 1.199);
-    CHECK(growth <= 1.2);
+    CHECK(text.find("radii have grown to 1.2 times the first") != std::string::npos);
 }
 
 namespace {
