@@ -125,6 +125,10 @@ struct Thermostat {
     std::uint64_t seed = 3210;
 
     bool is_any() const { return kind != ThermostatKind::none; }
+    /// Whether discs exchange momentum, too, with what does not move.
+    bool is_bath() const {
+        return kind == ThermostatKind::andersen || kind == ThermostatKind::langevin;
+    }
     bool has_temperature() const { return is_any() && kind != ThermostatKind::kicks; }
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };

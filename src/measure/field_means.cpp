@@ -35,8 +35,7 @@ double heat_about(double energy, double v, double along_x, double along_y, doubl
 
 } // namespace
 
-void add_sample(const FieldSums& sample, std::size_t cell,
-                std::span<double, n_sample_moments> sums) {
+void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums) {
     if (sample.count(cell) == 0) return;
     const double n = static_cast<double>(sample.count(cell)), m = sample.value(cell, field_mass);
     const double vx = sample.value(cell, field_momentum_x) / m,

@@ -40,10 +40,10 @@ enum SampleMoment : std::uint8_t {
 /// Count and moments of a cell in a block, in the order that tables keep.
 inline constexpr std::size_t n_block_numbers = 1 + n_field_moments + n_sample_moments;
 using BlockNumbers = std::span<const double, n_block_numbers>;
+using SampleSums = std::span<double, n_sample_moments>;
 
 /// Adds to `sums` what one sample has in a cell, with the discs of all ranks.
-void add_sample(const FieldSums& sample, std::size_t cell,
-                std::span<double, n_sample_moments> sums);
+void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 
 /// kT from all cells of a table in a block, one after another, weighted by degrees of freedom.
 double common_temperature(std::span<const double> cells);

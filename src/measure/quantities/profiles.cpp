@@ -2,10 +2,10 @@
 // "profiles": density, velocity, temperature about the local mean, the pressure tensor and the flow
 // of heat, on a grid of cells, averaged over one block of time after another.
 //
-// What discs carry is sampled. What collisions carry is not: each collision of a block counts. Its
-// impulse times distance is shared by length among the cells on the line between both centres, so
-// that the force across any line of the grid is right. Price: a pass over the discs and the cells
-// at each sample, and some hundred instructions for each collision.
+// What discs carry is sampled. What collisions carry is not: each one counts, and its impulse times
+// distance is shared by length among the cells on the line between both centres, so that the force
+// across any line of the grid is right. Price: a pass over discs and cells at each sample, and some
+// hundred instructions for each collision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -201,8 +201,8 @@ private:
             const auto n = static_cast<std::int64_t>(size);
             if (place >= 0 && place < n) [[likely]]
                 return static_cast<std::size_t>(place);
-            if (is_periodic) return static_cast<std::size_t>(((place % n) + n) % n);
-            return static_cast<std::size_t>(std::clamp<std::int64_t>(place, 0, n - 1));
+            return static_cast<std::size_t>(
+                is_periodic ? ((place % n) + n) % n : std::clamp<std::int64_t>(place, 0, n - 1));
         };
         return within(row, n_y_, run_.scene.effects.is_periodic_y()) * n_x_ +
                within(column, n_x_, run_.scene.effects.is_periodic_x());
@@ -269,21 +269,18 @@ private:
         const auto visit = [&act](const FieldSums& of) {
             for (std::size_t cell = 0; cell < of.size(); ++cell) act(of, cell);
         };
-        const FieldSums all = sums.over_species(n_kinds_);
-        visit(all);
+        visit(sums.over_species(n_kinds_));
         if (n_kinds_ > 1) visit(sums);
-        visit(all.total());
+        visit(sums.total());
     }
 
-    /// Adds the discs of a sample to the sums, and what all of them together are in each field to
-    /// the means. **Collective.**
+    /// Adds the discs of a sample to the sums, and all ranks' to the means. **Collective.**
     void take_sample() {
         sums_.add_discs(sample_);
         sample_.join_discs(run_.ranks);
-        double* next = means_.data();
-        for_each_field(sample_, [&next](const FieldSums& of, std::size_t cell) {
-            add_sample(of, cell, std::span<double, n_sample_moments>(next, n_sample_moments));
-            next += n_sample_moments;
+        std::size_t field = 0;
+        for_each_field(sample_, [&](const FieldSums& of, std::size_t cell) {
+            add_sample(of, cell, SampleSums(&means_[n_sample_moments * field++], n_sample_moments));
         });
         sample_.clear_discs();
     }
@@ -339,10 +336,9 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
         std::move(name),
         {fmt::format("means over {} samples up to to_step, {}", per_block_, where),
          "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that, with "
-         "the degrees of freedom given back that it takes; xx, xy, yy: kinetic part of the "
-         "pressure "
-         "tensor about that; heat_x, heat_y: of the flow of heat; contact_*: collisions' parts, "
-         "shared along the line between centres",
+         "its degrees of freedom given back; xx, xy, yy: kinetic part of the pressure tensor; "
+         "heat_x, "
+         "heat_y: flow of heat; contact_*: collisions' parts, shared along the line of centres",
          "lengths in the scene's unit, times in steps; nan without discs or time"},
         {"to_step"},
         {}};
@@ -363,13 +359,14 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
                      area = width * height * static_cast<double>(is_grid ? 1 : n_cells());
         for (std::size_t cell = 0; cell < n; ++cell) {
             std::vector<double>& row = table.rows.emplace_back(std::vector{head.to_step});
-            if (is_grid)
-                row.insert(row.end(),
-                           {head.x_low + (static_cast<double>(cell % n_x_) + 0.5) * width,
-                            head.y_low + (static_cast<double>(cell / n_x_) + 0.5) * height});
+            const auto column = static_cast<double>(cell % n_x_),
+                       line = static_cast<double>(cell / n_x_);
+            if (is_grid) row.push_back(head.x_low + (column + 0.5) * width);
+            if (is_grid) row.push_back(head.y_low + (line + 0.5) * height);
+            const BlockNumbers numbers_of_cell(cells.data() + n_block_numbers * cell,
+                                               n_block_numbers);
             const std::vector<double> fields = fields_of(
-                BlockNumbers(cells.data() + n_block_numbers * cell, n_block_numbers), kT,
-                static_cast<double>(per_block_), head.steps, area);
+                numbers_of_cell, kT, static_cast<double>(per_block_), head.steps, area);
             row.insert(row.end(), fields.begin(), fields.end());
         }
     }

@@ -76,12 +76,6 @@ std::string reason_without_z(const Effects& effects) {
     return {};
 }
 
-bool does_energy_jump(const Effects& effects) {
-    return std::ranges::any_of(all_effects(), [&](const EffectDeclaration& effect) {
-        return effect.makes_energy_jump && effect.makes_energy_jump(effects);
-    });
-}
-
 Drift drift_along(Axis axis, const Effects& effects) {
     if (!(axis == Axis::x ? effects.is_periodic_x() : effects.is_periodic_y()))
         return Drift::is_heat;

@@ -117,6 +117,8 @@ std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
 std::string reason_without_z(const Effects& effects);
 /// Whether the mean energy of motion jumps at syncs.
 bool does_energy_jump(const Effects& effects);
+/// Warns where it changes much between syncs, or where samples do not have its mean over time.
+void check_energy_jumps(const SceneDraft& draft);
 /// How the common velocity of all discs along `axis` counts. Temperature, pressure and
 /// displacements follow this alone.
 Drift drift_along(Axis axis, const Effects& effects);

@@ -31,8 +31,7 @@ std::vector<Key> keys_of_gravity() {
 bool are_stopped(const SceneParameters& s, std::size_t low) {
     const Effects& e = s.effects;
     const ThermostatKind kind = e.thermostat.kind;
-    if (e.drag != 0 || kind == ThermostatKind::langevin || kind == ThermostatKind::andersen)
-        return true;
+    if (e.drag != 0 || e.thermostat.is_bath()) return true;
     const Boundary *const first = &e.boundaries[low], *const last = first + 2;
     const auto any = [&](const auto& what) { return std::any_of(first, last, what); };
     const bool are_thermal = any(

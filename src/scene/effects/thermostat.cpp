@@ -17,7 +17,6 @@
 //
 // The operations are + - * / and sqrt, so the bits are the same on every machine.
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -154,18 +153,14 @@ public:
 
     void act(const SyncDiscs& at) override {
         double largest = 0; // the largest velocity, surfaces of rough discs included
-        for (std::size_t i = 0; i < at.discs.size(); ++i) {
-            const DiscState& disc = at.discs[i];
-            largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
-            if (!at.spins.empty())
-                largest = std::max(largest, at.species.of(disc.id).radius * std::fabs(at.spins[i]));
-        }
+        for (std::size_t i = 0; i < at.discs.size(); ++i)
+            largest = std::max({largest, std::fabs(at.discs[i].vx), std::fabs(at.discs[i].vy),
+                                std::fabs(speed_of_surface(at, i))});
         largest = at.largest_over_ranks(largest);
         if (!(largest > 0)) return; // all are at rest
         const double mass_bound = 2 * n_discs_ * heaviest_;
-        std::vector<ExactSum> sums(2, ExactSum(mass_bound * largest));
-        sums.emplace_back(mass_bound);
-        sums.emplace_back(2 * n_discs_);
+        std::vector<ExactSum> sums{ExactSum(mass_bound * largest), ExactSum(mass_bound * largest),
+                                   ExactSum(mass_bound), ExactSum(2 * n_discs_)};
         at.add_up(sums, [&](std::size_t i, std::vector<ExactSum>& parts) {
             const double mass = at.species.of(at.discs[i].id).mass;
             parts[0].add(mass * at.discs[i].vx);
@@ -179,10 +174,9 @@ public:
         std::vector<ExactSum> energy(1, ExactSum(16 * mass_bound * largest * largest));
         at.add_up(energy, [&](std::size_t i, std::vector<ExactSum>& parts) {
             const DiscState& disc = at.discs[i];
-            const SizeAndMass& body = at.species.of(disc.id);
-            const double wx = disc.vx - mean_x, wy = disc.vy - mean_y;
-            const double turning = at.spins.empty() ? 0 : body.radius * at.spins[i];
-            parts[0].add(0.5 * body.mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
+            const double wx = disc.vx - mean_x, wy = disc.vy - mean_y,
+                         turning = speed_of_surface(at, i), mass = at.species.of(disc.id).mass;
+            parts[0].add(0.5 * mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
         });
         const double now = energy[0].value(), blur = 0x1p-48 * largest;
         // Discs that all fly alike differ from their mean by roundings, which must not become heat.
@@ -198,6 +192,11 @@ public:
                 if (!at.spins.empty()) at.spins[i] *= factor;
             }
         });
+    }
+
+private:
+    static double speed_of_surface(const SyncDiscs& at, std::size_t i) {
+        return at.spins.empty() ? 0 : at.species.of(at.discs[i].id).radius * at.spins[i];
     }
 };
 
@@ -294,38 +293,12 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
-/// The kT that a thermostat brings a gas to; that of kicks if discs are thin and lose energy.
-double temperature_in_the_end(const SceneParameters& scene) {
-    const Thermostat& t = scene.effects.thermostat;
-    if (t.has_temperature()) return t.temperature;
-    const double e = scene.effects.contact.restitution,
-                 density = static_cast<double>(scene.n_discs) / scene.box.area(),
-                 loss = (1 - e * e) * density * 2 * scene.radius * std::sqrt(std::numbers::pi);
-    return loss > 0 ? std::pow(t.strength / loss, 2.0 / 3) : 0;
-}
-
-/// A flow, or discs that lose energy, must not come far from their temperature between two acts.
-void warn_of_rare_acts(const SceneDraft& draft) {
-    SceneParameters& scene = draft.scene;
-    if (!scene.effects.thermostat.is_any() || scene.steps == 0) return;
-    const double interval = steps_between_syncs(scene);
-    if (interval > static_cast<double>(scene.steps)) {
-        scene.warnings.push_back(
-            fmt::format("the thermostat never acts: it would every {:g} steps (time.sync_every), "
-                        "and the run has {}",
-                        interval, scene.steps));
-        return;
-    }
-    constexpr double most = 4;
-    const double density = static_cast<double>(scene.n_discs) / scene.box.area(),
-                 often = 2 * std::sqrt(std::numbers::pi * temperature_in_the_end(scene)) * density *
-                         2 * scene.radius; // of a thin gas; dense ones collide more often
-    const bool changes = scene.effects.are_sheared() || are_pairs_lossy(scene.effects);
-    if (changes && often * interval > most)
-        scene.warnings.push_back(fmt::format(
-            "a disc collides {:.1f} times or more from one act of the thermostat to the next, so "
-            "its temperature changes in between; try: time.sync_every = {:.0f}",
-            often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
+/// A bath leaves velocities distributed as they are where nothing else gives or takes energy.
+bool makes_energy_jump(const Effects& effects) {
+    const CheckAllowance others = allowance_of(effects);
+    return effects.thermostat.is_any() &&
+           (!effects.thermostat.is_bath() || others.collisions_take_energy ||
+            others.walls_give_energy || effects.are_sheared());
 }
 
 /// Velocities that a thermostat gives must be such as discs may have.
@@ -338,7 +311,7 @@ void check_room_of_thermostat(const SceneDraft& draft) {
         const std::string text = speed_problem(speed, draft.scene);
         if (!text.empty()) draft.refuse({key}, fmt::format("'{}': {}", key, text));
     }
-    warn_of_rare_acts(draft);
+    check_energy_jumps(draft);
 }
 
 std::string summary_of_thermostat(const Effects& effects) {
@@ -361,22 +334,6 @@ std::string summary_of_thermostat(const Effects& effects) {
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));
-}
-
-/// Kicks and rescaling leave the total momentum as it is.
-CommonMotion common_motion_in_thermostat(const Effects& effects, Axis /*axis*/) {
-    const ThermostatKind kind = effects.thermostat.kind;
-    return {.is_stopped = kind == ThermostatKind::andersen || kind == ThermostatKind::langevin};
-}
-
-/// Andersen and Langevin thermostats leave the distribution of velocities as it is where nothing
-/// else gives or takes energy.
-bool makes_energy_jump(const Effects& effects) {
-    const ThermostatKind kind = effects.thermostat.kind;
-    if (kind == ThermostatKind::kicks || kind == ThermostatKind::rescale) return true;
-    const CheckAllowance others = allowance_of(effects);
-    return effects.thermostat.is_any() &&
-           (others.collisions_take_energy || others.walls_give_energy || effects.are_sheared());
 }
 
 std::unique_ptr<SyncEffect> thermostat_at_syncs(const SceneParameters& scene) {
@@ -407,7 +364,8 @@ EffectDeclaration thermostat() {
         .usual_speed = usual_speed_of_thermostat,
         .at_syncs = thermostat_at_syncs,
         .makes_energy_jump = makes_energy_jump,
-        .common_motion = common_motion_in_thermostat};
+        .common_motion = [](const Effects& e,
+                            Axis) { return CommonMotion{.is_stopped = e.thermostat.is_bath()}; }};
 }
 
 } // namespace effects
