@@ -92,7 +92,7 @@ class Measurements(ProgramTest):
         """The restart comes within a block of profiles."""
         for method in METHODS:
             with self.subTest(method):
-                self.check_stretches(5, "--set", f"time.method={method}", *AROUND, *FIELDS)
+                self.check_stretches(6, "--set", f"time.method={method}", *AROUND, *FIELDS)
 
     def test_wrong_keys(self):
         self.refuse(*FIELDS, says="periodic all round")
