@@ -22,9 +22,9 @@ constexpr int most_halvings = 2100; ///< the product of the two largest doubles 
 struct Halving {
     Halving(double rate, double time) {
         for (; rate * time > 0.5 && count < most_halvings; time /= 2) ++count;
-        const double z = rate * time,
-                     integral = z <= 0.5 ? short_integral(z)
-                                         : std::numeric_limits<double>::quiet_NaN();
+        const double z = rate * time, integral = z <= 0.5
+                                                     ? short_integral(z)
+                                                     : std::numeric_limits<double>::quiet_NaN();
         slowing = 1 - z * integral;
         clock = time * integral;
     }

@@ -60,8 +60,8 @@ WriteLock::WriteLock(WriteLock&& other) noexcept
 /// Returns true if there is nothing to wait for.
 bool WriteLock::try_once() {
     holder_.clear();
-    const int file = ::open(path_.c_str(),
-                            O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
+                            0666);
     if (file < 0) {
         problem_ = fmt::format("{} cannot be opened: {}", path_, std::strerror(errno));
         return true;

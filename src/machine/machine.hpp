@@ -34,9 +34,9 @@ int default_threads(const Communicator& ranks);
 /// OpenMP itself would end the program then, with its own code. **Collective.**
 void check_threads(int threads, const Communicator& ranks);
 
-/// A warning if a rank has more threads than cores, if ranks that share cores have many more
-/// together, or if a rank has more threads than its discs keep at work, with the number to take; else
-/// empty. **Collective.**
+/// A warning with the number of threads to take if a rank has more threads than cores, if ranks
+/// that share cores have many more together, or if a rank has more than its discs keep at work;
+/// else empty. **Collective.**
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks);
 

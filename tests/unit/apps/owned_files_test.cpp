@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 class Folders {
 public:
     Folders() {
-        for (const char* name : {"run/checkpoints", "run/trajectory", "own", "many/0000/checkpoints"})
+        for (const char* name :
+             {"run/checkpoints", "run/trajectory", "own", "many/0000/checkpoints"})
             fs::create_directories(top / name);
         write("run/scene.toml", "[box]\n");
         write("many/0000/scene.toml", "[box]\n");

@@ -189,9 +189,9 @@ TEST_CASE("what is wrong with a distribution of radii is told") {
               .find("exclude each other") != std::string::npos);
     CHECK(with("radius = {distribution = \"uniform\", mean = 1, smallest = 2, largest = 0.5}")
               .find("not above the largest") != std::string::npos);
-    const std::string empty =
-        with("radius = {distribution = \"lognormal\", mean = 1, polydispersity = 0.01, "
-             "smallest = 2, largest = 3}");
+    const std::string empty = with(
+        "radius = {distribution = \"lognormal\", mean = 1, polydispersity = 0.01, "
+        "smallest = 2, largest = 3}");
     CHECK(empty.find("radii from 2 to 3 times the mean hold") != std::string::npos);
     CHECK(empty.find("discs.radius.smallest") != std::string::npos);
     CHECK(with("radius = {distribution = \"normal\", mean = 1e-69, polydispersity = 0.3, "
