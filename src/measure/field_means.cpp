@@ -2,7 +2,6 @@
 #include "measure/field_means.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace carrom {
 
@@ -12,18 +11,18 @@ struct Moments {
     double xx = 0, xy = 0, yy = 0;
 
     double trace() const { return xx + yy; }
-    Moments without(const Moments& other) const {
-        return {xx - other.xx, xy - other.xy, yy - other.yy};
+    Moments plus(double factor, const Moments& other) const {
+        return {xx + factor * other.xx, xy + factor * other.xy, yy + factor * other.yy};
     }
-    Moments times(double factor) const { return {factor * xx, factor * xy, factor * yy}; }
 };
 
-Moments flux_of(BlockNumbers cell) {
-    return {cell[1 + field_flux_xx], cell[1 + field_flux_xy], cell[1 + field_flux_yy]};
-}
-Moments sampled_flux_of(BlockNumbers cell) {
-    const double* const first = cell.data() + 1 + n_field_moments;
-    return {first[sample_flux_xx], first[sample_flux_xy], first[sample_flux_yy]};
+const double* samples_of(BlockNumbers cell) { return cell.data() + 1 + n_field_moments; }
+
+/// kT along both axes for each disc, from squares about the mean of each sample.
+Moments thermal_of(BlockNumbers cell) {
+    const double* const sampled = samples_of(cell);
+    const double n = sampled[sample_in_pair]; // 0 / 0 is NaN
+    return {sampled[sample_flux_xx] / n, sampled[sample_flux_xy] / n, sampled[sample_flux_yy] / n};
 }
 
 /// The sum of m c^2 c / 2 over velocities c about the mean (vx, vy), from that over velocities:
@@ -40,28 +39,33 @@ void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums) {
     const double n = static_cast<double>(sample.count(cell)), m = sample.value(cell, field_mass);
     const double vx = sample.value(cell, field_momentum_x) / m,
                  vy = sample.value(cell, field_momentum_y) / m;
-    sums[sample_count] += 1;
-    sums[sample_flux_xx] += m * vx * vx;
-    sums[sample_flux_xy] += m * vx * vy;
-    sums[sample_flux_yy] += m * vy * vy;
-    if (n < 3) return; // their thermal motion about V_k carries no heat
     const double xx = sample.value(cell, field_flux_xx), xy = sample.value(cell, field_flux_xy),
                  yy = sample.value(cell, field_flux_yy);
-    sums[sample_heat_x] += heat_about(sample.value(cell, field_energy_x), vx, xx, xy, xx + yy, m,
-                                      vx, vy);
-    sums[sample_heat_y] += heat_about(sample.value(cell, field_energy_y), vy, xy, yy, xx + yy, m,
-                                      vx, vy);
-    sums[sample_heat_freedom] += (n - 1) * (n - 2) / n;
+    sums[sample_count] += 1;
+    sums[sample_drift] += m * (vx * vx + vy * vy);
+    if (n < 2) return;
+    const double of_squares = n / (n - 1);
+    sums[sample_in_pair] += n;
+    sums[sample_flux_xx] += of_squares * (xx - m * vx * vx);
+    sums[sample_flux_xy] += of_squares * (xy - m * vx * vy);
+    sums[sample_flux_yy] += of_squares * (yy - m * vy * vy);
+    if (n < 3) return; // the thermal motion of two discs about their mean carries no heat
+    const double of_heat = n * n / ((n - 1) * (n - 2));
+    sums[sample_in_three] += n;
+    sums[sample_heat_x] += of_heat * heat_about(sample.value(cell, field_energy_x), vx, xx, xy,
+                                                xx + yy, m, vx, vy);
+    sums[sample_heat_y] += of_heat * heat_about(sample.value(cell, field_energy_y), vy, xy, yy,
+                                                xx + yy, m, vx, vy);
 }
 
 double common_temperature(std::span<const double> cells) {
-    double energy = 0, freedom = 0;
+    double energy = 0, n = 0;
     for (std::size_t k = 0; k < cells.size(); k += n_block_numbers) {
-        const BlockNumbers cell(cells.data() + k, n_block_numbers);
-        energy += flux_of(cell).without(sampled_flux_of(cell)).trace() / 2;
-        freedom += cell[0] - cell[1 + n_field_moments + sample_count];
+        const double* const sampled = samples_of(BlockNumbers(cells.data() + k, n_block_numbers));
+        energy += (sampled[sample_flux_xx] + sampled[sample_flux_yy]) / 2;
+        n += sampled[sample_in_pair];
     }
-    return freedom > 0 ? energy / freedom : 0;
+    return n > 0 ? energy / n : 0;
 }
 
 namespace {
@@ -73,23 +77,19 @@ struct Kinetic {
 };
 
 Kinetic kinetic_of(BlockNumbers cell, double common, double vx, double vy) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const double* const sampled = cell.data() + 1 + n_field_moments;
-    const double n = cell[0], m = cell[1 + field_mass], s = sampled[sample_count], freedom = n - s;
-    const Moments flux = flux_of(cell), of_block = Moments{vx * vx, vx * vy, vy * vy}.times(m),
-                  thermal = flux.without(sampled_flux_of(cell))
-                                .times(freedom > 0 ? 1 / freedom : unknown);
+    const double* const sampled = samples_of(cell);
+    const double n = cell[0], m = cell[1 + field_mass], s = sampled[sample_count];
+    const Moments thermal = thermal_of(cell);
     // Thermal motion alone stays below this limit in all but one of a million cells.
-    const double scatter = sampled_flux_of(cell).without(of_block).trace(),
+    const double scatter = sampled[sample_drift] - m * (vx * vx + vy * vy),
                  limit = 2 * std::fmax(thermal.trace() / 2, common) * (s + 5 * std::sqrt(s));
     if (!(scatter > limit)) {
-        const double of_heat = sampled[sample_heat_freedom] > 0 ? n / sampled[sample_heat_freedom]
-                                                                : unknown;
-        return {thermal.times(n), of_heat * sampled[sample_heat_x],
-                of_heat * sampled[sample_heat_y]};
+        const double per_three = n / sampled[sample_in_three];
+        return {Moments{}.plus(n, thermal), per_three * sampled[sample_heat_x],
+                per_three * sampled[sample_heat_y]};
     }
-    const Moments about = flux.without(of_block);
-    return {about.without(thermal.times(-1)),
+    const Moments flux{cell[1 + field_flux_xx], cell[1 + field_flux_xy], cell[1 + field_flux_yy]};
+    return {flux.plus(-m, {vx * vx, vx * vy, vy * vy}).plus(1, thermal),
             heat_about(cell[1 + field_energy_x], vx, flux.xx, flux.xy, flux.trace(), m, vx, vy),
             heat_about(cell[1 + field_energy_y], vy, flux.xy, flux.yy, flux.trace(), m, vx, vy)};
 }

@@ -9,7 +9,9 @@
 //   sum_k sum_i m (v - V)^2  =  sum_k sum_i m (v - V_k)^2  +  sum_k M_k (V_k - V)^2
 //      mean (n - D) kT                mean (n - s) kT               mean (s - D) kT
 //
-// The middle sum has no memory of other samples in it, so it gives kT, and the last one gives D.
+// The middle sum has no memory of other samples in it, so it gives kT, and what is missing is D kT.
+// Its n_k discs have the weight n_k / (n_k - 1). With equal weights cells that fast discs have
+// crossed would count too much, because they hold fewer discs.
 // In a flow that changes within the block the last sum is larger than thermal motion can make it.
 // It then belongs to the fields about V, and only D = 1 is given back.
 #pragma once
@@ -23,17 +25,18 @@
 
 namespace carrom {
 
-/// Sums over the samples of a block that hold a disc in the cell: their number s, sum_k M_k V_k
-/// V_k, the flow of heat about V_k, and (n_k - 1)(n_k - 2) / n_k, by which thermal motion within
-/// V_k makes it smaller. They are the same on all ranks.
+/// Sums over the samples of a block, the same on all ranks. Squares and flows of heat are about
+/// V_k, with the weights that make their means those of all n_k discs.
 enum SampleMoment : std::uint8_t {
-    sample_count,
+    sample_count,   ///< of samples with a disc in the cell
+    sample_drift,  ///< M_k V_k^2
+    sample_in_pair, ///< discs of samples with two or more
     sample_flux_xx,
     sample_flux_xy,
     sample_flux_yy,
+    sample_in_three, ///< discs of samples with three or more
     sample_heat_x,
     sample_heat_y,
-    sample_heat_freedom,
     n_sample_moments
 };
 
@@ -45,7 +48,7 @@ using SampleSums = std::span<double, n_sample_moments>;
 /// Adds to `sums` what one sample has in a cell, with the discs of all ranks.
 void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 
-/// kT from all cells of a table in a block, one after another, weighted by degrees of freedom.
+/// kT from all cells of a table in a block, one after another, weighted by discs.
 double common_temperature(std::span<const double> cells);
 
 /// The table's columns from `count` on. `common` is kT of all cells. It is NaN where no sample

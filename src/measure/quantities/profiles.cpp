@@ -117,7 +117,6 @@ public:
     }
 
     bool has_velocities() const override { return true; }
-
     void sample(const SampledState& state) override {
         const Extent& box = state.box;
         const double time = run_.system.clock(), unit = run_.system.velocity_unit();

@@ -45,22 +45,25 @@ CentredSums centred(const std::vector<SeenDisc>& discs) {
     return sums;
 }
 
-/// Squares and heat about the mean of each sample alone, over what n discs have left of them:
-/// n - 1 squares, and (n - 1)(n - 2) / n third powers.
+/// Squares and heat about the mean of each sample alone. Of n discs that leaves (n - 1) / n of the
+/// squares, and (n - 1)(n - 2) / n^2 of the third powers.
 std::vector<double> row_of_cell(const ProfileCell& cell, double area) {
     std::vector<SeenDisc> all;
     CentredSums about;
-    double freedom = 0, of_heat = 0;
+    double in_pair = 0, in_three = 0;
     for (const std::vector<SeenDisc>& discs : cell) {
         all.insert(all.end(), discs.begin(), discs.end());
         const double n = static_cast<double>(discs.size());
-        if (n == 0) continue;
+        if (n < 2) continue;
         const CentredSums one = centred(discs);
-        about.xx += one.xx, about.xy += one.xy, about.yy += one.yy;
-        freedom += n - 1;
+        const double of_squares = n / (n - 1);
+        about.xx += of_squares * one.xx, about.xy += of_squares * one.xy;
+        about.yy += of_squares * one.yy;
+        in_pair += n;
         if (n < 3) continue;
-        about.heat_x += one.heat_x, about.heat_y += one.heat_y;
-        of_heat += (n - 1) * (n - 2) / n;
+        const double of_heat = n * n / ((n - 1) * (n - 2));
+        about.heat_x += of_heat * one.heat_x, about.heat_y += of_heat * one.heat_y;
+        in_three += n;
     }
     const CentredSums mean = centred(all);
     const double n = static_cast<double>(all.size()),
@@ -69,12 +72,12 @@ std::vector<double> row_of_cell(const ProfileCell& cell, double area) {
             n * per_area,
             mean.vx,
             mean.vy,
-            (about.xx + about.yy) / (2 * freedom),
-            n / freedom * about.xx * per_area,
-            n / freedom * about.xy * per_area,
-            n / freedom * about.yy * per_area,
-            n / of_heat * about.heat_x * per_area,
-            n / of_heat * about.heat_y * per_area};
+            (about.xx + about.yy) / (2 * in_pair),
+            n / in_pair * about.xx * per_area,
+            n / in_pair * about.xy * per_area,
+            n / in_pair * about.yy * per_area,
+            n / in_three * about.heat_x * per_area,
+            n / in_three * about.heat_y * per_area};
 }
 
 SceneParameters with_profiles(const TestScene& test, Method method) {
