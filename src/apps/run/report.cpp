@@ -60,6 +60,10 @@ nlohmann::ordered_json watched_json(const std::vector<WatchedNumber>& watched) {
     return all;
 }
 
+nlohmann::ordered_json lost_collisions_json(const LostCollisions& lost) {
+    return {{"share", lost.share}, {"pressure_error", lost.pressure_error}};
+}
+
 /// What is watched, and the line of doubts, if there are any.
 void add_doubts(nlohmann::ordered_json& report, const RunResult& result) {
     if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
@@ -190,11 +194,8 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
     add_thermodynamics(report, scene, result.averages);
-    if (scene.method == Method::time_stepped) {
-        const LostCollisions lost = lost_collisions(scene, result);
-        report["lost_collisions"] = {{"share", lost.share},
-                                     {"pressure_error", lost.pressure_error}};
-    }
+    if (scene.method == Method::time_stepped)
+        report["lost_collisions"] = lost_collisions_json(lost_collisions(scene, result));
     for (const OtherEnergy& energy : other_energies_of(scene.effects))
         report[energy.name] = result.end.*energy.value;
     for (const EndNumber& number : result.end_numbers) report[number.name] = number.value;
