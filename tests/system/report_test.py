@@ -53,7 +53,7 @@ def values_in(tree):
 
 class Report(ProgramTest):
     def test_known_numbers(self):
-        self.write("report.json", "old\n")
+        self.write("report.json", '{"old": 1}\n')
         run = self.run_program(2, "run", THREE_DISCS, "--threads", 2, "--report", "report.json")
         report = self.report("report.json")
         self.assertEqual([key for key in PROMISED if key not in report], [])

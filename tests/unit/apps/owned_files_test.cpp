@@ -103,5 +103,7 @@ TEST_CASE("an output replaces what it writes, and nothing else") {
     const std::vector<Destination> twice = {{"--output", in("new"), Output::text},
                                             {"--report", in("own/../new"), Output::report}};
     CHECK(problems_with(twice, {}).size() == 1);
+    CHECK(problems_with({{"-o", in("run"), Output::folder}}, {{"the checkpoint", in("run")}})
+              .empty()); // --restart FOLDER -o FOLDER
     CHECK(problems_with(twice, {{"the input", in("new")}}).size() == 3);
 }
