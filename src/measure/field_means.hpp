@@ -29,7 +29,7 @@ namespace carrom {
 /// V_k, with the weights that make their means those of all n_k discs.
 enum SampleMoment : std::uint8_t {
     sample_count,   ///< of samples with a disc in the cell
-    sample_drift,  ///< M_k V_k^2
+    sample_drift,   ///< M_k V_k^2
     sample_in_pair, ///< discs of samples with two or more
     sample_flux_xx,
     sample_flux_xy,

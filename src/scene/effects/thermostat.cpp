@@ -16,6 +16,7 @@
 // are those about the flow.
 //
 // The operations are + - * / and sqrt, so the bits are the same on every machine.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
