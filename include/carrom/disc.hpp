@@ -18,4 +18,13 @@ struct Disc {
     friend bool operator==(const Disc&, const Disc&) = default;
 };
 
+/// What a run never changes about a disc. Under growth the radius is the one at the scene's start.
+struct DiscKind {
+    double radius = 0;        ///< length
+    double mass = 1;          ///< in the scene's unit
+    std::int64_t species = 0; ///< from 0, in the order of ids
+
+    friend bool operator==(const DiscKind&, const DiscKind&) = default;
+};
+
 } // namespace carrom

@@ -24,10 +24,11 @@ struct SceneFacts {
     double radius = 0;  ///< the largest one, where there are several
     double packing = 0; ///< share of the box that discs cover
     std::uint64_t n_discs = 0;
-    std::int64_t steps = 0;            ///< the last step
-    std::int64_t micro_steps = 1;      ///< per step
-    bool is_event_driven = false;      ///< else time-stepped
-    std::vector<std::string> warnings; ///< legal, but worth a line each
+    std::int64_t steps = 0;                            ///< the last step
+    std::int64_t micro_steps = 1;                      ///< per step
+    bool is_event_driven = false;                      ///< else time-stepped
+    bool is_periodic_x = false, is_periodic_y = false; ///< the sides left and right, bottom and top
+    std::vector<std::string> warnings;                 ///< legal, but worth a line each
 };
 
 class Scene {

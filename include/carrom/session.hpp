@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include <carrom/errors.hpp>
 
@@ -37,6 +38,10 @@ public:
     int rank() const; ///< of this process: 0 to size() - 1
     int size() const; ///< number of ranks
     bool is_root() const { return rank() == 0; }
+
+    /// The name and version of the MPI library, also before MPI runs. A communicator of another
+    /// library cannot be taken.
+    static std::string mpi_library();
 
     /// Runs `body` on every rank and returns an exit code for main: what it returns, the largest of
     /// any rank. InputError and CollectiveError become their codes, and rank 0 prints the text to

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,32 @@ public:
     /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 64 bytes a
     /// disc there. **Collective.**
     std::vector<Disc> gathered_discs() const;
+
+    /// Write numbers of this rank's discs to the places of their ids, and leave those of other
+    /// ranks' discs: x and y of disc `id` to places 2 id and 2 id + 1, its spin to place `id`, its
+    /// collisions with walls and with discs to places 2 id and 2 id + 1. The arrays have room for
+    /// all discs of the scene, else InputError is thrown. Cost: one pass by all threads. Not
+    /// collective.
+    void read_positions(std::span<double> xy) const;
+    void read_velocities(std::span<double> xy) const; ///< length per step
+    void read_spins(std::span<double> spins) const;   ///< angle per step
+    void read_collisions(std::span<std::int64_t> counts) const;
+
+    /// Radius, mass and species of all discs of the scene, by id. Not collective.
+    std::vector<DiscKind> kinds() const;
+
+    /// Gives this rank's discs other positions, velocities or spins between two steps. `discs` are
+    /// those that `discs()` returns, in any order; counts of collisions in them are not taken.
+    /// Discs whose numbers are as they were keep all of their bits. Averages begin anew; where
+    /// positions have changed, measurements do so, too. Throws InputError for numbers that are
+    /// not finite, for discs outside of the box or in obstacles, and if more pairs than before
+    /// would overlap; nothing is changed then. Costs about as much as making the simulation from
+    /// a list of discs. **Collective.**
+    void change_discs(std::span<const Disc> discs);
+
+    /// An independent simulation of the same state, averages and measurements, which goes on with
+    /// the same bits. It keeps no checkpoints until it is told to. **Collective.**
+    Simulation copy() const;
 
     /// Sums over all discs; every rank gets them. Costs a pass over the discs and one search for
     /// pairs that touch, about as much as a step. **Collective.**

@@ -105,6 +105,8 @@ SceneFacts facts_of(const SceneParameters& scene) {
     facts.steps = scene.steps;
     facts.micro_steps = scene.micro_steps;
     facts.is_event_driven = scene.method == Method::event_driven;
+    facts.is_periodic_x = scene.effects.is_periodic_x();
+    facts.is_periodic_y = scene.effects.is_periodic_y();
     facts.warnings = scene.warnings;
     return facts;
 }

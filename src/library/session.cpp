@@ -43,6 +43,8 @@ Session::~Session() {
     if (!has_mpi_ended()) Departure(state_->ranks).leave(); // the program may have ended MPI
 }
 
+std::string Session::mpi_library() { return mpi_version(); }
+
 int Session::rank() const { return state_->ranks.rank(); }
 int Session::size() const { return state_->ranks.size(); }
 

@@ -56,9 +56,32 @@ bool is_earlier(const Disc& a, const Disc& b) { return a.id < b.id; }
 } // namespace
 
 Simulation::State::State(SceneParameters checked, RunStart start, const Communicator& ranks,
-                         const Tuning& tuning, const Messages& messages)
-    : run(std::move(checked), std::move(start), ranks, tuning, messages),
-      facts(facts_of(run.scene())) {}
+                         const Tuning& of_run, const Messages& messages)
+    : tuning(of_run),
+      run_(std::make_unique<Run>(std::move(checked), std::move(start), ranks, tuning, messages)) {
+    facts = facts_of(run_->scene());
+}
+
+void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> most_overlaps) {
+    auto next = std::make_unique<Run>(scene_to_go_on(*run_), std::move(start), run_->ranks(),
+                                      tuning);
+    if (most_overlaps) {
+        const Totals totals = next->system().totals();
+        if (totals.overlapping_pairs > *most_overlaps)
+            throw InputError({{"change_discs", 0,
+                               fmt::format("{} pairs of discs would overlap, the deepest by {:.3g}",
+                                           totals.overlapping_pairs, totals.deepest_overlap)}});
+    }
+    checkpoints_.reset(); // it refers to the run
+    run_ = std::move(next);
+    if (wanted_checkpoints_) keep_checkpoints(*wanted_checkpoints_);
+}
+
+void Simulation::State::keep_checkpoints(CheckpointOutput wanted) {
+    wanted_checkpoints_ = wanted;
+    checkpoints_.emplace(*run_, std::move(wanted));
+    run_->add(*checkpoints_);
+}
 
 Simulation::Simulation(const Session& session, const Scene& scene, const Options& options)
     : state_(begun(session, scene, options)) {}
@@ -88,7 +111,7 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
 }
 
 const SceneFacts& Simulation::scene() const { return live().facts; }
-std::int64_t Simulation::step() const { return live().run.step(); }
+std::int64_t Simulation::step() const { return live().run().step(); }
 
 void Simulation::advance(std::int64_t n_steps) {
     const std::int64_t left = live().facts.steps - step();
@@ -96,16 +119,16 @@ void Simulation::advance(std::int64_t n_steps) {
 }
 
 void Simulation::advance_to(std::int64_t step) {
-    meet(live().run.ranks(), "Simulation::advance_to", static_cast<std::uint64_t>(step));
+    meet(live().run().ranks(), "Simulation::advance_to", static_cast<std::uint64_t>(step));
     if (step < this->step() || step > live().facts.steps)
         throw InputError({{"advance_to", 0,
                            fmt::format("step {} is not from the present step {} to time.steps = {}",
                                        step, this->step(), live().facts.steps)}});
-    live().run.advance_to(step);
+    live().run().advance_to(step);
 }
 
 std::vector<Disc> Simulation::discs() const {
-    const DiscSystem& system = live().run.system();
+    const DiscSystem& system = live().run().system();
     const double unit = system.velocity_unit(), clock = system.clock();
     const std::span<const double> spins = system.spins();
     std::vector<Disc> discs;
@@ -126,41 +149,42 @@ std::vector<Disc> Simulation::discs() const {
 }
 
 std::vector<Disc> Simulation::gathered_discs() const {
-    meet(live().run.ranks(), "Simulation::gathered_discs");
-    return sample_sort(live().run.ranks(), discs(), is_earlier, 1);
+    meet(live().run().ranks(), "Simulation::gathered_discs");
+    return sample_sort(live().run().ranks(), discs(), is_earlier, 1);
 }
 
 Totals Simulation::totals() const {
-    meet(live().run.ranks(), "Simulation::totals");
-    return live().run.system().totals();
+    meet(live().run().ranks(), "Simulation::totals");
+    return live().run().system().totals();
 }
 Averages Simulation::averages() const {
-    meet(live().run.ranks(), "Simulation::averages");
-    return live().run.sampler().averages();
+    meet(live().run().ranks(), "Simulation::averages");
+    return live().run().sampler().averages();
 }
 void Simulation::restart_averages() {
-    meet(live().run.ranks(), "Simulation::restart_averages");
-    live().run.sampler().average_anew();
+    meet(live().run().ranks(), "Simulation::restart_averages");
+    live().run().sampler().average_anew();
 }
 
 std::vector<MeasuredTable> Simulation::measurements() const {
-    return live().run.sampler().tables();
+    return live().run().sampler().tables();
 }
 
 void Simulation::write_checkpoint(const std::string& path) const {
-    meet(live().run.ranks(), "Simulation::write_checkpoint", hash_of_argument(path));
-    live().run.write_checkpoint(path);
+    meet(live().run().ranks(), "Simulation::write_checkpoint", hash_of_argument(path));
+    live().run().write_checkpoint(path);
 }
 
 void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
-    meet(live().run.ranks(), "Simulation::keep_checkpoints", hash_of_argument(schedule.folder));
-    const Communicator& ranks = live().run.ranks();
+    meet(live().run().ranks(), "Simulation::keep_checkpoints", hash_of_argument(schedule.folder));
+    const Communicator& ranks = live().run().ranks();
     std::vector<Problem> problems;
     const auto refuse = [&problems](const char* key, const auto& number, const char* accepted) {
         problems.push_back(
             {"keep_checkpoints", 0, fmt::format("{} = {}; {}", key, number, accepted)});
     };
-    if (live().checkpoints) problems.push_back({"keep_checkpoints", 0, "has been called before"});
+    if (live().keeps_checkpoints())
+        problems.push_back({"keep_checkpoints", 0, "has been called before"});
     if (schedule.folder.find('\0') != std::string::npos)
         problems.push_back({"keep_checkpoints", 0, "no folder has a NUL in its name"});
     if (schedule.folder.empty()) problems.push_back({"keep_checkpoints", 0, "names no folder"});
@@ -180,8 +204,7 @@ void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
     wanted.at_end = schedule.at_end;
     if (schedule.every_steps > 0) wanted.every_steps = schedule.every_steps;
     if (schedule.every_minutes > 0) wanted.every_minutes = schedule.every_minutes;
-    live().checkpoints.emplace(live().run, std::move(wanted));
-    live().run.add(*live().checkpoints);
+    live().keep_checkpoints(std::move(wanted));
 }
 
 } // namespace carrom

@@ -2,10 +2,12 @@
 // The inside of a public Simulation.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <carrom/simulation.hpp>
 
+#include "engine/tuning.hpp"
 #include "parallel/communicator.hpp"
 #include "run/checkpoints.hpp"
 #include "run/run.hpp"
@@ -20,9 +22,28 @@ struct Simulation::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    Run run;
+    Run& run() const { return *run_; }
+    /// Goes on with that state at the present step instead. Throws InputError if more pairs than
+    /// `most_overlaps` overlap, and nothing has changed then. **Collective.**
+    void replace(RunStart start, std::optional<std::uint64_t> most_overlaps);
+    /// **Collective.**
+    void keep_checkpoints(CheckpointOutput wanted);
+
+    bool keeps_checkpoints() const { return checkpoints_.has_value(); }
+
     SceneFacts facts;
-    std::optional<Checkpoints> checkpoints; ///< from keep_checkpoints on
+    Tuning tuning;
+
+private:
+    std::unique_ptr<Run> run_; ///< another one once discs were changed
+    std::optional<CheckpointOutput> wanted_checkpoints_;
+    std::optional<Checkpoints> checkpoints_; ///< from keep_checkpoints on
 };
+
+/// The present state of a run, to go on from in memory. **Collective.**
+RunStart stored_start(Run& run);
+
+/// The scene of a run at its present state, without what was only for its start.
+SceneParameters scene_to_go_on(const Run& run);
 
 } // namespace carrom

@@ -33,22 +33,26 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const SceneParameters
     return wanted;
 }
 
-/// Returns the simulation's run after all ranks have come to this call. **Collective.**
-const Run& met(const Simulation& simulation, const char* call, const std::string& path) {
-    const Run& run = simulation.state().run;
-    meet(run.ranks(), call, hash_of_argument(path));
-    return run;
+/// Returns the simulation's state after all ranks have come to this call. **Collective.**
+const Simulation::State& met(const Simulation& simulation, const char* call,
+                             const std::string& path) {
+    const Simulation::State& state = simulation.state();
+    meet(state.run().ranks(), call, hash_of_argument(path));
+    return state;
 }
 
 } // namespace
 
 struct TrajectoryWriter::State {
-    State(const Run& of_run, const std::string& path, const TrajectoryFields& fields)
-        : run(of_run), file(path),
-          trajectory(path, layout_of(of_run.scene(), wanted_of(fields, of_run.scene(), path)),
-                     of_run.ranks()) {}
+    State(const Simulation::State& of_simulation, const std::string& path,
+          const TrajectoryFields& fields)
+        : simulation(of_simulation), file(path),
+          trajectory(path, layout_of(run().scene(), wanted_of(fields, run().scene(), path)),
+                     run().ranks()) {}
 
-    const Run& run;
+    const Run& run() const { return simulation.run(); }
+
+    const Simulation::State& simulation; ///< its run is another one once discs were changed
     std::string file;
     carrom::Trajectory trajectory;
     std::int64_t last_step = -1; ///< the last frame's; the same on all ranks
@@ -62,8 +66,9 @@ TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::stri
 
 TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const std::string& path,
                                             const TrajectoryFields& fields) {
-    const Run& run = met(simulation, "TrajectoryWriter::going_on", path);
-    auto state = std::make_unique<State>(run, path, fields);
+    auto state = std::make_unique<State>(met(simulation, "TrajectoryWriter::going_on", path), path,
+                                         fields);
+    const Run& run = state->run();
     state->last_step = state->trajectory.go_on(run.step(), [&run](const CheckpointHeader& there) {
         return first_difference(there, run.scene());
     });
@@ -78,8 +83,8 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::append() {
     State& state = live_part(state_, "TrajectoryWriter");
-    meet(state.run.ranks(), "TrajectoryWriter::append");
-    const DiscSystem& system = state.run.system();
+    meet(state.run().ranks(), "TrajectoryWriter::append");
+    const DiscSystem& system = state.run().system();
     const std::int64_t step = system.step();
     if (step <= state.last_step)
         throw InputError({{state.file, 0, fmt::format("step {} has a frame already", step)}});
@@ -90,7 +95,7 @@ void TrajectoryWriter::append() {
 
 void TrajectoryWriter::describe() {
     State& state = live_part(state_, "TrajectoryWriter");
-    meet(state.run.ranks(), "TrajectoryWriter::describe");
+    meet(state.run().ranks(), "TrajectoryWriter::describe");
     state.trajectory.describe();
 }
 

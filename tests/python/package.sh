@@ -13,7 +13,8 @@ for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
 done
 [ $# -gt 1 ] || for wanted in 'matplotlib matplotlib' 'PIL pillow' 'scipy.spatial scipy' \
     'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' 'xarray xarray' \
-    'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd' 'IPython ipython'; do
+    'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd' \
+    'IPython ipython'; do
     read -r module name <<<"$wanted"
     has "$module" "$name" ||
         printf 'skipped: %s is not to be had: %s\n' "$name" "$(said)"

@@ -20,6 +20,7 @@ from carrom.errors import (
     OutputError,
     ProgramError,
     ProgramNotFoundError,
+    SceneError,
     StoppedError,
 )
 from carrom.frame import Frame
@@ -39,6 +40,7 @@ from carrom.running import resume, run
 from carrom.runs import Checkpoints, Run, open_run, read_lines
 from carrom.runs import open_run as open  # noqa: F401 - see below
 from carrom.scene import read_scene, to_toml
+from carrom.simulation import Simulation
 from carrom.slurm import SlurmError
 from carrom.sweeping import sweep
 from carrom.sweeps import Sweep, SweepError
@@ -47,7 +49,7 @@ from carrom.trajectory_frame import TrajectoryFrame
 
 __version__ = "0.3.0"
 
-trust([Run, TrajectoryFrame, Checkpoint, Frames, Sweep], [Tables, Frames, Checkpoints])
+trust([Run, TrajectoryFrame, Checkpoint, Frames, Sweep, Simulation], [Tables, Frames, Checkpoints])
 del trust, TrajectoryFrame
 
 # `open` is left out, so that `from carrom import *` does not replace that of Python.
@@ -69,6 +71,8 @@ __all__ = [
     "ProgramError",
     "ProgramNotFoundError",
     "Run",
+    "SceneError",
+    "Simulation",
     "SlurmError",
     "StoppedError",
     "Sweep",

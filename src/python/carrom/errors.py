@@ -59,6 +59,10 @@ class InputError(ProgramError, ValueError):
     """Exit code 2: the scene, a file or an option is wrong. Nothing was computed or written."""
 
 
+class SceneError(InputError):
+    """A scene, an array or an argument of `carrom.Simulation` is wrong. Nothing was changed."""
+
+
 class CollectiveError(ProgramError):
     """Exit code 3: an operation of all ranks failed, or memory ran out."""
 

@@ -193,7 +193,8 @@ class Frames(Sequence[Frame]):
     def __getitem__(self, index: int) -> Frame: ...
     @overload
     def __getitem__(self, index: slice) -> Frames: ...
-    def __getitem__(self, index: int | slice) -> Union[Frame, Frames]:  # noqa: UP007 - completion
+    # Completion reads Union, and not the bar.
+    def __getitem__(self, index: int | slice) -> Union[Frame, Frames]:  # noqa: UP007
         """Return a frame, or the frames of a slice."""
         if isinstance(index, slice):
             part = object.__new__(Frames)

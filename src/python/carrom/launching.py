@@ -80,7 +80,7 @@ def common_options(
 def place_of(
     folder: str | os.PathLike[str] | None, scene: SceneLike, overrides: Mapping[str, Any]
 ) -> tuple[Path, bool]:
-    """Return where the run goes, and whether the folder is new: what is named, else one for good."""
+    """Return where the run goes (what is named, else a folder for good), and whether it is new."""
     named = folder if folder is not None else flattened(overrides).get("output.folder")
     if named is None:
         with contextlib.suppress(CarromError, TypeError):  # the program reports a wrong scene

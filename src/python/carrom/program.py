@@ -41,7 +41,7 @@ def find_program(program: str | os.PathLike[str] | None = None) -> Path:
         return _BUNDLED
     if (found := shutil.which("carrom")) is not None:
         return Path(found).absolute()
-    searched = [folder / "build" / "carrom" for folder in _checkouts()]
+    searched = [folder / "build" / "carrom" for folder in checkouts()]
     for path in searched:
         if os.access(path, os.X_OK) and path.is_file():
             return path
@@ -49,7 +49,7 @@ def find_program(program: str | os.PathLike[str] | None = None) -> Path:
     raise ProgramNotFoundError(f"the program carrom is not in {places}; {_ADVICE}")
 
 
-def _checkouts() -> list[Path]:
+def checkouts() -> list[Path]:
     """Folders above this package and above the working folder that look like a checkout."""
     above = [*Path(__file__).resolve().parents, Path.cwd(), *Path.cwd().parents]
     marked = [folder for folder in above if (folder / "src" / "python" / "carrom").is_dir()]

@@ -266,7 +266,8 @@ class Checkpoints(Sequence[Checkpoint]):
     def __getitem__(self, index: int) -> Checkpoint: ...
     @overload
     def __getitem__(self, index: slice) -> Checkpoints: ...
-    def __getitem__(self, index: int | slice) -> Union[Checkpoint, Checkpoints]:  # noqa: UP007 - completion
+    # Completion reads Union, and not the bar.
+    def __getitem__(self, index: int | slice) -> Union[Checkpoint, Checkpoints]:  # noqa: UP007
         """Return a checkpoint, or those of a slice."""
         if isinstance(index, slice):
             return Checkpoints(self.paths[index], self._owner, self._checked)

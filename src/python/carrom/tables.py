@@ -46,7 +46,7 @@ class Table(NamedColumns):
         return display.rows("table", self.columns, self.tolist())
 
 
-def _is_whole(name: str) -> bool:
+def is_whole(name: str) -> bool:
     """Whether a column of the program's tables holds whole numbers."""
     words = name.split("_")
     return words[-1] in _WHOLE or words[0] == "pairs"
@@ -66,7 +66,7 @@ def read_csv(path: str | os.PathLike[str]) -> Table:
     names = rows[0] if rows else []
     if not names or any(len(row) != len(names) for row in rows):
         raise FileError(f"{path}: is no table: rows have different lengths, or there are none")
-    dtype = [(name, np.int64 if _is_whole(name) else np.float64) for name in names]
+    dtype = [(name, np.int64 if is_whole(name) else np.float64) for name in names]
     try:
         values = [
             tuple(int(word) if kind is np.int64 else float(word) for (_, kind), word in zipped)

@@ -34,6 +34,23 @@ def gas(count: int = 60, steps: int = 20, **box: Any) -> Scene:
     }
 
 
+def measured(method: str = "event-driven", **box: Any) -> dict[str, Any]:
+    scene = gas(count=100, steps=40, **box)
+    scene["time"]["method"] = method
+    quantities = ["radial_distribution", "displacement", "thermo", "velocities"]
+    scene["output"] = {"measurements": {"quantities": quantities, "every_steps": 4}}
+    return scene
+
+
+@pytest.fixture(scope="session")
+def extension() -> None:
+    """The extension; without it there is no `carrom.Simulation` to test."""
+    try:
+        carrom.core_module.load()
+    except carrom.MissingPackageError as error:
+        pytest.skip(str(error))
+
+
 @pytest.fixture(scope="session")
 def program() -> Path:
     """The program; without it there is nothing to test."""

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers of all discs by their ids, for programs that work on arrays. Threads fill them without a
+// sort, because each disc's place is its id.
+#include <fmt/format.h>
+
+#include "library/live_part.hpp"
+#include "library/simulation_state.hpp"
+
+namespace carrom {
+
+namespace {
+
+void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
+    if (size != wanted)
+        throw InputError(
+            {{call, 0, fmt::format("has room for {} numbers; it wants {}", size, wanted)}});
+}
+
+/// Calls `put(disc, i)` for each of the own discs, the i-th as the box sees it, by all threads.
+template <class Put> void for_each_shown(const Run& run, const Put& put) {
+    const DiscSystem& system = run.system();
+    const std::span<const DiscState> discs = system.discs();
+    const Frame frame = system.frame();
+    const double time = system.clock();
+    const auto n = static_cast<std::int64_t>(discs.size());
+#pragma omp parallel for schedule(static) num_threads(run.n_threads())
+    for (std::int64_t i = 0; i < n; ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        put(frame.in_box(discs[place], time), place);
+    }
+}
+
+} // namespace
+
+void Simulation::read_positions(std::span<double> xy) const {
+    check_size("read_positions", xy.size(), 2 * scene().n_discs);
+    for_each_shown(live().run(), [&](const DiscState& disc, std::size_t) {
+        xy[2 * disc.id] = disc.x;
+        xy[2 * disc.id + 1] = disc.y;
+    });
+}
+
+void Simulation::read_velocities(std::span<double> xy) const {
+    check_size("read_velocities", xy.size(), 2 * scene().n_discs);
+    const double unit = live().run().system().velocity_unit();
+    for_each_shown(live().run(), [&](const DiscState& disc, std::size_t) {
+        xy[2 * disc.id] = disc.vx * unit;
+        xy[2 * disc.id + 1] = disc.vy * unit;
+    });
+}
+
+void Simulation::read_spins(std::span<double> spins) const {
+    check_size("read_spins", spins.size(), scene().n_discs);
+    const DiscSystem& system = live().run().system();
+    const double unit = system.velocity_unit();
+    const std::span<const double> values = system.spins();
+    for_each_shown(live().run(), [&](const DiscState& disc, std::size_t i) {
+        spins[disc.id] = values.empty() ? 0 : values[i] * unit;
+    });
+}
+
+void Simulation::read_collisions(std::span<std::int64_t> counts) const {
+    check_size("read_collisions", counts.size(), 2 * scene().n_discs);
+    for_each_shown(live().run(), [&](const DiscState& disc, std::size_t) {
+        counts[2 * disc.id] = static_cast<std::int64_t>(disc.wall_collisions);
+        counts[2 * disc.id + 1] = static_cast<std::int64_t>(disc.pair_collisions);
+    });
+}
+
+std::vector<DiscKind> Simulation::kinds() const {
+    const SceneParameters& scene = live().run().scene();
+    if (scene.effects.species.empty())
+        return std::vector<DiscKind>(scene.n_discs, DiscKind{scene.radius, 1, 0});
+    std::vector<DiscKind> kinds;
+    kinds.reserve(scene.n_discs);
+    std::int64_t number = 0;
+    for (const Species& species : scene.effects.species)
+        kinds.insert(kinds.end(), species.count, {species.radius, species.mass, number++});
+    return kinds;
+}
+
+} // namespace carrom

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies of a simulation in memory, and discs that the program changes between steps.
+//
+// Both go on from the stored state as a restart from a checkpoint does, so they have its promise:
+// the same bits on any number of ranks and threads. A disc that is changed starts anew at the
+// present time; all others keep their stored bits, and so setting what is there already changes
+// nothing. Price: about as much as setting up a run of these discs, and the memory of a second one
+// meanwhile.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dynamics/obstacles.hpp"
+#include "library/live_part.hpp"
+#include "library/simulation_state.hpp"
+#include "parallel/agreement.hpp"
+#include "parallel/meeting.hpp"
+#include "run/pilot/setting_choice.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr const char* call_name = "change_discs";
+constexpr std::size_t most_named = 5; ///< problems of discs that a message has from a rank
+
+/// Where a disc's centre may be at the present step.
+class Room {
+public:
+    explicit Room(const Run& run)
+        : scene_(run.scene()), species_(run.system().species_table()),
+          extent_(extent_at(scene_.effects, scene_.box, static_cast<double>(run.step()))),
+          growth_(scene_.effects.growth_at(static_cast<double>(run.step()))),
+          rounding_(32 * 0x1p-53 * scene_.box.longest()),
+          obstacles_(scene_.box, scene_.radius * growth_, scene_.effects) {}
+
+    /// Why a disc cannot be there; empty if it can.
+    std::string problem(const Disc& disc) const {
+        const double radius = species_.of(disc.id).radius * growth_;
+        const bool is_inside = is_between(disc.x, extent_.x_low, extent_.x_high, radius,
+                                          scene_.effects.is_periodic_x()) &&
+                               is_between(disc.y, extent_.y_low, extent_.y_high, radius,
+                                          scene_.effects.is_periodic_y());
+        if (!is_inside)
+            return fmt::format("lies outside of the box, [{}, {}] x [{}, {}], or in a wall",
+                               extent_.x_low, extent_.x_high, extent_.y_low, extent_.y_high);
+        if (!scene_.effects.obstacles.are_any()) return {};
+        const auto overlap = obstacles_.deepest_overlap(disc.x, disc.y, radius,
+                                                        2 * std::max(2e-12 * radius, rounding_));
+        if (overlap.body == ObstacleContact::no_body) return {};
+        return fmt::format("overlaps {} by {:.3g}", obstacles_.name_of(overlap.body),
+                           overlap.depth);
+    }
+
+private:
+    bool is_between(double place, double low, double high, double radius, bool is_periodic) const {
+        if (is_periodic) return place >= low && place < high;
+        return place >= low + radius - rounding_ && place <= high - radius + rounding_;
+    }
+
+    const SceneParameters& scene_;
+    SpeciesTable species_;
+    Extent extent_;
+    double growth_, rounding_;
+    Obstacles obstacles_;
+};
+
+struct Change {
+    bool of_place = false, of_velocity = false, of_spin = false;
+    bool is_any() const { return of_place || of_velocity || of_spin; }
+};
+
+/// `shown` is the disc as the box sees it, with velocities per micro-step.
+Change change_of(const Disc& disc, const DiscState& shown, double unit, double spin) {
+    return {disc.x != shown.x || disc.y != shown.y,
+            disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};
+}
+
+/// Makes the disc start anew at the present time. `shown` is how the box saw it.
+void apply(const Disc& disc, const Change& change, const DiscState& shown, const Frame& frame,
+           double time, double unit, DiscState& stored) {
+    const double x = stored.x_at(time), y = stored.y_at(time);
+    stored.x = change.of_place ? disc.x - frame.x : x;
+    stored.y = change.of_place ? disc.y - frame.y : y;
+    stored.tau = time;
+    if (!change.of_velocity) return;
+    if (frame.periods.are_moving()) { // the box may see an image with another velocity
+        stored.vx += (disc.vx / unit - shown.vx) / frame.slowing;
+        stored.vy += (disc.vy / unit - shown.vy) / frame.slowing;
+    } else {
+        stored.vx = (disc.vx / unit - frame.vx) / frame.slowing;
+        stored.vy = (disc.vy / unit - frame.vy) / frame.slowing;
+    }
+}
+
+/// Discs in the order of their ids, and what is wrong with them.
+std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vector<Disc>& present,
+                                 const Run& run) {
+    const auto has_same_id = [](const Disc& a, const Disc& b) { return a.id == b.id; };
+    if (!std::ranges::equal(discs, present, has_same_id))
+        return {{call_name, 0,
+                 fmt::format("wants each of this rank's {} discs once, as discs() has them",
+                             present.size())}};
+    std::vector<Problem> problems;
+    const Room room(run);
+    const bool have_spins = !run.system().spins().empty();
+    for (std::size_t i = 0; i < discs.size() && problems.size() < most_named; ++i) {
+        const Disc& disc = discs[i];
+        const auto refuse = [&](const std::string& text) {
+            problems.push_back({fmt::format("disc {}", disc.id), 0, text});
+        };
+        const bool is_moved = disc.x != present[i].x || disc.y != present[i].y;
+        if (!std::isfinite(disc.x) || !std::isfinite(disc.y) || !std::isfinite(disc.vx) ||
+            !std::isfinite(disc.vy) || !std::isfinite(disc.spin))
+            refuse("has a number that is not finite");
+        else if (disc.spin != 0 && !have_spins)
+            refuse("has a spin, but only rough discs turn (effects.contact.kind = \"rough\")");
+        else if (const std::string text = is_moved ? room.problem(disc) : ""; !text.empty())
+            refuse(fmt::format("at ({}, {}) {}", disc.x, disc.y, text));
+    }
+    return problems;
+}
+
+/// Changes the discs of a stored state. Returns whether this rank's places and whether any numbers
+/// have changed. Departed discs stay as they are.
+std::pair<bool, bool> change_stored(const std::vector<Disc>& discs, const Run& run,
+                                    StoredState& state) {
+    const DiscSystem& system = run.system();
+    const Frame frame = system.frame();
+    const double unit = system.velocity_unit(), time = system.clock();
+    std::vector<double> no_spins;
+    std::vector<double>& spins = state.columns.has(SideColumn::spin)
+                                     ? state.columns[SideColumn::spin]
+                                     : no_spins;
+    std::pair<bool, bool> changed{false, false};
+    for (std::size_t i = 0; i < state.discs.size(); ++i) {
+        DiscState& stored = state.discs[i];
+        if (stored.has_departed()) continue;
+        const Disc& disc = *std::ranges::lower_bound(discs, stored.id, {}, &Disc::id);
+        const DiscState shown = frame.in_box(stored, time);
+        const Change change = change_of(disc, shown, unit, spins.empty() ? 0 : spins[i] * unit);
+        if (!change.is_any()) continue;
+        changed.first |= change.of_place;
+        changed.second = true;
+        apply(disc, change, shown, frame, time, unit, stored);
+        if (change.of_spin) spins[i] = disc.spin / unit;
+    }
+    return changed;
+}
+
+} // namespace
+
+RunStart stored_start(Run& run) {
+    RunStart start;
+    start.samples = run.stored_samples();
+    const std::span<const DiscState> discs = run.system().discs();
+    StoredState& state = start.stored.emplace();
+    state.discs.assign(discs.begin(), discs.end());
+    state.columns = SideColumns(run.system().side_columns());
+    state.micro_steps_done = run.system().micro_steps_done();
+    state.kept_by_effects = start.samples.effects;
+    return start;
+}
+
+SceneParameters scene_to_go_on(const Run& run) {
+    SceneParameters scene = run.scene();
+    if (scene.accuracy) decide_on(scene, {scene.method, scene.micro_steps});
+    return scene;
+}
+
+Simulation Simulation::copy() const {
+    Run& run = live().run();
+    meet(run.ranks(), "Simulation::copy");
+    return Simulation(std::make_unique<State>(scene_to_go_on(run), stored_start(run), run.ranks(),
+                                              live().tuning, Messages()));
+}
+
+void Simulation::change_discs(std::span<const Disc> changed) {
+    Run& run = live().run();
+    meet(run.ranks(), "Simulation::change_discs");
+    std::vector<Disc> sorted(changed.begin(), changed.end());
+    std::ranges::sort(sorted, {}, &Disc::id);
+    agree_on_problems(run.ranks(), problems_of(sorted, discs(), run));
+    RunStart start = stored_start(run);
+    const auto [places, any] = change_stored(sorted, run, *start.stored);
+    if (!run.ranks().any(any)) return;
+    const bool are_moved = run.ranks().any(places);
+    const std::uint64_t overlaps = are_moved ? run.system().totals().overlapping_pairs : 0;
+    if (are_moved) {
+        std::vector<std::int64_t> effects = std::move(start.samples.effects);
+        start.samples = {};
+        start.samples.effects = std::move(effects);
+    }
+    start.samples.averages.clear();
+    live().replace(std::move(start), are_moved ? std::optional(overlaps) : std::nullopt);
+}
+
+} // namespace carrom

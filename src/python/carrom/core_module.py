@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the extension is, and the first thing to do with it."""
+
+from __future__ import annotations
+
+import atexit
+import importlib
+import importlib.machinery
+import importlib.util
+import os
+import sys
+import threading
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from carrom.errors import ERROR_OF_CODE, MissingPackageError, ProgramError, SceneError
+from carrom.program import checkouts
+from carrom.words import in_python
+
+_NAME = "carrom._core"
+_ADVICE = (
+    "install a wheel that holds it, or build it: cmake -S . -B build-python -DCARROM_PYTHON=ON "
+    "-DPython_EXECUTABLE=$(which python3); cmake --build build-python --target carrom_python"
+)
+
+
+@cache
+def load() -> Any:
+    """Return the extension.
+
+    It is found in the package (wheels hold it), by the variable CARROM_CORE, which names its file,
+    or in `build-python/` of a checkout. Threads of OpenMP that wait are told to sleep, as the
+    program does it, unless `OMP_WAIT_POLICY` says otherwise.
+
+    Raises:
+        MissingPackageError: it is not there, or does not fit this Python
+    """
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+    core = _imported()
+    core.make_errors_by(error_of)
+    atexit.register(core.end_session)
+    core.thread = threading.get_ident()
+    return core
+
+
+def _imported() -> Any:
+    named = os.environ.get("CARROM_CORE", "")
+    paths = [Path(named)] if named else _built()
+    if not named:
+        try:
+            return importlib.import_module(_NAME)
+        except ModuleNotFoundError:
+            pass
+        except ImportError as error:
+            raise MissingPackageError(f"carrom.Simulation: {error}; {_ADVICE}") from None
+    for path in paths:
+        spec = importlib.util.spec_from_file_location(_NAME, path)
+        if spec is None or spec.loader is None or not path.is_file():
+            continue
+        try:
+            module = importlib.util.module_from_spec(spec)
+            spec.loader.exec_module(module)
+        except ImportError as error:
+            raise MissingPackageError(f"carrom.Simulation: {path}: {error}; {_ADVICE}") from None
+        sys.modules[_NAME] = module
+        return module
+    where = f"; CARROM_CORE names no extension: {named}" if named else ""
+    raise MissingPackageError(
+        f"carrom.Simulation needs the extension, which this installation lacks{where}; {_ADVICE}"
+    )
+
+
+def _built() -> list[Path]:
+    """Return extensions that a checkout has built, those for this Python alone."""
+    suffixes = importlib.machinery.EXTENSION_SUFFIXES
+    folders = [folder / "build-python" / "python" / "carrom" for folder in checkouts()]
+    return [folder / f"_core{suffix}" for folder in folders for suffix in suffixes]
+
+
+def error_of(lines: list[str], code: int) -> ProgramError:
+    """Make the exception for an error of the library, in Python's words."""
+    words = [in_python(line) for line in lines]
+    kind: type[ProgramError] = SceneError if code == 2 else ERROR_OF_CODE.get(code, ProgramError)
+    return kind(words, code)

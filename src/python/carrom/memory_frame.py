@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A frame of arrays in memory."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from carrom.disc_arrays import Array
+from carrom.frame import Frame
+
+
+class MemoryFrame(Frame):
+    """The discs of a simulation at one step, in float64. Later steps do not change it."""
+
+    def __init__(
+        self,
+        step: int,
+        box: Array,
+        periodic: tuple[bool, bool],
+        bodies: tuple[Array, Array, Array],
+        motion: tuple[Array, Array, Array],
+        collisions: tuple[Array, Array],
+    ) -> None:
+        """Take radii, masses and species, then positions, velocities and spins."""
+        self.step = step
+        self.box = box
+        self.periodic = periodic
+        self._radius, self._mass, self._species = bodies
+        self.x, self.v, self.spin = motion
+        self.wall_collisions, self.pair_collisions = collisions
+
+    @property
+    def n_discs(self) -> int:
+        return len(self._radius)
+
+    @property
+    def radius(self) -> Array:
+        return self._radius
+
+    @property
+    def mass(self) -> Array:
+        return self._mass
+
+    @property
+    def species(self) -> Array:
+        return self._species
+
+    x: Array
+    v: Array
+    spin: Array
+    wall_collisions: Array
+    pair_collisions: Array
+
+    @cached_property
+    def present(self) -> Array:
+        """Discs that have left by an open side rest one radius outside of the box."""
+        outside = np.any((self.x < 0) | (self.x > self.box), axis=1)
+        present: Array = ~(outside & ~self.v.any(axis=1))
+        return present

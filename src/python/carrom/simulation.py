@@ -1,0 +1,396 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`Simulation`: a scene in this process, step by step, with its discs as arrays.
+
+The bits are those of `carrom run`, for any number of threads, however steps are divided into calls.
+What it gives are copies: arrays cannot be written to, so that `sim.positions[0] = ...` is an error
+instead of nothing.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+import os
+import threading
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from carrom import display
+from carrom.checkpoints import Checkpoint
+from carrom.core_module import load
+from carrom.disc_arrays import Array
+from carrom.errors import CarromError, SceneError
+from carrom.launching import CarromWarning, ProgressLike
+from carrom.live_results import Averages, LiveTables
+from carrom.memory_frame import MemoryFrame
+from carrom.progress import progress_display
+from carrom.scene import SceneLike, flattened, set_words
+from carrom.simulation_source import checkpoint_of, handle_of, source_of
+from carrom.words import with_arguments
+
+Action = Callable[["Simulation"], object]
+
+_STRETCH = 0.1  # seconds between two looks at Ctrl-C and the bar
+
+
+class Simulation:
+    """A scene as it moves forward in time, in this process.
+
+    ```python
+    sim = carrom.Simulation({"box": {"size": 50}, "discs": {"count": 500, "packing": 0.4},
+                             "time": {"method": "event-driven"}}, threads=2)
+    sim.run(100)
+    sim.velocities = -sim.velocities
+    ```
+
+    All calls come from the thread that made the first simulation.
+
+    Attributes:
+        method: "event-driven" or "time-stepped"
+        box: (2,) edges along x and y, lengths
+        periodic: whether the sides along x and along y are periodic
+        radii: (N,) lengths; under growth those of the scene's start
+        masses: (N,) in the scene's unit; 1 unless the scene gives masses
+        species: (N,) from 0, in the order of ids
+        last_step: `time.steps` of the scene; `run` goes no further
+    """
+
+    def __init__(
+        self,
+        scene: Union[SceneLike, Checkpoint],  # noqa: UP007
+        threads: int | None = None,
+        *,
+        comm: Any = None,
+        **overrides: Any,
+    ) -> None:
+        """Begin with a scene at step 0, or go on from a checkpoint.
+
+        Args:
+            scene: a dictionary, TOML text, the path of a scene, or a checkpoint: its path (`.h5`),
+                the folder of a run, or a `carrom.Checkpoint`
+            threads: threads; None: OMP_NUM_THREADS, else the cores of this process
+            comm: a communicator of mpi4py; all of its ranks make the same calls. None: all ranks
+                that the process was started with, usually one
+            **overrides: keys of the scene: `time__steps=50`; of a checkpoint those that may change
+
+        Raises:
+            SceneError: the scene or the checkpoint is wrong; the message has all problems
+            MissingPackageError: the extension is not there
+        """
+        if threads is not None and operator.index(threads) < 1:
+            raise ValueError(f"threads must be at least 1, not {threads}")
+        core = load()
+        self._comm = comm
+        handle = None if comm is None else handle_of(comm, core)
+        try:
+            if (path := checkpoint_of(scene)) is not None:
+                made = core.from_checkpoint(path, set_words(overrides), threads or 0, handle)
+            else:
+                text, is_file, words = source_of(scene, overrides)
+                made = core.new(text, is_file, words, threads or 0, handle)
+        except SceneError as error:
+            error.put_in_words(lambda line: with_arguments(line, flattened(overrides)))
+            raise
+        self._begin(made)
+
+    def _begin(self, made: Any) -> None:
+        self._made = made
+        self._thread = load().thread
+        self._actions: list[tuple[int, Action]] = []
+        self._is_running = False
+        facts = made.facts
+        self.method: str = facts["method"]
+        self.box: Array = np.array(facts["box"])
+        self.periodic: tuple[bool, bool] = facts["periodic"]
+        self.last_step = int(facts["steps"])
+        self.n_discs = int(facts["n_discs"])
+        self.radii, self.masses, self.species = map(_locked, made.kinds)
+        self._warn()
+
+    @property
+    def _core(self) -> Any:
+        if threading.get_ident() != self._thread:
+            raise CarromError(
+                "a simulation belongs to the thread that made the first one; MPI allows no other"
+            )
+        return self._made
+
+    def _warn(self) -> None:
+        for line in self._made.taken_lines():
+            if line.startswith("warning: "):
+                warnings.warn(line.removeprefix("warning: ").strip(), CarromWarning, stacklevel=4)
+
+    # Steps
+
+    @property
+    def step(self) -> int:
+        """Steps since the scene's start."""
+        return int(self._core.step)
+
+    def run(self, steps: int, progress: ProgressLike = None) -> None:
+        """Move forward by some steps, and call the actions that are due on the way.
+
+        Other threads of Python run meanwhile. Ctrl-C stops at the end of a step and leaves the
+        simulation usable (on several ranks it ends the launcher). An error in an action stops the
+        run at its step, with the action's traceback.
+
+        Args:
+            steps: how many; 0 or more
+            progress: True or False; None shows a bar in notebooks and a line on terminals for runs
+                of more than some seconds. Or a function of the step and the last step
+
+        Raises:
+            SceneError: `time.steps` comes before
+        """
+        if self._is_running:
+            raise CarromError("an action cannot run the simulation that calls it; take sim.copy()")
+        n = operator.index(steps)
+        end = self.step + n
+        if n < 0 or end > self.last_step:
+            raise SceneError(
+                [
+                    f"run({n}) would end at step {end}, and the scene goes from step {self.step} "
+                    f"to time.steps = {self.last_step}"
+                ],
+                2,
+            )
+        self._is_running = True
+        try:
+            with progress_display(progress) as show:
+                self._advance(end, show)
+        finally:
+            self._is_running = False
+        self._warn()
+
+    def _advance(self, end: int, show: Callable[[str], None]) -> None:
+        core, begin = self._core, time.perf_counter()
+        first = step = int(core.step)
+        stretch = 1 if core.ranks == 1 else end
+        while step < end:
+            before = time.perf_counter()
+            core.advance(min(stretch, self._next_due(step, end) - step))
+            done, step = int(core.step) - step, int(core.step)
+            now = time.perf_counter()
+            if core.ranks == 1:
+                stretch = max(1, min(int(_STRETCH * done / max(now - before, 1e-9)), 10 * stretch))
+            for interval, action in list(self._actions):
+                if step % interval == 0:
+                    action(self)
+            if now - begin > 5 * _STRETCH:
+                rate = (step - first) / (now - begin)
+                share = 100 * (step - first) / (end - first)
+                show(f"step {step} of {end} ({share:.1f} %), {rate:.3g} steps/s")
+
+    def _next_due(self, step: int, end: int) -> int:
+        """Return the next step at which an action is due, or the end."""
+        dues = ((step // interval + 1) * interval for interval, _ in self._actions)
+        return min((end, *dues))
+
+    def every(self, interval: int, action: Action | None = None) -> Any:
+        """Call `action(sim)` at the end of each step that is a multiple of `interval`.
+
+        Actions of one step are called in the order in which they were added. Without `action` it
+        is a decorator. Returns the action, for `forget`.
+        """
+        if operator.index(interval) < 1:
+            raise ValueError(f"interval is a number of steps, at least 1, not {interval}")
+        if action is None:
+            return lambda function: self.every(interval, function)
+        self._actions.append((operator.index(interval), action))
+        return action
+
+    def forget(self, action: Action) -> None:
+        """Call an action no more."""
+        kept = [pair for pair in self._actions if pair[1] is not action]
+        if len(kept) == len(self._actions):
+            raise ValueError(f"{action!r} is no action of this simulation")
+        self._actions = kept
+
+    # Discs
+
+    @property
+    def positions(self) -> Array:
+        """Positions (N, 2), lengths, in the order of ids; between periodic sides in the box.
+
+        Can be set between steps: see `change`.
+        """
+        return self._gathered(self._core.positions)
+
+    @positions.setter
+    def positions(self, values: npt.ArrayLike) -> None:
+        self.change(positions=values)
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities (N, 2), lengths per step. Can be set between steps: see `change`."""
+        return self._gathered(self._core.velocities)
+
+    @velocities.setter
+    def velocities(self, values: npt.ArrayLike) -> None:
+        self.change(velocities=values)
+
+    @property
+    def spins(self) -> Array:
+        """Angular velocities (N,) of rough discs, radians per step; else 0. Can be set."""
+        return self._gathered(self._core.spins)
+
+    @spins.setter
+    def spins(self, values: npt.ArrayLike) -> None:
+        self.change(spins=values)
+
+    @property
+    def wall_collisions(self) -> Array:
+        """Collisions with walls and obstacles since the scene's start, (N,) integers."""
+        return self._gathered(self._core.collisions)[:, 0]
+
+    @property
+    def pair_collisions(self) -> Array:
+        """Collisions with other discs since the scene's start, (N,) integers."""
+        return self._gathered(self._core.collisions)[:, 1]
+
+    def change(
+        self,
+        *,
+        positions: npt.ArrayLike | None = None,
+        velocities: npt.ArrayLike | None = None,
+        spins: npt.ArrayLike | None = None,
+    ) -> None:
+        """Give discs other positions, velocities or spins between two steps.
+
+        What follows is a function of these numbers and the step alone. Discs whose numbers are as
+        they were keep all of their bits. Averages begin anew (`averages.first_step` says where);
+        where positions have changed, tables do so, too. It takes about as long as making the
+        simulation from a list of discs.
+
+        Args:
+            positions: (N, 2), lengths
+            velocities: (N, 2), lengths per step
+            spins: (N,), radians per step
+
+        Raises:
+            SceneError: a number is not finite, a disc is outside of the box or in an obstacle, or
+                discs would overlap; nothing is changed then
+            ValueError: an array has another shape
+        """
+        pairs, numbers = (self.n_discs, 2), (self.n_discs,)
+        self._core.change(
+            _checked("positions", positions, pairs),
+            _checked("velocities", velocities, pairs),
+            _checked("spins", spins, numbers),
+        )
+
+    def _gathered(self, mine: Array) -> Array:
+        """Return the numbers of all ranks' discs; those of others are 0 here."""
+        if self._core.ranks > 1:
+            if self._comm is None:
+                raise CarromError("arrays of several ranks need comm=, a communicator of mpi4py")
+            mine = self._comm.allreduce(mine)
+        return _locked(mine)
+
+    @property
+    def frame(self) -> MemoryFrame:
+        """The discs now as a `carrom.Frame`: for pandas, freud, OVITO, `carrom.plot.frame` ..."""
+        collisions = self._gathered(self._core.collisions)
+        return MemoryFrame(
+            self.step,
+            self.box,
+            self.periodic,
+            (self.radii, self.masses, self.species),
+            (self.positions, self.velocities, self.spins),
+            (collisions[:, 0], collisions[:, 1]),
+        )
+
+    # Sums, averages and tables
+
+    @property
+    def totals(self) -> dict[str, Any]:
+        """Sums over all discs: energies, momentum, collisions, overlaps, the state hash.
+
+        Costs about as much as a step, because pairs that overlap are searched for.
+        """
+        totals: dict[str, Any] = self._core.totals
+        return totals
+
+    @property
+    def energy(self) -> float:
+        """Kinetic and rotational energy, and potential energy under gravity."""
+        totals = self.totals
+        names = ("kinetic_energy", "rotational_energy", "potential_energy")
+        return math.fsum(float(totals[name]) for name in names)
+
+    @property
+    def collisions(self) -> int:
+        """Collisions of pairs since the scene's start."""
+        return int(self.totals["pair_collisions"])
+
+    @property
+    def state_hash(self) -> str:
+        """The hash over the states of all discs, as the summary of `carrom run` has it."""
+        return str(self.totals["state_hash"])
+
+    @property
+    def averages(self) -> Averages:
+        """Averages since the start, or since discs were changed, each with its error."""
+        return Averages(self._core.averages)
+
+    def restart_averages(self) -> None:
+        """Forget what has been averaged so far, for example before equilibrium."""
+        self._core.restart_averages()
+
+    @property
+    def tables(self) -> LiveTables:
+        """What `output.measurements` of the scene asks for, as sampled so far."""
+        return LiveTables(self._core.tables)
+
+    # Branches
+
+    def checkpoint(self, path: str | os.PathLike[str]) -> Path:
+        """Write the state as a whole file or not at all, and return its path.
+
+        `carrom.Simulation(path)` and `carrom run --restart` go on from it with the same bits.
+        """
+        self._core.write_checkpoint(os.fspath(path))
+        return Path(path)
+
+    def copy(self) -> Simulation:
+        """Return an independent simulation of the same state, without actions, in memory."""
+        twin = object.__new__(Simulation)
+        twin._comm = self._comm
+        twin._begin(self._core.copy())
+        return twin
+
+    def __repr__(self) -> str:
+        return f"<Simulation of {self.n_discs} discs, step {self.step} of {self.last_step}>"
+
+    def _repr_html_(self) -> str:
+        totals = self.totals
+        facts = {
+            "step": f"{self.step} of {self.last_step}",
+            "discs": self.n_discs,
+            "method": self.method,
+            "kinetic energy": f"{totals['kinetic_energy']:.9g}",
+            "collisions of pairs": totals["pair_collisions"],
+            "state hash": totals["state_hash"],
+        }
+        return display.facts("simulation", facts) + display.picture(self.frame)
+
+
+def _locked(array: Array) -> Array:
+    array.flags.writeable = False
+    return array
+
+
+def _checked(name: str, values: npt.ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
+    """Return numbers as the extension takes them."""
+    if values is None:
+        return None
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape != shape:
+        raise ValueError(f"{name} have the shape {shape}, not {array.shape}")
+    return array

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a simulation is made of: scenes as the library takes them, and communicators."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from carrom.checkpoints import Checkpoint
+from carrom.errors import CarromError
+from carrom.scene import flattened, is_text, merged, parsed, set_words, to_toml, with_absolute_files
+
+MOST_STEPS = 1_000_000
+"""The last step of a scene without `time.steps`."""
+
+
+def checkpoint_of(scene: Any) -> str | None:
+    """Return the path of a checkpoint, or of a folder that has some; None for a scene."""
+    if isinstance(scene, Checkpoint):
+        return os.fspath(scene.path)
+    if isinstance(scene, Mapping) or is_text(scene) or not isinstance(scene, (str, os.PathLike)):
+        return None
+    path = Path(scene)
+    return os.fspath(path) if path.suffix == ".h5" or path.is_dir() else None
+
+
+def source_of(scene: Any, overrides: Mapping[str, Any]) -> tuple[str, bool, list[str]]:
+    """Return the text or the path of a scene, which of them it is, and settings on top."""
+    words = set_words(overrides)
+    if isinstance(scene, Mapping):
+        whole = merged(scene, overrides)
+        text = to_toml(with_absolute_files(whole))
+        return text, False, _steps_if_missing(flattened(whole))
+    if is_text(scene):
+        known = flattened(parsed(scene, "scene.toml", words))
+        return scene, False, words + _steps_if_missing(known)
+    if not isinstance(scene, (str, os.PathLike)):
+        raise TypeError(f"a scene is a dictionary, a path or TOML text, not {scene!r}")
+    path = Path(scene)
+    known = {"time.steps": None}
+    if path.suffix == ".toml":
+        with contextlib.suppress(OSError, UnicodeDecodeError, CarromError):
+            text = path.read_text(encoding="utf-8")
+            known = flattened(parsed(text, path.name, words))
+    return os.fspath(path), True, words + _steps_if_missing(known)
+
+
+def _steps_if_missing(known: Mapping[str, Any]) -> list[str]:
+    return [] if "time.steps" in known else [f"time.steps={MOST_STEPS}"]
+
+
+def handle_of(comm: Any, core: Any) -> int:
+    """Return the number of a communicator, after it was found to be of the same MPI library."""
+    try:
+        from mpi4py import MPI
+
+        number = comm.py2f()
+    except (ImportError, AttributeError):
+        raise TypeError(f"comm is a communicator of mpi4py, not {comm!r}") from None
+    theirs, ours = _first_words(MPI.Get_library_version()), core.mpi_library()
+    if theirs != ours:
+        raise CarromError(
+            f"comm is of {theirs}, but Carrom was built with {ours}; two MPI libraries in one "
+            "process do not understand each other. try: pip install --no-binary mpi4py mpi4py"
+        )
+    return int(number)
+
+
+def _first_words(version: str) -> str:
+    return version.replace(",", "\n").splitlines()[0].replace("\t", " ")

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of the extension: a simulation of the library, and how its results become Python's.
+//
+// This is thin on purpose. What a user sees, its checks and its words are in carrom/simulation.py;
+// here stands what has to be C++: calls without Python's lock, arrays without a copy of rows, and
+// errors with the library's problems line by line.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <carrom/carrom.hpp>
+
+namespace carrom::python {
+
+namespace nb = nanobind;
+
+/// (N, 2) or (N,) numbers of all discs, in rows as numpy has them.
+template <class Number> using Rows = nb::ndarray<Number, nb::c_contig, nb::device::cpu>;
+using GivenPairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using GivenNumbers = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+/// A simulation with the session that it needs, and the lines that it has printed.
+struct Core {
+    std::shared_ptr<Session> session; ///< ends after the simulation
+    std::shared_ptr<std::vector<std::string>> lines;
+    Simulation simulation;
+};
+
+/// The session of all ranks of the process, which is made at the first call; or one of the ranks of
+/// a communicator, by its Fortran number.
+std::shared_ptr<Session> session_of(std::optional<int> communicator);
+/// Lets go of the session of all ranks: MPI ends with its last simulation.
+void end_session();
+
+/// A new array of numpy, which owns its numbers.
+template <class Number> nb::object new_array(std::vector<std::size_t> shape, Number*& numbers) {
+    std::size_t size = 1;
+    for (const std::size_t length : shape) size *= length;
+    numbers = new Number[size]();
+    nb::capsule owner(numbers, [](void* place) noexcept { delete[] static_cast<Number*>(place); });
+    return nb::cast(nb::ndarray<nb::numpy, Number>(numbers, shape.size(), shape.data(), owner));
+}
+
+nb::dict totals_of(const Core& core);
+nb::dict averages_of(const Core& core);
+nb::list tables_of(const Core& core);
+nb::dict facts_of(const Core& core);
+nb::tuple kinds_of(const Core& core);
+nb::object positions_of(const Core& core);
+nb::object velocities_of(const Core& core);
+nb::object spins_of(const Core& core);
+nb::object collisions_of(const Core& core);
+
+Core new_core(const std::string& text, bool is_file, const std::vector<std::string>& settings,
+              int threads, std::optional<int> communicator);
+Core core_from_checkpoint(const std::string& path, const std::vector<std::string>& settings,
+                          int threads, std::optional<int> communicator);
+void change(Core& core, std::optional<GivenPairs> positions, std::optional<GivenPairs> velocities,
+            std::optional<GivenNumbers> spins);
+
+} // namespace carrom::python

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# carrom.Simulation: builds the extension for this Python beside the environments, unless the
+# variable CARROM_CORE names one, and runs its tests. Arguments: the folder of environments, CMake.
+source "$(dirname "$0")/../system/common.sh"
+source "$(dirname "$0")/environment.sh"
+
+use_environment "$1/package"
+for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest' 'nanobind nanobind' 'pandas pandas' \
+    'xarray xarray'; do
+    read -r module name <<<"$needed"
+    has "$module" "$name" || skip_test "$name is not to be had: $(said)"
+done
+has mpi4py mpi4py || printf 'skipped: mpi4py is not to be had: %s\n' "$(said)"
+install_package
+release_environment
+
+if [ -z "${CARROM_CORE:-}" ]; then
+    build=$(realpath -m "$1/../extension")
+    "$2" -S "$CARROM_SOURCE_DIR" -B "$build" -DCARROM_PYTHON=ON -DCARROM_TESTS=OFF \
+        -DCMAKE_UNITY_BUILD=ON -DPython_EXECUTABLE="$(realpath -s "$python")" >configured 2>&1 ||
+        { tail -n 5 configured; grep -q 'Python' configured && skip_test 'no headers of Python'; }
+    "$2" --build "$build" --target carrom_python --parallel 2 >built 2>&1 ||
+        { tail -n 20 built; complain 'the extension is not built'; finish; }
+    CARROM_CORE=$(echo "$build"/python/carrom/_core*.so)
+fi
+export CARROM_CORE PYTHONDONTWRITEBYTECODE=1
+tests=$CARROM_SOURCE_DIR/tests/python/package
+"$python" -m pytest -q -rs -p no:cacheprovider "$tests"/test_simulation*.py \
+    --rootdir "$tests" >out 2>&1 || complain 'pytest'
+cat out
+grep -q 'needs the extension' out && complain "CARROM_CORE is not taken: $CARROM_CORE"
+finish
