@@ -23,7 +23,8 @@ steps = 1000000
 def processors_of(process):
     """The processors that its threads may use, all together; and the number of threads."""
     threads = list(Path(f"/proc/{process}/task").iterdir())
-    return set().union(*(os.sched_getaffinity(int(thread.name)) for thread in threads)), len(threads)
+    masks = [os.sched_getaffinity(int(thread.name)) for thread in threads]
+    return set().union(*masks), len(threads)
 
 
 class Binding(ProgramTest):
