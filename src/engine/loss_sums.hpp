@@ -5,8 +5,11 @@
 
 #include <cstdint>
 
+#include <carrom/totals.hpp>
+
 #include "core/exact_sum.hpp"
 #include "dynamics/loss.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 
@@ -32,5 +35,9 @@ struct LossSums {
     ExactSum taken, spared;
     std::uint64_t n_guarded = 0; ///< collisions, those of contacts at rest aside
 };
+
+/// Fills in the losses of all ranks. **Collective.**
+void add_losses(const LossSums& mine, std::int64_t micro_steps, const Communicator& communicator,
+                Totals& totals);
 
 } // namespace carrom

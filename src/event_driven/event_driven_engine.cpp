@@ -327,13 +327,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::add_to(Totals& totals) {
     Base::add_to(totals);
-    LossSums all = this->losses_;
-    communicator_.sum(all.taken);
-    communicator_.sum(all.spared);
-    const auto per_step = static_cast<double>(this->micro_steps_);
-    totals.guarded_collisions = communicator_.sum(all.n_guarded);
-    totals.energy_taken = all.taken.value() * per_step * per_step;
-    totals.energy_spared = all.spared.value() * per_step * per_step;
+    add_losses(this->losses_, this->micro_steps_, communicator_, totals);
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {

@@ -95,8 +95,8 @@ double heaviest_of(const SceneParameters& scene) {
     return heaviest;
 }
 
-/// Whether nothing is left that may change it. More samples of averages are needed where it changes,
-/// and each ends a window, which in a slow gas costs as much as ten steps.
+/// Whether nothing is left that may change it. Averages need more samples where it changes, and
+/// each ends a window, which in a slow gas costs as much as ten steps.
 bool keep_energy_of_motion(Effects effects) {
     effects.species.clear();
     if (effects.contact.kind == ContactKind::none) effects.contact = {};

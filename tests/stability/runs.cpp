@@ -16,9 +16,7 @@
 
 namespace carrom::test {
 
-namespace {
-
-} // namespace
+namespace {} // namespace
 
 std::string name_of(Method method) {
     return method == Method::time_stepped ? "time-stepped" : "event-driven";

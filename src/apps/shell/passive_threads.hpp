@@ -10,8 +10,8 @@ namespace carrom {
 
 /// Starts the program anew with OMP_WAIT_POLICY=passive, because OpenMP reads it as it is loaded.
 /// The processors that threads may use stay those of the start, where OpenMP has bound this thread
-/// to one of them. Returns where the user has set it or GOMP_SPINCOUNT, or where the program cannot be started.
-/// Call it before MPI and threads are started.
+/// to one of them. Returns where the user has set it or GOMP_SPINCOUNT, or where the program cannot
+/// be started. Call it before MPI and threads are started.
 void let_threads_sleep(char** arguments);
 
 } // namespace carrom
