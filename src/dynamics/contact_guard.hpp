@@ -10,12 +10,14 @@
 // they cool. A scene may name a time instead, which costs fewer collisions where discs lie at rest.
 //
 // Where discs are pulled to a wall, a contact at rest is a series of small bounces without loss.
-// What these spare is no error, so losses leave them out.
+// What these spare is no error, so losses leave them out. Where contacts last, slow ones lose their
+// energy at syncs, so losses leave them out too.
 //
 // Only collisions count as contacts, syncs and starts do not. A disc does not remember its last
 // collision over a sync, so its first collision after that is never guarded by itself.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/disc_state.hpp"
@@ -40,7 +42,7 @@ public:
         : contact_time_(effects.contact.contact_time) {
         const double pull = std::hypot(effects.gravity.x, effects.gravity.y) +
                             largest_wall_pull(effects);
-        rest_speed_ = rest_factor * least_departure(pull, radius);
+        rest_speed_ = std::max(rest_factor * least_departure(pull, radius), effects.lasting_speed);
     }
 
     /// `since`: the time since the last collision of either. `closing`: how fast they approach, in

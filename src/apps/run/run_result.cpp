@@ -249,8 +249,9 @@ double guarded_share(const RunResult& result) {
 }
 
 std::string warning_of_guarded_collisions(const RunResult& result) {
+    constexpr std::uint64_t fewest = 100; // of fewer the share is a matter of chance
     const double share = guarded_share(result);
-    if (!(share > 0.01)) return {};
+    if (!(share > 0.01) || result.end.guarded_collisions < fewest) return {};
     return fmt::format(
         "{} collisions took no energy, because a disc had collided within the contact time: {:.2g} "
         "% of what restitution should take; try: a smaller effects.contact.contact_time, or none, "

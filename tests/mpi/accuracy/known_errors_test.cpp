@@ -45,13 +45,13 @@ Mean mean_of(const std::vector<double>& terms) {
     return {sum / n, std::sqrt(squares / (n * (n - 1)))};
 }
 
-struct Loss {
+struct LossOfMethod {
     Mean rate, overlaps; ///< pair collisions over those of the event-driven method; overlapping
                          ///< pairs that a disc takes part in
 };
 
-Loss measure(double packing, double frequency, const RunSetting& setting,
-             const Communicator& world) {
+LossOfMethod measure(double packing, double frequency, const RunSetting& setting,
+                     const Communicator& world) {
     static std::map<std::pair<double, int>, std::pair<TrialStart, double>>
         exact; ///< by packing and start
     std::vector<double> rates, overlaps;
@@ -106,8 +106,8 @@ TEST_CASE(
     const Communicator world = Communicator::world();
     for (const Column& column : table) {
         for (std::size_t i = 0; i < column.losses.size(); ++i) {
-            const Loss loss = measure(column.packing, column.frequency,
-                                      {Method::time_stepped, std::int64_t{1} << i}, world);
+            const LossOfMethod loss = measure(column.packing, column.frequency,
+                                              {Method::time_stepped, std::int64_t{1} << i}, world);
             const KnownLoss& known = column.losses[i];
             CAPTURE(column.packing, 4 << i, loss.rate.value, loss.rate.error, known.rate,
                     loss.overlaps.value, loss.overlaps.error, known.overlaps);
@@ -147,12 +147,13 @@ TEST_CASE("Errors fall in first order when discs are few, more slowly when they 
 TEST_CASE("Precision and formula change no rate where discs are near to each other") {
     const Communicator world = Communicator::world();
     const Column& column = table[1];
-    const Loss usual = measure(column.packing, column.frequency, {Method::time_stepped, 4}, world);
+    const LossOfMethod usual = measure(column.packing, column.frequency, {Method::time_stepped, 4},
+                                       world);
     for (const Precision precision : {Precision::double_, Precision::single}) {
         for (const bool contraction : {false, true}) {
             const RunSetting setting{Method::time_stepped, 4, precision, Arithmetic::naive,
                                      contraction};
-            const Loss loss = measure(column.packing, column.frequency, setting, world);
+            const LossOfMethod loss = measure(column.packing, column.frequency, setting, world);
             CAPTURE(precision == Precision::single, contraction, loss.rate.value, usual.rate.value);
             CHECK(std::fabs(loss.rate.value - usual.rate.value) <
                   4 * std::hypot(error_of_rate(loss.rate), error_of_rate(usual.rate)));
@@ -167,8 +168,9 @@ TEST_CASE("Under the event-driven method no precision and no formula changes the
     for (const Column& column : table) {
         for (const Precision precision : {Precision::double_, Precision::single}) {
             for (const Arithmetic arithmetic : {Arithmetic::stable, Arithmetic::naive}) {
-                const Loss loss = measure(column.packing, column.frequency,
-                                          {Method::event_driven, 2, precision, arithmetic}, world);
+                const LossOfMethod loss = measure(column.packing, column.frequency,
+                                                  {Method::event_driven, 2, precision, arithmetic},
+                                                  world);
                 CAPTURE(column.packing, precision == Precision::single,
                         arithmetic == Arithmetic::naive, loss.rate.value, loss.rate.error);
                 CHECK(std::fabs(loss.rate.value - 1) < 4 * error_of_rate(loss.rate));
