@@ -28,7 +28,7 @@ from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
 from carrom.launching import CarromWarning, ProgressLike
 from carrom.live_results import Averages, LiveTables
-from carrom.memory_frame import MemoryFrame
+from carrom.memory_frame import LocalDiscs, MemoryFrame
 from carrom.progress import progress_display
 from carrom.scene import SceneLike, flattened, set_words
 from carrom.simulation_source import checkpoint_of, handle_of, source_of
@@ -284,6 +284,13 @@ class Simulation:
             _checked("velocities", velocities, pairs),
             _checked("spins", spins, numbers),
         )
+
+    @property
+    def local(self) -> LocalDiscs:
+        """The discs of this rank. Other ranks need not make the call."""
+        core = self._core
+        ids = core.ids
+        return LocalDiscs(ids, core.positions[ids], core.velocities[ids], core.spins[ids])
 
     def _gathered(self, mine: Array) -> Array:
         """Return the numbers of all ranks' discs; those of others are 0 here."""
