@@ -42,14 +42,8 @@ _STRETCH = 0.1  # seconds between two looks at Ctrl-C and the bar
 class Simulation:
     """A scene as it moves forward in time, in this process.
 
-    ```python
-    sim = carrom.Simulation({"box": {"size": 50}, "discs": {"count": 500, "packing": 0.4},
-                             "time": {"method": "event-driven"}}, threads=2)
-    sim.run(100)
-    sim.velocities = -sim.velocities
-    ```
-
-    All calls come from the thread that made the first simulation.
+    `sim.run(100)` steps, `sim.positions` are arrays, and `sim.velocities = -sim.velocities` turns
+    all discs round. All calls come from the thread that made the first simulation.
 
     Attributes:
         method: "event-driven" or "time-stepped"
