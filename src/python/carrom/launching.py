@@ -147,7 +147,7 @@ def execute(
     command = [str(find_program(program)), "run", *words, "-o", str(folder)]
     if ranks > 1:
         command = [find_launcher(launcher), "-n", str(ranks), *command]
-    process = Process(command, lines, _environment(ranks))
+    process = Process(command, lines, environment(ranks))
     with progress_display(progress) as show:
         code = process.wait(show)
     _raise_for(code, process.lines, command, folder)
@@ -158,17 +158,17 @@ def execute(
     return process.lines
 
 
-def _environment(ranks: int) -> dict[str, str]:
+def environment(ranks: int) -> dict[str, str]:
     """Let Open MPI start more ranks than cores (MPICH always does), and ranks that wait sleep."""
-    environment = dict(os.environ)
+    variables = dict(os.environ)
     if ranks > len(os.sched_getaffinity(0)):
-        environment.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
-        environment.setdefault("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe")
-        environment.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
-        environment.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
-        environment.setdefault("MPIR_CVAR_ENABLE_HEAVY_YIELD", "1")
-        environment.setdefault("OMP_WAIT_POLICY", "passive")
-    return environment
+        variables.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
+        variables.setdefault("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe")
+        variables.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
+        variables.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
+        variables.setdefault("MPIR_CVAR_ENABLE_HEAVY_YIELD", "1")
+        variables.setdefault("OMP_WAIT_POLICY", "passive")
+    return variables
 
 
 def _raise_for(code: int, lines: list[str], command: list[str], folder: Path) -> None:

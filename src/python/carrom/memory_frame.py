@@ -4,11 +4,25 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from carrom.disc_arrays import Array
 from carrom.frame import Frame
+
+
+class LocalDiscs(NamedTuple):
+    """The discs of one rank, in ascending order of ids."""
+
+    ids: Array
+    """(n,)"""
+    positions: Array
+    """(n, 2), lengths"""
+    velocities: Array
+    """(n, 2), lengths per step"""
+    spins: Array
+    """(n,), radians per step"""
 
 
 class MemoryFrame(Frame):

@@ -28,7 +28,7 @@ from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
 from carrom.launching import CarromWarning, ProgressLike
 from carrom.live_results import Averages, LiveTables
-from carrom.memory_frame import MemoryFrame
+from carrom.memory_frame import LocalDiscs, MemoryFrame
 from carrom.progress import progress_display
 from carrom.scene import SceneLike, flattened, set_words
 from carrom.simulation_source import checkpoint_of, handle_of, source_of
@@ -42,14 +42,8 @@ _STRETCH = 0.1  # seconds between two looks at Ctrl-C and the bar
 class Simulation:
     """A scene as it moves forward in time, in this process.
 
-    ```python
-    sim = carrom.Simulation({"box": {"size": 50}, "discs": {"count": 500, "packing": 0.4},
-                             "time": {"method": "event-driven"}}, threads=2)
-    sim.run(100)
-    sim.velocities = -sim.velocities
-    ```
-
-    All calls come from the thread that made the first simulation.
+    `sim.run(100)` steps, `sim.positions` are arrays, and `sim.velocities = -sim.velocities` turns
+    all discs round. All calls come from the thread that made the first simulation.
 
     Attributes:
         method: "event-driven" or "time-stepped"
@@ -284,6 +278,13 @@ class Simulation:
             _checked("velocities", velocities, pairs),
             _checked("spins", spins, numbers),
         )
+
+    @property
+    def local(self) -> LocalDiscs:
+        """The discs of this rank. Other ranks need not make the call."""
+        core = self._core
+        ids = core.ids
+        return LocalDiscs(ids, core.positions[ids], core.velocities[ids], core.spins[ids])
 
     def _gathered(self, mine: Array) -> Array:
         """Return the numbers of all ranks' discs; those of others are 0 here."""

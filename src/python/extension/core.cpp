@@ -63,6 +63,7 @@ NB_MODULE(_core, module) {
         .def_prop_ro("ranks", [](const Core& core) { return core.session->size(); })
         .def_prop_ro("facts", facts_of)
         .def_prop_ro("kinds", kinds_of)
+        .def_prop_ro("ids", ids_of)
         .def_prop_ro("positions", positions_of)
         .def_prop_ro("velocities", velocities_of)
         .def_prop_ro("spins", spins_of)

@@ -55,6 +55,8 @@ nb::dict averages_of(const Core& core);
 nb::list tables_of(const Core& core);
 nb::dict facts_of(const Core& core);
 nb::tuple kinds_of(const Core& core);
+/// The ids of this rank's discs, (n,), in ascending order.
+nb::object ids_of(const Core& core);
 nb::object positions_of(const Core& core);
 nb::object velocities_of(const Core& core);
 nb::object spins_of(const Core& core);

@@ -29,6 +29,14 @@ nb::object filled(std::vector<std::size_t> shape, const Read& read) {
 
 } // namespace
 
+nb::object ids_of(const Core& core) {
+    const std::vector<Disc> discs = core.simulation.discs();
+    std::int64_t* ids = nullptr;
+    nb::object array = new_array({discs.size()}, ids);
+    for (std::size_t i = 0; i < discs.size(); ++i) ids[i] = static_cast<std::int64_t>(discs[i].id);
+    return array;
+}
+
 nb::object positions_of(const Core& core) {
     return filled<double>({core.simulation.scene().n_discs, 2},
                           [&](std::span<double> xy) { core.simulation.read_positions(xy); });
