@@ -157,7 +157,8 @@ std::vector<WatchedNumber> OrderWatch::watched() const {
         all.push_back(number("local_psi6", &Sample::local));
     }
     if (has_energy_)
-        if (WatchedNumber energy = number("energy", &Sample::energy); !energy.mean.is_constant)
+        if (WatchedNumber energy = number("energy", &Sample::energy);
+            !energy.mean.is_constant && !std::isnan(energy.quarters.front()))
             all.push_back(std::move(energy));
     return all;
 }

@@ -66,8 +66,8 @@ void print_result(const RunOptions& options, const SceneParameters& scene, const
     std::string failure;
     if (ranks.is_root()) {
         if (!options.quiet) print_text(summary_text(scene, result));
-        for (const std::string& warning :
-             {warning_of_lost_collisions(scene, result), warning_of_guarded_collisions(result)})
+        for (const std::string& warning : {warning_of_lost_collisions(scene, result),
+                                           warning_of_guarded_collisions(scene, result)})
             if (!warning.empty()) print_message("warning: {}\n", warning);
         std::vector<std::string> reports;
         if (!options.report.empty()) reports.push_back(options.report);

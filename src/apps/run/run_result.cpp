@@ -135,12 +135,17 @@ namespace {
 std::string changes_of(std::span<const WatchedNumber> watched) {
     std::vector<std::string> all;
     for (const WatchedNumber& one : watched) {
-        const std::string quarters = fmt::format("{:.3g} by quarters of the run",
-                                                 fmt::join(one.quarters, ", "));
+        const std::string quarters = std::isnan(one.quarters.front())
+                                         ? ""
+                                         : fmt::format(" ({:.3g} by quarters of the run)",
+                                                       fmt::join(one.quarters, ", "));
         if (one.mean.is_changing)
-            all.push_back(fmt::format("{} is still changing ({})", one.name, quarters));
+            all.push_back(fmt::format("{} is still changing{}", one.name, quarters));
+        else if (std::isnan(one.mean.independent_samples))
+            all.push_back(
+                fmt::format("{} has too few samples to show whether it changes", one.name));
         else if (one.mean.independent_samples < fewest_independent_samples)
-            all.push_back(fmt::format("{} has only {:.1f} independent samples ({})", one.name,
+            all.push_back(fmt::format("{} has only {:.1f} independent samples{}", one.name,
                                       one.mean.independent_samples, quarters));
     }
     if (all.empty()) return {};
@@ -248,7 +253,8 @@ double guarded_share(const RunResult& result) {
     return ratio(result.end.energy_spared, result.end.energy_taken + result.end.energy_spared);
 }
 
-std::string warning_of_guarded_collisions(const RunResult& result) {
+std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result) {
+    if (scene.effects.contact.contact_time == 0) return {}; // as short as collapse allows
     constexpr std::uint64_t fewest = 100; // of fewer the share is a matter of chance
     const double share = guarded_share(result);
     if (!(share > 0.01) || result.end.guarded_collisions < fewest) return {};

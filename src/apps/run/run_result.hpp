@@ -87,8 +87,8 @@ std::string warning_of_lost_collisions(const SceneParameters& scene, const RunRe
 /// restitution asks for, because one of the discs had collided within the contact time; since this
 /// process began.
 double guarded_share(const RunResult& result);
-/// One line if it is more than a hundredth, else empty.
-std::string warning_of_guarded_collisions(const RunResult& result);
+/// One line if it is more than a hundredth because of the scene's contact time, else empty.
+std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result);
 
 /// Overlapping pairs of a disc at the end, on average.
 double overlapping_pairs_per_disc(const RunResult& result);

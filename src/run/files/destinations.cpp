@@ -29,6 +29,13 @@ bool is_special(const std::string& path) {
            !std::filesystem::is_directory(status);
 }
 
+/// Text is written in place, so it would be behind all names.
+bool has_other_names(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error) &&
+           std::filesystem::hard_link_count(path, error) > 1 && !error;
+}
+
 const char* words_for(FileContent content) {
     switch (content) {
     case FileContent::hdf5: return "an HDF5 file";
@@ -54,6 +61,8 @@ std::string reason_against(const Destination& target, const std::string& own_fol
     }
     const std::string owner = owner_of_file(target.path, own_folder);
     if (!owner.empty()) return fmt::format("is {}; name another file", owner);
+    if (target.kind == Output::text && has_other_names(target.path))
+        return "has other names (hard links), of which one may be a run's; name another file";
     const FileContent content = content_of(target.path);
     if (may_replace(target.kind, content)) return {};
     return fmt::format("is {}, which {} does not replace; name another file, or remove this one",

@@ -96,7 +96,8 @@ std::string owner_of_file(const std::string& path, const std::string& own_folder
 
 std::string owner_of_folder(const std::string& path) {
     const fs::path run = run_around(canonical(path), {});
-    return run.empty() ? "" : fmt::format("a folder of the run in {}", run.string());
+    if (run.empty()) return owner_of_spelling(canonical(path), {});
+    return fmt::format("a folder of the run in {}", run.string());
 }
 
 bool is_in_subfolder_of_run(const std::string& path, const std::string& folder) {
@@ -114,8 +115,8 @@ FileContent content_of(const std::string& path) {
     }
     if (text.empty()) return FileContent::nothing;
     if (text.starts_with(hdf5_begin)) return FileContent::hdf5;
-    const fs::path end = fs::path(path).extension();
-    if (end == ".toml" || end == ".in" || end == ".discs") return FileContent::scene;
+    for (const fs::path& end : {fs::path(path).extension(), canonical(path).extension()})
+        if (end == ".toml" || end == ".in" || end == ".discs") return FileContent::scene;
     if (text[text.find_first_not_of(" \t\r\n") % wanted] == '{') return FileContent::report;
     return begins_as_table(text) ? FileContent::table : FileContent::other;
 }

@@ -60,8 +60,8 @@ std::vector<Key> keys_of_contact() {
             .within({1e-6, 1})
             .needs(rough),
         key("effects.contact.contact_time", "steps",
-            "A disc that has collided this recently collides elastically. At most a "
-            "quarter of the time between syncs.",
+            "A disc that has collided this recently collides elastically, under the event-driven "
+            "method. At most a quarter of the time between syncs.",
             [](auto& s) -> auto& { return s.effects.contact.contact_time; })
             .by_default("while two discs close in by a millionth of the sum of their radii")
             .within({.low = 0, .excludes_low = true})
