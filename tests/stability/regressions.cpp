@@ -136,7 +136,8 @@ std::string toml_of(const Effects& effects, Method method) {
                             contact.tangential_restitution, contact.inertia);
     if (is_rough && std::isfinite(contact.friction))
         text += fmt::format("friction = {:.17g}\n", contact.friction);
-    if (is_dull || is_lossy) text += fmt::format("contact_time = {:.17g}\n", contact.contact_time);
+    if ((is_dull || is_lossy) && contact.contact_time > 0)
+        text += fmt::format("contact_time = {:.17g}\n", contact.contact_time);
     if (effects.gravity.is_any())
         text += fmt::format("[effects.gravity]\nx = {:.17g}\ny = {:.17g}\n", effects.gravity.x,
                             effects.gravity.y);
