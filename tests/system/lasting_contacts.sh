@@ -33,7 +33,7 @@ assert 1.5 * 400 <= report["lasting_contacts"] <= 3 * 400 + 100, report["lasting
 assert report["compressibility"]["value"] is None, report["compressibility"]
 END
 
-run 1 run "$heap" --quiet --steps 600 --report early.json
+run 1 run "$heap" --quiet --steps 700 --report early.json
 expect_code 0 'the same on one rank'
 [ "$(json_value early.json pair_collisions)" = "$(json_value heap/report.json pair_collisions)" ] ||
     complain 'discs at rest collide'
