@@ -65,9 +65,10 @@ class Accuracy(ProgramTest):
 
     def test_table_is_a_new_file(self):
         self.write("known.csv", "of another study\n")
-        for place in ("known.csv", "/dev/full"):
-            self.study(place, code=2, says=f"--output {place}: is there already; name a new file")
-        self.study("small.toml", code=2, says="--output small.toml: is the input itself")
+        for place, why in (("known.csv", "is there already; name a new file"),
+                           ("small.toml", "is the input itself"),
+                           ("/dev/full", "is not a plain file")):
+            self.study(place, code=2, says=f"--output {place}: {why}")
         self.assertEqual((self.folder / "known.csv").read_text(), "of another study\n")
         self.study("nowhere/table.csv", code=2)
 
