@@ -3,6 +3,7 @@
 else: every output against every kind of file that Carrom writes is code 2, and no byte changes.
 """
 import hashlib
+import os
 import shutil
 from pathlib import Path
 
@@ -123,6 +124,21 @@ class Destinations(ProgramTest):
             self.run_program(1, "replicas", "plain.toml", "--count", 2, "-o", place, code=2,
                              says="of the run in")
         self.assertEqual(self.files(), before)
+
+    def test_links(self):
+        """Text goes to the file behind a link, so that file decides; hard links hide a run's."""
+        scene = "box.size = 10\ndiscs.count = 5\ndiscs.packing = 0.1\ntime.steps = 2\n"
+        self.write("linked.toml", scene)
+        (self.folder / "link").symlink_to("plain.toml")
+        self.run_program(1, "run", "linked.toml", "-o", "owner", "--quiet")
+        os.link(self.folder / "owner/scene.toml", self.folder / "second_name")
+        for output, why in (("link", "does not replace"), ("second_name", "has other names")):
+            self.run_program(1, "run", "linked.toml", "--set", "output.text=ends", "--quiet",
+                             "--output", output, code=2, says=why)
+        self.run_program(1, "run", "linked.toml", "--quiet", "-o", "owner/.carrom.lock", code=2,
+                         says="is a file of the run")
+        self.assertEqual((self.folder / "plain.toml").read_text(encoding="utf-8"), PLAIN)
+        self.run_program(1, "run", "-o", "owner", "--resume", "--steps", 3, "--quiet")
 
     def test_overwrite_keeps_what_is_read(self):
         """--overwrite removes the checkpoints of the run, of which one is the start."""
