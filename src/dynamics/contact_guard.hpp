@@ -7,7 +7,9 @@
 // contact time before collides elastically. By default a contact is a length, not a time: the
 // collision is elastic if the two have closed in by less than a millionth of the sum of their radii
 // since the last collision of either. So the guard is the same in all units, and follows discs as
-// they cool. A scene may name a time instead, which costs fewer collisions where discs lie at rest.
+// they cool. At walls and obstacles the share is a hundred times larger: they do not give way, so
+// whatever presses a disc to one or into the wedge between two brings it back without end. A scene
+// may name a time instead, which costs fewer collisions where discs lie at rest.
 //
 // Where discs are pulled to a wall, a contact at rest is a series of small bounces without loss.
 // What these spare is no error, so losses leave them out. Where contacts last, slow ones lose their
@@ -35,7 +37,9 @@ inline double since_collision(const DiscState& disc, double time) {
 class ContactGuard {
 public:
     /// The share of the distance between centres that two discs close in by during a contact.
-    static constexpr double share = 1e-6;
+    static constexpr double pair_share = 1e-6;
+    /// The same for a disc and its image behind a wall.
+    static constexpr double wall_share = 1e-4;
 
     /// For discs of at most `radius`.
     ContactGuard(const Effects& effects, double radius)
@@ -48,11 +52,11 @@ public:
     /// `since`: the time since the last collision of either. `closing`: how fast they approach, in
     /// sums of their radii.
     bool holds(double since, double closing) const {
-        return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
+        return holds(since, closing, pair_share);
     }
     /// At a wall a disc approaches its own image, at twice its speed and twice its radius.
     bool holds_at_wall(double since, double speed, double radius) const {
-        return holds(since, speed / radius);
+        return holds(since, speed / radius, wall_share);
     }
 
     /// The smallest speed at which a disc leaves a wall that `pull` presses it against, so that it
@@ -60,7 +64,7 @@ public:
     double least_departure(double pull, double radius) const {
         if (!(pull > 0)) return 0;
         return contact_time_ > 0 ? 0.5 * pull * contact_time_
-                                 : std::sqrt(0.5 * share * radius * pull);
+                                 : std::sqrt(0.5 * wall_share * radius * pull);
     }
     /// How long such a disc is away.
     double rest_time(double pull, double radius) const {
@@ -78,6 +82,10 @@ public:
 private:
     /// Neighbours of a contact at rest disturb it by some departures.
     static constexpr double rest_factor = 10;
+
+    bool holds(double since, double closing, double share) const {
+        return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
+    }
 
     double contact_time_; ///< 0: by the share
     double rest_speed_;   ///< slower contacts are at rest

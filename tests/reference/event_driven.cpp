@@ -195,7 +195,7 @@ void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, d
                  size = discs_grow() ? growth_at(time) : 1;
     const bool is_touched = setting_.is_in_contact(
         since, std::fabs((is_high ? v : -v) + (is_high ? -wall.speed : wall.speed) + in),
-        radius * size);
+        radius * size, 1e-4);
     const double restitution = is_touched ? 1 : setting_.effects.boundaries[number].restitution;
     if (discs_grow()) { // a wall that comes in
         const double leaving = in + restitution * (in - (is_high ? -v : v));
@@ -317,7 +317,8 @@ void EventDrivenReference::carry_out(const Event& event) {
         DiscState& q = discs_[event.q];
         advance(q, event.time);
         const bool is_touched = setting_.is_in_contact(
-            since, approach(p, q, event.copy), setting_.radius_of(p.id) + setting_.radius_of(q.id));
+            since, approach(p, q, event.copy), setting_.radius_of(p.id) + setting_.radius_of(q.id),
+            1e-6);
         if (setting_.are_rough())
             collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,
                           setting_.tiles(last_sync()));

@@ -118,7 +118,7 @@ void FixedBodies::reflect(DiscState& disc, const BodyMeeting& at, double time, d
                  ny = is_line ? (is_left ? body.ux : -body.ux) : y / distance;
     const double normal = nx * (disc.vx + gx_ * time) + ny * (disc.vy + gy_ * time);
     const double radius = setting_.radius_of(disc.id);
-    const bool is_touched = setting_.is_in_contact(since, std::fabs(normal), radius);
+    const bool is_touched = setting_.is_in_contact(since, std::fabs(normal), radius, 1e-4);
     const double restitution = is_touched ? 1 : setting_.effects.obstacles.restitution;
     double away = restitution * std::fabs(normal);
     const double pull_back = -(nx * gx_ + ny * gy_);

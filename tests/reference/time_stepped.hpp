@@ -105,18 +105,19 @@ struct Setting {
     double restitution() const {
         return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1;
     }
-    /// 0 where contacts are a length: a millionth of the sum of both radii.
+    /// 0 where contacts are a length: a millionth of the sum of both radii, and a ten-thousandth of
+    /// the radius at walls.
     double contact_time() const {
         return effects.contact.contact_time * static_cast<double>(micro_steps);
     }
     /// Whether discs or a wall that approach at `speed` belong to a contact that began `since` ago.
-    bool is_in_contact(double since, double speed, double radii) const {
-        return contact_time() > 0 ? since < contact_time() : since * speed < 1e-6 * radii;
+    bool is_in_contact(double since, double speed, double radii, double share) const {
+        return contact_time() > 0 ? since < contact_time() : since * speed < share * radii;
     }
     /// The speed at which a disc of this radius leaves a wall that it is pulled to, at least.
     double least_departure(double pull, double disc_radius) const {
         return contact_time() > 0 ? 0.5 * pull * contact_time()
-                                  : std::sqrt(0.5 * 1e-6 * disc_radius * pull);
+                                  : std::sqrt(0.5 * 1e-4 * disc_radius * pull);
     }
 };
 

@@ -43,7 +43,7 @@ lasting() { json_value "$1" lasting_contacts; }
 
 # Rows of exactly 30 discs. Without the effect their run takes hundreds of times as long, and warns.
 for ranks in 1 3; do
-    run $ranks run "$heap" --quiet --steps 144 --set "box.size=[60, 60]" --set time.sync_every=16 \
+    run $ranks run "$heap" --quiet --steps 128 --set "box.size=[60, 60]" --set time.sync_every=16 \
         --set effects.lasting_contacts.speed=0 --set effects.contact.contact_time=0.1
     expect_code 0 "a heap of collisions on $ranks ranks"
     grep 'warning: .* collided .* times in a contact time' "$test_folder/err" >warned_$ranks
