@@ -105,6 +105,7 @@ std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples
     const double xx = cell[1 + field_stress_xx], xy = cell[1 + field_stress_xy],
                  yy = cell[1 + field_stress_yy];
     return {n,
+            samples_of(cell)[sample_in_pair],
             n * per_area,
             vx,
             vy,

@@ -118,13 +118,14 @@ discs = [[0, 0, 40], [50, 50, 20]]
 
     def test_profiles_of_few_discs(self):
         """2, 4 and 33 discs a cell, in blocks of ten samples that hold the same discs or others.
-        A disc counts alike in each row, so rows have the weight of their discs.
+        A disc counts alike in each row, so rows have the weight of their discs; a disc alone in its
+        cell says nothing of kT.
         """
         text = BOX.replace("40", "60") + \
             "[discs]\ncount = 400\npacking = 0.3\n[time]\nsteps = 2000\n[output.measurements]\n" \
             'quantities = ["profiles"]\n'
-        for columns, rows, samples, every in ((14, 14, 10, 10), (10, 10, 10, 1), (4, 3, 10, 10),
-                                              (4, 3, 1, 10), (1, 1, 10, 50)):
+        for columns, rows, samples, every in ((14, 14, 10, 10), (14, 14, 10, 1), (10, 10, 10, 1),
+                                              (4, 3, 10, 10), (4, 3, 1, 10), (1, 1, 10, 50)):
             with self.subTest(columns=columns, samples=samples, every=every):
                 report, _ = self.measure(text, *(
                     word for key, value in (("profile_columns", columns), ("profile_rows", rows),
@@ -132,11 +133,13 @@ discs = [[0, 0, 40], [50, 50, 20]]
                     for word in ("--set", f"output.measurements.{key}={value}")))
                 kT = 0.5 * 400 / 399
                 self.assertAlmostEqual(report["temperature"]["value"], kT, delta=1e-9)
-                counts, heats = (self.column("profiles", name) for name in ("count", "temperature"))
-                self.assertEqual(len(counts), len(heats))  # so no row is without a temperature
-                discs = sum(counts)
-                heat = sum(n * one for n, one in zip(counts, heats))
-                self.assertAlmostEqual(heat / discs, kT, delta=0.005)
+                weights = [n for n in self.column("profiles", "in_pairs") if n > 0]
+                heats = self.column("profiles", "temperature")
+                self.assertEqual(len(weights), len(heats))  # the other rows have no temperature
+                heat = sum(n * one for n, one in zip(weights, heats)) / sum(weights)
+                self.assertAlmostEqual(heat, kT, delta=0.005)
+                if columns * rows == 196:
+                    continue  # cells of two discs: the page says that their xx and yy are high
                 stress = self.mean("profiles", "xx") + self.mean("profiles", "yy")
                 self.assertAlmostEqual(stress / 2, kT * 400 / 3600, delta=0.0006)
                 for number in self.column("profiles_total", "temperature"):

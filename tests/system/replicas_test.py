@@ -11,7 +11,7 @@ import statistics
 from program import SOURCES, ProgramTest, main
 
 SCENE = [SOURCES / "inputs/gas.toml", "--set", "discs.count=300", "--set", "discs.packing=0.2",
-         "--steps", 300, "--set", "output.measurements.quantities=['velocities']", "--set",
+         "--set", "time.steps=300", "--set", "output.measurements.quantities=['velocities']", "--set",
          "output.measurements.every_steps=10"]
 
 
@@ -87,6 +87,13 @@ class Replicas(ProgramTest):
         report.write_text(whole.replace(f'"{state_hash}"', "5"), encoding="utf-8")
         self.replicas(2, 6, "all", "--quiet", code=2,
                       says="all/0001/report.json: is no whole report")
+
+    def test_too_short_for_errors(self):
+        """Of three steps no run claims an error; kT is the same in all and needs none."""
+        run = self.replicas(1, 4, "short", "--set", "time.steps=3",
+                            says="replicas are too short to claim an error (pressure in 4 of 4")
+        self.assertRegex(run.err, r"temperature +0\.\d+ in each")
+        self.assertNotIn("temperature in", run.err)
 
     def test_wrong_words(self):
         self.replicas(3, 0, "none", "--set", "discs.colour=red", code=2,

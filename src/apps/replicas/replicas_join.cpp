@@ -40,6 +40,18 @@ Mean mean_of(const std::vector<double>& numbers) {
     return {mean, n > 1 ? std::sqrt(squares / (n * (n - 1))) : NAN};
 }
 
+bool differ_by_rounding(const Mean& mean, double scatter) {
+    constexpr double rounding = 1e-12;
+    return scatter <= rounding * std::fabs(mean.value);
+}
+
+/// A line for the terminal. Values that differ by roundings alone have no error.
+std::string line_of(const char* name, const Mean& mean, double scatter) {
+    if (differ_by_rounding(mean, scatter))
+        return fmt::format("{:<20}{:.6g} in each\n", name, mean.value);
+    return fmt::format("{:<20}{:.6g} +- {:.2g}\n", name, mean.value, mean.error);
+}
+
 Json or_null(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
 double number_of_json(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
 std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
@@ -84,6 +96,7 @@ struct Claims {
     double claimed = NAN;       ///< the root of the mean square of the errors; NaN if there is none
     double ratio = NAN;         ///< the scatter over it
     std::size_t n_changing = 0; ///< replicas that are still changing
+    std::size_t n_silent = 0;   ///< replicas that are too short for an error
 
     bool are_too_small(std::size_t n_replicas) const;
 };
@@ -111,26 +124,51 @@ Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantit
         const double error = part_of(report, quantity, "error");
         if (std::isfinite(error) && error > 0) squares += error * error, n += 1;
         const Json::json_pointer reason(std::string(quantity.path) + "/without_error");
-        if (report.contains(reason) && report.at(reason).is_string())
-            claims.n_changing += report.at(reason).get<std::string>().starts_with("still changing");
+        if (!report.contains(reason) || !report.at(reason).is_string()) continue;
+        const std::string text = report.at(reason).get<std::string>();
+        const bool is_changing = text.starts_with("still changing");
+        claims.n_changing += is_changing;
+        claims.n_silent += !is_changing && text != "conserved";
     }
     if (n > 0) claims.claimed = std::sqrt(squares / n), claims.ratio = scatter / claims.claimed;
     return claims;
 }
 
 /// What is wrong with single runs, or nothing.
-std::string warning_of(const std::vector<std::string>& too_small,
-                       const std::vector<std::string>& changing) {
-    if (too_small.empty() && changing.empty()) return {};
-    std::string text = "single runs are shorter than their memory: ";
-    if (!too_small.empty())
-        text += fmt::format("replicas scatter more than their errors claim ({})",
-                            fmt::join(too_small, ", "));
-    if (!changing.empty())
-        text += fmt::format("{}replicas are still changing ({})", too_small.empty() ? "" : ", and ",
-                            fmt::join(changing, ", "));
-    return text + "; the errors over replicas hold for runs of this length alone; try: longer runs";
-}
+class SingleRuns {
+public:
+    explicit SingleRuns(std::size_t n_replicas) : n_replicas_(n_replicas) {}
+
+    void add(const char* name, const Claims& claims) {
+        if (claims.are_too_small(n_replicas_))
+            too_small_.push_back(fmt::format("{} {:.1f} times", name, claims.ratio));
+        add(changing_, name, claims.n_changing);
+        add(silent_, name, claims.n_silent);
+    }
+
+    std::string warning() const {
+        std::vector<std::string> faults;
+        const auto say = [&](const char* what, const std::vector<std::string>& names) {
+            if (!names.empty())
+                faults.push_back(fmt::format("{} ({})", what, fmt::join(names, ", ")));
+        };
+        say("replicas scatter more than their errors claim", too_small_);
+        say("replicas are still changing", changing_);
+        say("replicas are too short to claim an error", silent_);
+        if (faults.empty()) return {};
+        return fmt::format("single runs are shorter than their memory: {}; the errors over "
+                           "replicas hold for runs of this length alone; try: longer runs",
+                           fmt::join(faults, ", and "));
+    }
+
+private:
+    void add(std::vector<std::string>& list, const char* name, std::size_t n) const {
+        if (n * 4 > n_replicas_) list.push_back(fmt::format("{} in {} of {}", name, n, n_replicas_));
+    }
+
+    std::size_t n_replicas_;
+    std::vector<std::string> too_small_, changing_, silent_;
+};
 
 Json read_report(const std::string& folder) {
     std::ifstream file = open_plain_file(report_of_run(folder));
@@ -290,7 +328,7 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
     write(folder, "replicas.csv", lines_of_replicas(replicas, reports));
     std::string text = fmt::format("replicas           {}\n", replicas.size());
     Json joined = {{"replicas", replicas.size()}};
-    std::vector<std::string> too_small, changing;
+    SingleRuns runs(replicas.size());
     for (const AveragedColumn& quantity : averaged_columns) {
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
@@ -303,12 +341,8 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
                                  {"claimed", or_null(claims.claimed)},
                                  {"scatter_over_claimed", or_null(claims.ratio)},
                                  {"still_changing", claims.n_changing}};
-        text += fmt::format("{:<20}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
-        if (claims.are_too_small(replicas.size()))
-            too_small.push_back(fmt::format("{} {:.1f} times", quantity.name, claims.ratio));
-        if (claims.n_changing * 4 > replicas.size())
-            changing.push_back(
-                fmt::format("{} in {} of {}", quantity.name, claims.n_changing, replicas.size()));
+        text += line_of(quantity.name, mean, scatter);
+        if (!differ_by_rounding(mean, scatter)) runs.add(quantity.name, claims);
     }
     write(folder, "replicas.json", joined.dump(2) + '\n');
     if (reports.front().contains("measurements"))
@@ -316,7 +350,7 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
             const JoinedTable means(name, reports);
             if (means.is_whole()) write(folder, name + ".csv", means.csv());
         }
-    return {text, warning_of(too_small, changing)};
+    return {text, runs.warning()};
 }
 
 } // namespace carrom

@@ -334,6 +334,7 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
     MeasuredTable table{
         std::move(name),
         {fmt::format("means over {} samples up to to_step, {}", per_block_, where),
+         "in_pairs: discs in samples with two or more in the cell, the weight of temperature; "
          "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that, with "
          "its degrees of freedom given back; xx, xy, yy: kinetic part of the pressure tensor; "
          "heat_x, "
@@ -343,7 +344,7 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
         {}};
     if (is_grid) table.columns.insert(table.columns.end(), {"x", "y"});
     table.columns.insert(table.columns.end(),
-                         {"count", "density", "vx", "vy", "temperature", "xx", "xy", "yy",
+                         {"count", "in_pairs", "density", "vx", "vy", "temperature", "xx", "xy", "yy",
                           "contact_xx", "contact_xy", "contact_yy", "heat_x", "heat_y",
                           "contact_heat_x", "contact_heat_y"});
     for (std::size_t block = 0; 6 * block < heads_.size(); ++block) {

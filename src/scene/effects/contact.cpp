@@ -63,8 +63,8 @@ std::vector<Key> keys_of_contact() {
             "A disc that has collided this recently collides elastically, under the event-driven "
             "method. At most a quarter of the time between syncs.",
             [](auto& s) -> auto& { return s.effects.contact.contact_time; })
-            .by_default("while two discs close in by a millionth of the sum of their radii, or a disc and a "
-                        "wall by a ten-thousandth of the radius")
+            .by_default("while two discs close in by a millionth of the sum of their radii, or a "
+                        "disc and a wall by a ten-thousandth of the radius")
             .within({.low = 0, .excludes_low = true})
             .needs(loss_or_gravity),
     };

@@ -69,6 +69,7 @@ std::vector<double> row_of_cell(const ProfileCell& cell, double area) {
     const double n = static_cast<double>(all.size()),
                  per_area = 1 / (area * static_cast<double>(cell.size()));
     return {n,
+            in_pair,
             n * per_area,
             mean.vx,
             mean.vy,
