@@ -133,7 +133,7 @@ TEST_CASE("measurements: profiles are what the discs of each cell give") {
             total += table.rows[k][3];
             CHECK(table.rows[k][0] == (k < n_x * n_y ? 13 : 28));
             for (std::size_t column = 0; column < expected[k].size(); ++column) // but for contacts
-                CHECK(table.rows[k][3 + column + (column < 8 ? 0 : 3)] ==
+                CHECK(table.rows[k][3 + column + (column < 9 ? 0 : 3)] ==
                       Approx(expected[k][column]).epsilon(1e-11).margin(1e-13));
         }
         CHECK(total == 2 * 3 * 300);
