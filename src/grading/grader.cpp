@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_grader.hpp"
+#include "grading/grader.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/compare/compare_lines.hpp"
-#include "apps/compare/compare_mistakes.hpp"
-#include "apps/compare/compare_points.hpp"
-#include "apps/compare/compare_runs.hpp"
+#include "grading/lines.hpp"
+#include "grading/mistakes.hpp"
+#include "grading/points.hpp"
+#include "grading/runs.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_lines.hpp"
+#include "grading/lines.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_mistakes.hpp"
+#include "grading/mistakes.hpp"
 
 #include <array>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/compare/compare_rule.hpp"
 #include "core/disc_state.hpp"
+#include "grading/rule.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_points.hpp"
+#include "grading/points.hpp"
 
 #include <fmt/format.h>
 

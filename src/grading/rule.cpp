@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_rule.hpp"
+#include "grading/rule.hpp"
 
 #include <algorithm>
 #include <cmath>

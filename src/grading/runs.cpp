@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_runs.hpp"
+#include "grading/runs.hpp"
 
 #include <algorithm>
 #include <cmath>

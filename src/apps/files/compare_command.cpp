@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/compare/compare_grader.hpp"
-#include "apps/compare/compare_runs.hpp"
 #include "apps/shell/codes_of_files.hpp"
 #include "apps/shell/number_words.hpp"
+#include "grading/grader.hpp"
+#include "grading/runs.hpp"
 #include "initial_state/scene_input.hpp"
 #include "parallel/agreement.hpp"
 #include "scene/read_scene.hpp"
