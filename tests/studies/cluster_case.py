@@ -11,8 +11,8 @@ import cluster_plan
 from cluster_plan import DISC_BYTES, HISTORY_BYTES, Window
 
 RANKS_PER_NODE = 32
-# Nanoseconds on one core of the AMD EPYC (docs/performance/rates.csv): a collision of the gas of
-# packing 0.5, all else included, and a disc and micro-step of the time-stepped method's gas of
+# Nanoseconds on one core of the AMD EPYC (docs/data/performance/rates.csv): a collision of the gas
+# of packing 0.5, all else included, and a disc and micro-step of the time-stepped method's gas of
 # packing 0.2. A disc of a halo takes 33 ns to plan, pack and add.
 NS_COLLISION, NS_STEP, NS_HALO = 383.0, 31.4, 33.0
 SENT_TO_OWN = 2.1  # a disc that is sent over an own one, time-stepped (simulate.py)
@@ -23,8 +23,8 @@ SPEED_ALLOWANCE, SPEED_KEPT = 1.08, 1.09
 RMS_SPEED = 0.5  # of window_counts, in radii and steps
 # The time-stepped method's gas: windows of three micro-steps, and mean distances of discs from
 # which a rank gets the others' discs once a window, and then in each micro-step those that were
-# hit. Both reproduce the bytes of docs/performance/cluster.csv, "weak, 1e6 a rank", on 256 and 1024
-# ranks.
+# hit. Both reproduce the bytes of docs/data/performance/cluster.csv, "weak, 1e6 a rank", on 256 and
+# 1024 ranks.
 MICRO_STEPS = 3
 STEPPED_DEPTH, STEPPED_UPDATES = 2.0, 0.17
 

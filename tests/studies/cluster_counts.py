@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Counted figures of windows of the event-driven method, which cluster_model.py uses.
 
-  tests/performance/cluster_counts.py WINDOW_COUNTS --count    write window_counts.csv anew
-  tests/performance/cluster_counts.py WINDOW_COUNTS            run its smallest row again;
+  tests/studies/cluster_counts.py WINDOW_COUNTS --count    write window_counts.csv anew
+  tests/studies/cluster_counts.py WINDOW_COUNTS            run its smallest row again;
                                                         code 1 if a count is off by 3 %
 """
 

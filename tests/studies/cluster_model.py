@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Predict how both methods scale on a large simulated cluster, from counted figures.
 
-  tests/performance/cluster_model.py REPLAY_CLUSTER                compare with cluster_model.csv;
+  tests/studies/cluster_model.py REPLAY_CLUSTER                compare with cluster_model.csv;
                                                         code 1 if a number is off by 2 %, or if
                                                         the model disagrees with the counts
-  tests/performance/cluster_model.py REPLAY_CLUSTER --record       write cluster_model.csv anew
-  tests/performance/cluster_model.py REPLAY_CLUSTER --study FILE   1 to 8192 ranks, as CSV: minutes
+  tests/studies/cluster_model.py REPLAY_CLUSTER --record       write cluster_model.csv anew
+  tests/studies/cluster_model.py REPLAY_CLUSTER --study FILE   1 to 8192 ranks, as CSV: minutes
 
 Real runs on 1 and 16 ranks give what a window has (cluster_counts.py, and for the time-stepped
-method docs/performance/cluster.csv): collisions, how far blocks see, how deep halos are, how many
-block runs are repeated, how many messages and reductions there are. cluster_plan.py and
+method docs/data/performance/cluster.csv): collisions, how far blocks see, how deep halos are, how
+many block runs are repeated, how many messages and reductions there are. cluster_plan.py and
 cluster_case.py work out what each rank would have of that, and replay_cluster.cpp replays it on a
 network.
 A node has 32 ranks of one thread, which share its network card. Efficiency is the time of one core

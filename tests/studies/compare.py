@@ -3,8 +3,8 @@
 """Measure Carrom beside its peers: LAMMPS, EDMD, and a plain stream of the same bytes. One CSV row
 per case.
 
-  tests/performance/compare.py --build build --output docs/performance/rates.csv --minutes 7 [--edmd
-  PROGRAM] [--only PATTERN] [--short]
+  tests/studies/compare.py --build build --output docs/data/performance/rates.csv --minutes 7
+      [--edmd PROGRAM] [--only PATTERN] [--short]
 
 Every case of a round runs before the next round begins, each together with what it is compared
 with, so that a drift of the machine's speed falls on both; ratios are taken within a round, and the

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What effects cost, against the same gas without: instructions, and time as interleaved ratios.
 
-  tests/performance/effects.py STEP_SCENE --repeats 9 --output docs/performance/effects.csv
+  tests/studies/effects.py STEP_SCENE --repeats 9 --output docs/data/performance/effects.csv
 
 STEP_SCENE is the program of that name that is compiled with the tests (build/tests/step_scene).
 Instructions are those that valgrind counts below DiscSystem::advance_towards, divided by those of
@@ -16,11 +16,13 @@ import csv
 import itertools
 import math
 import os
+import pathlib
 import resource
 import statistics
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "performance"))
 from instructions import counted, run_scene
 
 

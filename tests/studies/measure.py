@@ -3,7 +3,7 @@
 """Measure what a disc-step costs, and write one CSV row per run (docs/understanding/performance.md
 shows the medians).
 
-  tests/performance/measure.py --program build/carrom --output rates.csv [--only NAME ...] [--rounds
+  tests/studies/measure.py --program build/carrom --output rates.csv [--only NAME ...] [--rounds
   5]
 
 All cases of a round run one after the other before the next round begins, so that a drift of the

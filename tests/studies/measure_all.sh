@@ -3,8 +3,8 @@
 # Measure everything that docs/understanding/performance.md shows, in about twelve minutes of an
 # otherwise idle machine:
 #
-#   tests/performance/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/performance
-#   tests/performance/page.py                               then draws the page anew
+#   tests/studies/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/data/performance
+#   tests/studies/page.py                               then draws the page anew
 #
 # Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
 # more. EDMD names programs that planar_edmd.py builds, as EDMD="cell multi"; the fastest counts.
@@ -17,7 +17,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
 build=${1:-$top/build}
-folder=${2:-$top/docs/performance}
+folder=${2:-$top/docs/data/performance}
 mkdir -p "$folder"
 say() { printf '%s: %s\n' "$(date +%T)" "$*" >&2; }
 
@@ -60,4 +60,4 @@ if [ -x "$build/tests/simulated_cluster" ]; then
     python3 "$here/cluster_model.py" "$build/tests/replay_cluster" \
         --study "$folder/large_cluster.csv" --ranks 1 16 64 256 ${MOST_RANKS:+1024 8192}
 fi
-say 'done; tests/performance/page.py draws the page'
+say 'done; tests/studies/page.py draws the page'

@@ -3,8 +3,8 @@
 """Measure how fast checkpoints are written, beside what `dd conv=fdatasync` of the same size
 reaches on the same disk.
 
-  tests/performance/measure_checkpoints.py --program build/carrom --folder /scratch/me
-      --shapes 1x1 1x2 2x1 2x2 --output docs/performance/checkpoints.csv
+  tests/studies/measure_checkpoints.py --program build/carrom --folder /scratch/me
+      --shapes 1x1 1x2 2x1 2x2 --output docs/data/performance/checkpoints.csv
 
 In each round dd and the program take turns, so that a disk that others use too treats both alike;
 the ratio of a round is what counts, and the median of the rounds is told. A shape is ranks x

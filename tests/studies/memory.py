@@ -4,7 +4,7 @@
 method takes more than its bound on one rank, or more than a tenth beyond that on two and three; or
 where discs of which half of the area is R times as large take too many bytes beyond equal discs.
 
-  tests/performance/memory.py build/carrom [mpiexec]
+  tests/studies/memory.py build/carrom [mpiexec]
 """
 
 import argparse

@@ -3,7 +3,7 @@
 """Put what has been measured into docs/understanding/performance.md: tables between its markers,
 pictures beside its CSV files.
 
-  tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
+  tests/studies/page.py [--folder docs/data/performance] [--page docs/understanding/performance.md]
 
 Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), large_cluster.csv
 (cluster_model.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
@@ -359,7 +359,7 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("docs/performance"))
+    parser.add_argument("--folder", type=pathlib.Path, default="docs/data/performance")
     parser.add_argument(
         "--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md")
     )

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Build the event-driven code EDMD for discs in a plane, as a peer to be timed against.
 
-  git clone https://github.com/FSmallenburg/EDMD && tests/performance/planar_edmd.py EDMD PROGRAM
+  git clone https://github.com/FSmallenburg/EDMD && tests/studies/planar_edmd.py EDMD PROGRAM
 
 EDMD (Smallenburg, Eur. Phys. J. E 45, 22 (2022)) moves spheres. Two of its variants are changed on
 the way: `Cell` looks for partners in cells, and `Multi` keeps lists of neighbours, which is faster

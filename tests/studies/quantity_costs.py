@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Print what quantities take of a run, in instructions and memory:
-docs/performance/quantities.csv.
+docs/data/performance/quantities.csv.
 
-  tests/performance/quantity_costs.py CARROM [QUANTITY ...]
+  tests/studies/quantity_costs.py CARROM [QUANTITY ...]
 
 A gas at a packing of 0.3 in a periodic box, or for quantities of walls between walls, runs on one
 thread with the event-driven method. Each disc collides once in a step on average. Shares are those
@@ -19,11 +19,13 @@ grows by, with a sample after each of 40 steps. It takes some ten minutes.
 import argparse
 import math
 import os
+import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "performance"))
 from instructions import SETTINGS
 
 FEW, MANY = 1000, 100_000

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Count messages, and predict scaling, on a simulated cluster (SimGrid):
-tests/performance/simulated_cluster.cpp.
+tests/studies/simulated_cluster.cpp.
 
-  tests/performance/simulate.py SIMULATED_CLUSTER                 compare with messages.csv;
+  tests/studies/simulate.py SIMULATED_CLUSTER                 compare with messages.csv;
                                                         code 1 if a number is off by 3 %
-  tests/performance/simulate.py SIMULATED_CLUSTER --record          write messages.csv anew
-  tests/performance/simulate.py SIMULATED_CLUSTER --study FILE    16 to 1024 ranks, weak and
+  tests/studies/simulate.py SIMULATED_CLUSTER --record          write messages.csv anew
+  tests/studies/simulate.py SIMULATED_CLUSTER --study FILE    16 to 1024 ranks, weak and
                                                         strong scaling, as CSV: minutes
 
 What is compared does not depend on the machine, nor on how fast anything is: messages, bytes and
@@ -142,7 +142,7 @@ def compare(program):
                 )
                 if abs(after - before) > TOLERANCE * before:
                     print(
-                        "  if that is meant, record it and say why (tests/performance/simulate.py"
+                        "  if that is meant, record it and say why (tests/studies/simulate.py"
                         " SIMULATED_CLUSTER --record)"
                     )
                     code = 1

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `python -m carrom.watch` costs the run that it follows.
 
-  tests/performance/watch_cost.py [--build build] [--rounds 9] [--output docs/performance/watch.csv]
+  tests/studies/watch_cost.py [--build build] [--rounds 9]
+      [--output docs/data/performance/watch.csv]
 
 Asks for what an open page asks for, as often as the page is told to: the state, the curves and the
 last frame. Needs h5py and numpy. The columns:
@@ -28,6 +29,7 @@ import time
 import urllib.error
 import urllib.request
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "performance"))
 from instructions import SETTINGS
 
 COLUMNS = ("scene", "discs", "seconds", "watcher_share", "instructions_ratio", "processor_ratio",
