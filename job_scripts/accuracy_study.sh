@@ -38,8 +38,8 @@ study() {
     speed=$(awk -v z="$z" \
         'BEGIN { printf "%.6g", sqrt(2) * 0.25 / (4 / sqrt(atan2(0, -1)) * (z - 1)) }')
     echo "$(basename "$table"): $n discs, packing $packing" >&2
-    "$carrom" accuracy "$here/docs/accuracy/gas.toml" --set box.size="$box" --set discs.count="$n" \
-        --set discs.speed="$speed" \
+    "$carrom" accuracy "$here/docs/data/accuracy/gas.toml" --set box.size="$box" \
+        --set discs.count="$n" --set discs.speed="$speed" \
         --share "$share" --output "$table.unfinished" "$@"
     mv "$table.unfinished" "$table"
 }
@@ -93,9 +93,6 @@ study distances 256 0.5 4.10 --distances --arithmetic stable --starts 4 --collis
 for kind in error large long dilute arithmetic size thin distances; do
     awk 'FNR == 1 && NR > 1 { next } { print }' "$folder/$kind"-*.csv >"$folder/$kind.csv"
 done
-# Half of a table of distances repeats its scene and its machine, which the other tables have.
-cut -d, -f4,5,7,9-17 "$folder/distances.csv" >"$folder/distances.short"
-mv "$folder/distances.short" "$folder/distances.csv"
 "${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" \
     "$folder"/{error,large,long,dilute,arithmetic,size,thin}.csv \
     --output "$folder" ${PAGE:+--page "$PAGE"}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws 128^2 discs in the liquid and in the solid, side by side: docs/validation/melting_phases.png.
+"""Draws 128^2 discs in the liquid and in the solid, side by side: docs/data/validation/melting_phases.png.
 
   docs/tools/melting_phases.py CARROM PICTURE     some 2 core-minutes; needs the package of src/python
 

@@ -77,7 +77,7 @@ def draw_melting(axes, table):
 
 def draw_dense(axes, table):
     """Ratios to Enskog's near freezing, and those of the table of less dense gases."""
-    thin = read(pathlib.Path(__file__).parents[1] / "validation" / "transport.csv")
+    thin = read(pathlib.Path(__file__).parents[1] / "data" / "validation" / "transport.csv")
     for name, colour, marker in (("shear", "#0060b0", "o"), ("bulk", "#703090", "D"), ("conductivity", "#208040", "^"), ("diffusion", "#c05000", "s")):
         axes.errorbar(table["packing"], table[name], table[f"{name}_error"], label=name, color=colour, marker=marker, linewidth=0.8, capsize=3)
         if name in thin:

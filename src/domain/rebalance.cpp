@@ -51,11 +51,12 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
 void StripDiscs::rebalance(double time, double above, const RankWork& work) {
     constexpr double units_of_disc = 0x1p20; // of a mean one
     if (communicator_.size() == 1) return;
-    JointReduction all;
-    all.largest = static_cast<double>(work.all());
-    all.sums[0] = work.all();
+    struct Work {
+        std::uint64_t of_all = 0;
+    };
+    JointReduction<Work> all{{work.all()}, static_cast<double>(work.all())};
     reduce(all, communicator_);
-    const auto sum = static_cast<double>(all.sums[0]);
+    const auto sum = static_cast<double>(all.counts.of_all);
     if (all.largest * communicator_.size() <= above * sum || sum == 0) return;
     const double unit = sum / (static_cast<double>(n_total_) * units_of_disc);
     domains_ = domains_of_equal_weights(

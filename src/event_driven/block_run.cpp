@@ -283,13 +283,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
         note(event.q, event.p, event);
     }
     if (is_wall(event.q) && is_own[event.p] != 0)
-        before.add_to(stress_terms, outcome->stress, dynamics, p, event.time, ground.flown_before);
+        before.add_to(stress_terms, outcome->stress, dynamics, p, event.time,
+                      ground.sums.flown_before);
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
         outcome->losses.add(loss, dynamics.slowing_at(event.time));
         const bool is_pushed = !Dynamics::may_lose_discs || !p.has_departed();
-        if (ground.is_logged)
+        if (ground.notes.log)
             log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
     }
 }
@@ -312,11 +313,12 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
     if (is_own[event.p] != 0) {
         outcome->n_simultaneous += is_simultaneous;
         const Separation to = dynamics.separation(p, q);
-        [[maybe_unused]] const double impulse = stress.add_to(
-            stress_terms, outcome->stress, dynamics, p, q, to, event.time, ground.flown_before);
+        [[maybe_unused]] const double impulse = stress.add_to(stress_terms, outcome->stress,
+                                                              dynamics, p, q, to, event.time,
+                                                              ground.sums.flown_before);
         if constexpr (Dynamics::has_moving_images)
             outcome->work += impulse * periods().between(p, q, event.time).vx;
-        if (ground.notes_pairs) note_pair(event, stress, to);
+        if (ground.notes.pairs) note_pair(event, stress, to);
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
     return loss;

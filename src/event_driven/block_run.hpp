@@ -3,10 +3,30 @@
 // carries out every collision of the block's own discs and of the discs in its halo, in the total
 // order of the event-driven method (docs/understanding/method.md, sections 3.3 and 8).
 //
-// A run does not know what happens beyond its halo, so its result may be wrong. Therefore it also
-// reports the event histories of the ring, which are the discs within one reach of its own cells.
-// The result is right if own discs have collided with no disc from beyond the ring, and if the
-// owners of those discs of it that can have met an own disc have found the same histories.
+//   cells of a rank          the run of block B, whose halo is two reaches deep
+//   +-----+-----+-----+      +-----------------------------+
+//   |     |     |     |      |   .      halo        .      |   . is run, and then forgotten
+//   |  A  |  B  |  C  |      |      +---------------+  .   |
+//   |     |     |     |      | .    | r   ring    r |      |   r is run; its history goes to
+//   +-----+-----+-----+      |      |   +-------+   |      |     BlockOutcome::ring
+//   |     |     |     |      |   .  | r | o   o | r |  .   |
+//   |  D  |  E  |  F  |      |      |   |   o   |   |      |   o is an own disc: its new state
+//   |     |     |     |      |      |   +-------+   |      |     is kept, its history goes to
+//   +-----+-----+-----+      |  .   | r       r     |  .   |     `histories`, where all blocks look
+//                            |      +---------------+      |
+//                            |       .        .       .    |
+//                            +-----------------------------+
+//
+// A run does not know what happens beyond its halo, so its result may be wrong. Therefore histories
+// are compared. Disc 7 is an own disc of A and lies in the ring of B:
+//
+//   run of A: history h of disc 7 ---+
+//                                    +--- h = h': B was right about disc 7
+//   run of B: history h' of disc 7 --+--- h != h': if disc 7 can have met an own disc of B, A and B
+//                                         run again with twice the halo (rollback)
+//
+// The result of a run is right if that holds for all discs of its ring, and if its own discs have
+// collided with no disc from beyond the ring.
 //
 // The run works on copies in the order of cells, 64 bytes and four floats a disc, so that they stay
 // in the L2 cache. Most pairs are rejected in single precision, many at a time. The predicate in
@@ -49,28 +69,38 @@ struct BlockWindow {
 /// `n_reach` cells must cover it.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
+/// The unit of sums, and what flights before the last sync have added to them.
+struct BlockSums {
+    StressSums no_stress{0x1p900}; ///< sums of zero in the engine's unit
+    LossSums no_losses{0x1p900};   ///< sums of zero in the engine's unit
+    double flown_before = 0; ///< time over which the stress of flights was summed, at the last sync
+};
+
+/// What is to be noted of the collisions of own discs.
+struct BlockNotes {
+    bool log = false;           ///< collisions with walls go to BlockOutcome::log
+    bool pairs_in_log = true;   ///< and so do those of pairs
+    bool pairs = false;         ///< collisions of pairs go to BlockOutcome::pairs
+    std::int64_t last_sync = 0; ///< a micro-step, for BlockOutcome::pairs
+    double velocity_unit = 1;   ///< unit of the velocities in BlockOutcome::pairs
+};
+
 /// The data that all blocks of a rank share.
 struct BlockGround {
     std::span<const DiscState> discs; ///< the rank's own discs, then the halo
     std::size_t n_own = 0;
-    const CellGrid* grid = nullptr; ///< holds the discs at the window's start
+    const SideColumns* columns = nullptr; ///< rows in the order of `discs`
+    const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
     CellBlock own_cells; ///< an own disc that rounding puts outside belongs to the nearest cell
     BlockWindow window;
-    bool is_logged = false;
-    const SideColumns* columns = nullptr; ///< rows in the order of `discs`
-    StressSums no_stress{0x1p900};        ///< sums of zero in the engine's unit
-    LossSums no_losses{0x1p900};          ///< sums of zero in the engine's unit
-    double flown_before = 0; ///< time over which the stress of flights was summed, at the last sync
-    BoxCells box_cells{};    ///< for runs of the whole box
     /// There is only one run, of the whole box. Then histories are not compared, and the grid is
     /// not built.
     bool is_alone = false;
-    bool notes_pairs = false;            ///< collisions of pairs go to BlockOutcome::pairs
-    std::int64_t last_sync = 0;          ///< a micro-step, for these
-    bool logs_walls_alone = false;       ///< the log leaves out pairs
-    double velocity_unit = 1;            ///< unit of the velocities in these
-    std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
+    BoxCells box_cells{};                ///< for runs of the whole box
     Extent extent{};                     ///< the box, for runs of the whole box
+    std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
+    BlockSums sums{};
+    BlockNotes notes{};
 };
 
 /// The event history of a disc of a block's ring. It is 0 if the disc had no event. Otherwise it is

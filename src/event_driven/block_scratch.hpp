@@ -300,7 +300,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
             return note_pair_in_more_room(event, before, to);
         const DiscState &p = discs[event.p], &q = discs[event.q];
         note_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
-                ground.velocity_unit, ground.last_sync);
+                ground.notes.velocity_unit, ground.notes.last_sync);
     }
 
     [[gnu::noinline]] void note_pair_in_more_room(const Event& event,
@@ -312,7 +312,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {
         const bool at_wall = is_wall(event.q);
-        if (ground.logs_walls_alone && !at_wall) return;
+        if (!ground.notes.pairs_in_log && !at_wall) return;
         outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id,
                                 at_wall ? event.q - x_wall : discs[event.q].id,
                                 std::sqrt(wx * wx + wy * wy), wx, wy, discs[event.p].vx,

@@ -22,8 +22,8 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->pairs.clear();
     outcome->n_events = outcome->n_carried = outcome->n_seen = outcome->n_simultaneous = 0;
     outcome->work = 0;
-    outcome->stress = ground.no_stress;
-    outcome->losses = ground.no_losses;
+    outcome->stress = ground.sums.no_stress;
+    outcome->losses = ground.sums.no_losses;
     outcome->is_cascade = false;
     outcome->far_partner = 0;
 }

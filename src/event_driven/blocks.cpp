@@ -171,7 +171,7 @@ std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) 
     needs.frame = {0, geometry.n_columns, 0, geometry.n_rows};
     const double n_blocks = std::ceil(0.99 * n_own / (choice_.own_discs * tuning_.threads));
     needs.n_blocks = static_cast<std::size_t>(std::max(1.0, n_blocks) * tuning_.threads);
-    const double events = collision_rate_ * window_.duration() * n_own;
+    const double events = policy_.collision_rate() * window_.duration() * n_own;
     const double unit = most_units / (work_of_disc * n_own + events + 1);
     const CellWork work{static_cast<std::uint32_t>(unit * work_of_disc),
                         static_cast<std::uint32_t>(unit * events / std::max(n_pairs, 1.0))};

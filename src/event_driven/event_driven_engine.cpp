@@ -25,12 +25,16 @@ namespace {
 /// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
 /// as fast from a thin gas to the densest liquid.
 constexpr double jam_heating = 64;
-/// Share of a window's collision rate that is taken for the least of the next one. After random
-/// insertion discs meet half as often at first as a little later, and windows by that rate would be
-/// too long.
-constexpr double rate_kept = 0.9;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
+
+/// **Collective.**
+WindowSetting window_setting(const Tuning& tuning, const BlockTuning& blocks,
+                             const Communicator& communicator) {
+    const auto threads = static_cast<double>(communicator.max(std::int64_t{tuning.threads}));
+    return {tuning.window, blocks.halo, blocks.speed_allowance,
+            threads > 1 ? threads * communicator.size() : 0};
+}
 
 } // namespace
 
@@ -40,6 +44,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
                                                const Tuning& tuning,
                                                const BlockTuning& block_tuning)
     : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
+      policy_(window_setting(tuning_, block_tuning, communicator_)),
       levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
                                  static_cast<double>(scene.n_discs), scene.box.area(),
                                  block_tuning.parts_sizes)),
@@ -51,8 +56,6 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     if (tuning_.ends_jams) jam_watch_.start(time_, static_cast<double>(this->last_sync()));
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
-    const auto threads = static_cast<double>(communicator_.max(std::int64_t{tuning_.threads}));
-    if (threads > 1) n_threads_of_all_ = threads * communicator_.size();
     this->distribute();
     learn_crowding();
     if (mean_crowding_ > 1) this->redistribute_now(); // the cells of before hold too many discs
@@ -89,10 +92,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
         if (verdict == Verdict::repeat) note_rollback();
     }
-    if (reduced_.sums[3] >= jam_unit)
+    if (reduced_.counts.ranks_jammed > 0)
         refuse_jam(
             fmt::format("since the last sync speeds have become {} times as large", jam_heating));
-    if (jam_watch_.add(reduced_.sums[4]))
+    if (jam_watch_.add(reduced_.counts.events))
         refuse_jam(jam_watch_.reason(static_cast<double>(this->micro_steps_)));
     commit();
     travel_speed_ = window_.speed_bound;
@@ -119,18 +122,15 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     window.holds_begin = time_ == 0;
     window.speed_bound = speed_bound_until(target);
     this->refuse_long_flights(window.speed_bound);
+    is_alone_ = can_run_alone();
+    if (n_windows_ > 0) take_crowding(reduced_.counts.crowding);
     const BlockNeeds needs = block_needs(window.speed_bound);
-    const double left = target - time_;
-    double longest = left;
+    double longest = target - time_;
     if constexpr (Dynamics::is_periodic)
         longest = std::min(longest, longest_in_period(discs_.periods(), window.speed_bound));
-    if (!tuning_.window) longest = std::min(longest, caution_.most_hits() / needs.collision_rate);
-    choice_ = choose_block_window(needs, longest, tuning_.window);
-    // Equal windows up to the target; the last one ends there exactly.
-    const double n_windows = std::ceil(left / choice_.duration * (1 - 1e-9));
-    window.end = n_windows > 1 ? time_ + left / n_windows : target;
-    if (!(window.end > time_) || window.end > target)
-        window.end = std::nextafter(time_, 2 * target);
+    const PlannedWindow planned = policy_.plan(needs, collision_rate(needs), longest, target);
+    choice_ = planned.choice;
+    window.end = planned.end;
     return window;
 }
 
@@ -140,14 +140,12 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() c
     return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
 }
 
-/// The largest speed goes up and down, so the last window's bound is kept for a while. Speeds in
-/// the falling frame grow, also those of discs at rest on a floor.
+/// Speeds in the falling frame grow, also those of discs at rest on a floor. **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
-    const double now = largest_of_all() * block_tuning_.speed_allowance;
-    const double soon = std::min(time_ + 2 * last_duration_, target);
-    return std::max(now, 0.99 * travel_speed_) +
-           (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
+    const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -
+                          dynamics_.speed_gained_at(time_);
+    return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
 }
 
 /// Of growing discs. The interval's first speed is 0 otherwise. **Collective.**
@@ -180,56 +178,50 @@ void EventDrivenEngine<Dynamics>::refuse_jam(const std::string& reason) const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// The numbers for the choice of the next window, some of them learned from the last one.
-template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
+/// Whether one run of the whole box serves.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
     const auto n = static_cast<double>(discs_.n_total());
     const bool is_few = tuning_.threads == 1 ||
                         n < 2 * static_cast<double>(tuning_.discs_per_thread);
-    is_alone_ = communicator_.size() == 1 && is_few && n <= most_discs_alone &&
-                !block_tuning_.halo && !block_tuning_.block_side && !block_tuning_.cuts_by_work;
+    return communicator_.size() == 1 && is_few && n <= most_discs_alone && !block_tuning_.halo &&
+           !block_tuning_.block_side && !block_tuning_.cuts_by_work;
+}
+
+/// The numbers for the choice of the next window that are not learned from windows.
+template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
     needs.equivalent_radius = equivalent_radius(levels_) * dynamics_.growth_at(time_) +
                               dynamics_.slack();
-    needs.n_discs = n;
+    needs.n_discs = static_cast<double>(discs_.n_total());
     needs.speed_bound = speed_bound;
     needs.time = time_;
-    needs.halo = block_tuning_.halo;
     needs.is_one_block = is_alone_;
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
-    if (n_windows_ > 0) take_crowding(reduced_.sums[5]);
     needs.crowding = is_alone_ ? 1 : mean_crowding_; // a run of the whole box measures none
-    if (n_windows_ > 0)
-        collision_rate_ = static_cast<double>(reduced_.sums[4]) /
-                          (std::max(n, 1.0) * last_duration_);
-    else if (const double largest = communicator_.max(largest_speed_); largest > 0)
-        collision_rate_ = guessed_collision_rate(
-            needs, survey_speeds(discs_.own(), largest, communicator_, tuning_.threads).mean());
-    rate_to_expect_ = std::max(collision_rate_, rate_kept * rate_to_expect_);
-    needs.collision_rate = rate_to_expect_;
-    needs.n_threads = n_threads_of_all_;
-    needs.rounds = rounds_lately_;
-    caution_.learn({collision_rate_ * last_duration_, repeated_, waited_, price_of_reach_});
-    needs.more_halo = caution_.more_halo();
-    rounds_lately_ += 0.1 * (n_rounds_ - rounds_lately_);
-    repeated_ = waited_ = n_rounds_ = 0;
     return needs;
 }
 
-/// Makes the window shorter for a higher speed, so that the reach stays the same. If all discs were
-/// at rest until a wall came, the window becomes as long as a flight over a diameter.
+/// Collisions per disc and time in the last window, or a guess for the first one. **Collective.**
+template <class Dynamics>
+double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
+    if (n_windows_ > 0)
+        return static_cast<double>(reduced_.counts.events) /
+               (std::max(needs.n_discs, 1.0) * policy_.last_duration());
+    const double largest = communicator_.max(largest_speed_);
+    if (!(largest > 0)) return 0;
+    return guessed_collision_rate(
+        needs, survey_speeds(discs_.own(), largest, communicator_, tuning_.threads).mean());
+}
+
+/// Makes the window shorter, because a disc was faster than the bound. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
-    const double bound = communicator_.max(fastest) * block_tuning_.speed_allowance;
-    const double share = window_.speed_bound / bound;
-    const double duration = share > 0x1p-200
-                                ? window_.duration() * share
-                                : std::min(window_.duration(), dynamics_.diameter() / bound);
-    window_.end = std::max(window_.begin + duration, std::nextafter(window_.begin, window_.end));
-    window_.speed_bound = bound;
+    window_ = shortened(window_, communicator_.max(fastest) * policy_.speed_allowance(),
+                        dynamics_.diameter());
 }
 
 /// Fetches the halo of every strip, sorts all discs into cells, and cuts the own cells into blocks
@@ -268,26 +260,30 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     make_blocks();
 }
 
+template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blocks() {
+    return {.discs = discs_.all(),
+            .n_own = discs_.n_own(),
+            .columns = &discs_.columns(),
+            .grid = &discs_.grid(),
+            .own_cells = own_cells_,
+            .window = window_,
+            .is_alone = is_alone_,
+            .box_cells = box_cells_,
+            .extent = extent(),
+            .levels = levels_,
+            .sums = {.no_stress = this->no_stress_,
+                     .no_losses = this->no_losses_,
+                     .flown_before = this->flown_before_},
+            .notes = {.log = this->log_ != nullptr || this->wall_followers_.are_any(),
+                      .pairs_in_log = this->log_ != nullptr,
+                      .pairs = this->pair_followers_.are_any(),
+                      .last_sync = this->last_sync(),
+                      .velocity_unit = static_cast<double>(this->micro_steps_)}};
+}
+
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(),
-                             discs_.n_own(),
-                             &discs_.grid(),
-                             own_cells_,
-                             window_,
-                             this->log_ != nullptr || this->wall_followers_.are_any(),
-                             &discs_.columns(),
-                             this->no_stress_,
-                             this->no_losses_,
-                             this->flown_before_,
-                             box_cells_,
-                             is_alone_,
-                             this->pair_followers_.are_any(),
-                             this->last_sync(),
-                             this->log_ == nullptr,
-                             static_cast<double>(this->micro_steps_),
-                             levels_,
-                             extent()};
+    const BlockGround ground = ground_of_blocks();
     std::vector<std::size_t> marked;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
         if (blocks_[k].is_marked != 0) marked.push_back(k);
@@ -352,7 +348,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
         if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
     }
     for (Block& block : blocks_) block.has_run = false;
-    last_duration_ = window_.duration();
+    policy_.note_end(window_.duration());
     is_largest_known_ = true;
 }
 

@@ -26,8 +26,8 @@
 #include "engine/engine_base.hpp"
 #include "event_driven/block_cuts.hpp"
 #include "event_driven/block_run.hpp"
-#include "event_driven/block_window.hpp"
 #include "event_driven/jam_watch.hpp"
+#include "event_driven/window_policy.hpp"
 #include "parallel/joint_reduction.hpp"
 
 namespace carrom {
@@ -92,6 +92,16 @@ private:
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };
+    /// What validation finds in a window, over all ranks.
+    struct FoundInWindow {
+        std::uint64_t ranks_too_fast = 0; ///< with a disc that was faster than the bound
+        std::uint64_t marked_blocks = 0;  ///< which have to run again
+        std::uint64_t cascades = 0;       ///< blocks that were given up in one
+        std::uint64_t ranks_to_stop = 0;  ///< that have been asked to
+        std::uint64_t ranks_jammed = 0;   ///< whose growing discs have become too fast
+        std::uint64_t events = 0;
+        std::uint64_t crowding = 0; ///< in units of 1 / `crowding_unit`
+    };
 
     void advance_to(std::int64_t target) override;
     void migrate() override;
@@ -101,6 +111,8 @@ private:
     void run_window(double target);
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
+    double collision_rate(const BlockNeeds& needs) const;
+    bool can_run_alone() const;
     double speed_bound_until(double target) const;
     double largest_of_all() const;
     void note_first_speed();
@@ -115,6 +127,7 @@ private:
     void learn_crowding();
     double measure_crowding(const CellBlock& cells);
     void take_crowding(std::uint64_t of_all);
+    BlockGround ground_of_blocks();
     void run_blocks();
     void commit();
     void log_events(const BlockOutcome& outcome);
@@ -146,34 +159,19 @@ private:
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
     double jumped_ = 0; ///< the frame's motion since the last migration, in directions of cuts
-    double collision_rate_ = 0; ///< per disc and time in the last window, on all ranks
-    double rate_to_expect_ = 0; ///< the same, which goes down slowly, for the choice of windows
-    double last_duration_ = 1;  ///< duration of the last window
-    double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
-                          ///< its blocks; equal on all ranks
-    double waited_ = 0; ///< how long others waited for the rank that repeats most, in times of its
-                        ///< first runs
-    double n_rounds_ = 0;         ///< of repeated runs in the last window
-    double price_of_reach_ = 0.1; ///< what one more reach of halo cost in the last window that had
-                                  ///< a rollback, of the time of its first runs
-    double rounds_lately_ = 0.05; ///< mean of `n_rounds_` in which older windows count less
+    WindowPolicy policy_;
     double first_packing_ = 0;
     JamWatch jam_watch_;     ///< of growing discs
     double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
     /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
     /// over own discs. Even gases have less than 1 for each, because discs keep others away.
     double crowding_ = 0;
-    double mean_crowding_ = 1;    ///< over all discs, or 1 if it is near 1; equal on all ranks
-    double n_threads_of_all_ = 0; ///< threads of all ranks, or 0 if each has one
-    /// What validation has reduced for the window: how many ranks found a disc too fast, blocks to
-    /// run again, cascades, requests to stop and ranks with jammed discs, events, crowding; and the
-    /// largest speed at its end.
-    JointReduction reduced_;
-    static constexpr std::uint64_t jam_unit = std::uint64_t{1} << 32; ///< of a rank with a jam
+    double mean_crowding_ = 1; ///< over all discs, or 1 if it is near 1; equal on all ranks
+    /// What validation has found in the last window, and the largest speed at its end.
+    JointReduction<FoundInWindow> reduced_;
     static constexpr double crowding_unit = 1024; ///< sums of whole numbers have no order
     bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
-    Caution caution_;
-    RollbackCounts counts_; ///< its counts of blocks are of this rank alone
+    RollbackCounts counts_;         ///< its counts of blocks are of this rank alone
 
     BlockChoice choice_;
     BlockWindow window_;

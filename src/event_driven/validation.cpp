@@ -19,41 +19,34 @@ template <class Dynamics>
 typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
     const PhaseClock::Scope scope(phases_, Phase::resolve);
     check_partners();
-    double fastest = 0;
-    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
-    const bool is_too_fast = fastest > 0;
     std::vector<LocalIndex> foreign;
     if (!is_alone_) {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.show(histories_);
     }
     compare_histories(foreign);
-    std::uint64_t n_marked = foreign.size(), n_cascades = 0;
-    for (const Block& block : blocks_) {
-        n_marked += block.is_marked;
-        n_cascades += block.outcome.is_cascade;
-    }
     reduced_ = {};
-    std::uint64_t n_events = 0;
+    FoundInWindow& found = reduced_.counts;
     for (const Block& block : blocks_) {
-        n_events += block.outcome.n_events;
+        found.marked_blocks += block.is_marked;
+        found.cascades += block.outcome.is_cascade;
+        found.events += block.outcome.n_events;
         reduced_.largest = std::max(reduced_.largest, block.outcome.largest_speed_at_end);
+        if (block.outcome.too_fast > 0) found.ranks_too_fast = 1;
     }
-    reduced_.sums = {is_too_fast ? 1u : 0u,
-                     n_marked,
-                     n_cascades,
-                     (is_stop_overdue() ? 1u : 0u) + (are_jammed() ? jam_unit : 0u),
-                     n_events,
-                     static_cast<std::uint64_t>(crowding_unit * crowding_)};
+    found.marked_blocks += foreign.size();
+    found.ranks_to_stop = is_stop_overdue() ? 1 : 0;
+    found.ranks_jammed = are_jammed() ? 1 : 0;
+    found.crowding = static_cast<std::uint64_t>(crowding_unit * crowding_);
     if (communicator_.size() > 1) {
         const PhaseClock::Scope wait(phases_, Phase::wait);
         reduce(reduced_, communicator_);
     }
-    const auto& sums = reduced_.sums;
-    if (sums[3] % jam_unit > 0) throw StopRequested("stopped on request inside a step");
-    if (sums[0] > 0) return Verdict::too_fast;
-    if (sums[2] > 0) fail_on_cascade();
-    if (!block_tuning_.is_validated || sums[1] + sums[2] == 0) return Verdict::exact;
+    if (found.ranks_to_stop > 0) throw StopRequested("stopped on request inside a step");
+    if (found.ranks_too_fast > 0) return Verdict::too_fast;
+    if (found.cascades > 0) fail_on_cascade();
+    if (!block_tuning_.is_validated || found.marked_blocks + found.cascades == 0)
+        return Verdict::exact;
     const PhaseClock::Scope exchange(phases_, Phase::exchange);
     std::vector<LocalIndex> reported;
     discs_.report_to_owners(foreign, reported);
@@ -173,12 +166,13 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
     const auto n_threads = static_cast<std::uint64_t>(tuning_.threads);
     const std::uint64_t in_turn = (n_marked + n_threads - 1) / n_threads * n_threads;
     const double longest = communicator_.max(deeper * share_of(in_turn, blocks_.size()));
-    if (communicator_.size() > 1 || n_threads > 1) waited_ += longest;
-    price_of_reach_ = communicator_.max(price_of_reach());
+    Rollback rollback;
+    if (communicator_.size() > 1 || n_threads > 1) rollback.waited = longest;
+    rollback.price_of_reach = communicator_.max(price_of_reach());
     std::uint64_t n[] = {n_marked, blocks_.size()};
     communicator_.sum(n);
-    repeated_ += share_of(n[0], n[1]);
-    n_rounds_ += 1;
+    rollback.repeated = share_of(n[0], n[1]);
+    policy_.note(rollback);
 }
 
 /// How many more discs the blocks of this rank would see with a halo one reach deeper, as a share.
@@ -201,7 +195,10 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() c
 /// again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
-    JointReduction wanted;
+    struct Counts {
+        std::uint64_t blocks = 0, ranks_that_go_deeper = 0;
+    };
+    JointReduction<Counts> wanted;
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
         if (block.saw_all) {
@@ -209,7 +206,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
             continue;
         }
         if (!sees_all(block)) block.halo *= 2;
-        ++wanted.sums[0];
+        ++wanted.counts.blocks;
         deepest = std::max(deepest, halo_depth_for(block));
     }
     if (discs_.periods().are_any()) { // a halo that goes once around the box has all discs
@@ -217,11 +214,11 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
         deepest = std::max(halo_depth_, std::min(deepest, around));
     }
     const bool wants = deepest > halo_depth_;
-    wanted.sums[1] = wants ? 1 : 0;
+    wanted.counts.ranks_that_go_deeper = wants ? 1 : 0;
     wanted.largest = deepest;
     if (communicator_.size() > 1) reduce(wanted, communicator_);
-    ensure(wanted.sums[0] > 0, "blocks that have seen the whole box disagree");
-    if (discs_.has_no_halo() || wanted.sums[1] == 0) return false;
+    ensure(wanted.counts.blocks > 0, "blocks that have seen the whole box disagree");
+    if (discs_.has_no_halo() || wanted.counts.ranks_that_go_deeper == 0) return false;
     if (wanted.largest > laid_depth()) {
         common_depth_ = static_cast<int>(wanted.largest);
         return true;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "engine/state_sums.hpp"
-#include "measure/older_sums.hpp"
 #include "scene/effects/effect.hpp"
 
 namespace carrom {
@@ -63,8 +62,7 @@ void Sampler::go_on(const StoredSamples& stored) {
 void Sampler::go_on_measuring(const StoredSamples& stored) {
     const std::int64_t step = run_.system.step();
     if (stored.sums.empty() || step <= run_.output.from_step) return;
-    const std::vector<std::int64_t> words = in_present_form(stored.sums, step);
-    KeptNumbers kept(words);
+    KeptNumbers kept(stored.sums);
     keep_settings(kept);
     StoredSamples asked; // its flags say which numbers of each disc are kept
     if (kept.is_right()) keep_counts(kept);

@@ -5,17 +5,43 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "parallel/communicator.hpp"
 
 namespace carrom {
 
-struct JointReduction {
-    std::array<std::uint64_t, 6> sums{}; ///< wrap
-    double largest = 0;                  ///< not NaN; -0 may become +0
+/// `Counts` is a struct whose members are all std::uint64_t, so that each number has a name.
+template <class Counts> struct JointReduction {
+    Counts counts{};    ///< wrap when they are added
+    double largest = 0; ///< not NaN; -0 may become +0
 };
 
-/// Replaces the sums and the largest value by those over all ranks. **Collective.**
-void reduce(JointReduction& values, const Communicator& communicator);
+/// What a message holds; counts that a reduction does not have are 0.
+struct JointWords {
+    std::array<std::uint64_t, 8> counts{};
+    double largest = 0;
+};
+
+/// **Collective.**
+void reduce(JointWords& words, const Communicator& communicator);
+
+/// Replaces the counts by their sums, and the largest value, by those over all ranks.
+/// **Collective.**
+template <class Counts>
+void reduce(JointReduction<Counts>& values, const Communicator& communicator) {
+    static_assert(std::is_trivially_copyable_v<Counts> &&
+                      std::has_unique_object_representations_v<Counts> &&
+                      sizeof(Counts) % sizeof(std::uint64_t) == 0,
+                  "all counts are std::uint64_t");
+    static_assert(sizeof(Counts) <= sizeof(JointWords::counts), "as many as a message holds");
+    JointWords words;
+    std::memcpy(words.counts.data(), &values.counts, sizeof values.counts);
+    words.largest = values.largest;
+    reduce(words, communicator);
+    std::memcpy(&values.counts, words.counts.data(), sizeof values.counts);
+    values.largest = words.largest;
+}
 
 } // namespace carrom

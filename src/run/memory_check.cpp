@@ -10,7 +10,7 @@ namespace carrom {
 
 void check_memory(const SceneParameters& scene, const Communicator& ranks,
                   double bytes_for_crowds) {
-    // Measured on one to three ranks by tests/performance/memory.py. Ranks that share a box keep
+    // Measured on one to three ranks by tests/studies/memory.py. Ranks that share a box keep
     // halos and send discs to each other.
     const bool are_many = ranks.size() > 1;
     const double bytes_per_disc = scene.method == Method::event_driven ? (are_many ? 110 : 106)

@@ -232,7 +232,11 @@ void block_run(benchmark::State& state) {
     BlockRun<PlainDynamics> block_run(dynamics);
     BlockOutcome outcome;
     const CellBlock all_cells{0, geometry.n_columns, 0, geometry.n_rows};
-    const BlockGround ground{gas.discs, gas.discs.size(), &grid, all_cells, window, false};
+    const BlockGround ground{.discs = gas.discs,
+                             .n_own = gas.discs.size(),
+                             .grid = &grid,
+                             .own_cells = all_cells,
+                             .window = window};
     for (auto _ : state) {
         block_run.run(ground, all_cells, 0, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make the tables of docs/validation anew, from what the long studies print.
+"""Make the tables of docs/data/validation anew, from what the long studies print.
 
-  tests/physics/tables.py [--build build] [--folder docs/validation] [--only bulk ...]
+  tests/physics/tables.py [--build build] [--folder docs/data/validation] [--only bulk ...]
 
 Runs tests of BUILD/tests/physics_mpi_test, each on one rank with one thread, one after the other:
 a quarter of an hour in all. A test that fails ends the script and leaves its table as it was.
@@ -78,7 +78,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
-    parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("docs/validation"))
+    parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("docs/data/validation"))
     parser.add_argument("--only", nargs="+", choices=TABLES, default=list(TABLES))
     options = parser.parse_args()
     program = str((options.build / "tests/physics_mpi_test").resolve())

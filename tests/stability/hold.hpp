@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worst values against their bounds. The command tests/stability/table.sh makes docs/hard_cases
-// of them.
+// Worst values against their bounds, of which tests/stability/table.sh makes the tables in
+// docs/data/hard_cases.
 #pragma once
 
 #include "catch.hpp"

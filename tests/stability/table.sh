@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the tables of docs/hard_cases anew: every case, its bound, and the worst value measured.
+# Makes the tables of docs/data/hard_cases anew: every case, its bound, and the worst value that was
+# measured.
 #
 #   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
@@ -10,7 +11,7 @@
 # Without --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-tables=$source_folder/docs/hard_cases
+tables=$source_folder/docs/data/hard_cases
 build=$source_folder/build
 is_long=no family=
 for word; do

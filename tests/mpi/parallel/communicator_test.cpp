@@ -17,14 +17,20 @@ TEST_CASE("sums and a largest value are reduced together") {
     const Communicator world = Communicator::world();
     const auto n = static_cast<std::uint64_t>(world.size()),
                rank = static_cast<std::uint64_t>(world.rank());
-    carrom::JointReduction values;
-    values.sums = {1, rank, 0, std::uint64_t{1} << 60, 5, rank * rank};
+    struct Counts {
+        std::uint64_t ranks, numbers, nothing, large, squares;
+    };
+    carrom::JointReduction<Counts> values;
+    values.counts = {1, rank, 0, std::uint64_t{1} << 60, rank * rank};
     values.largest = world.rank() == world.size() / 2 ? 2.5 : 0.5;
     const std::uint64_t n_before = world.traffic().collectives;
     reduce(values, world);
     CHECK(world.traffic().collectives == n_before + 1);
-    CHECK(values.sums == std::array<std::uint64_t, 6>{n, n * (n - 1) / 2, 0, n << 60, 5 * n,
-                                                      (n - 1) * n * (2 * n - 1) / 6});
+    CHECK(values.counts.ranks == n);
+    CHECK(values.counts.numbers == n * (n - 1) / 2);
+    CHECK(values.counts.nothing == 0);
+    CHECK(values.counts.large == n << 60);
+    CHECK(values.counts.squares == (n - 1) * n * (2 * n - 1) / 6);
     CHECK(values.largest == 2.5);
 }
 

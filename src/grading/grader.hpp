@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares a student's lines with the rule, step by step, on one rank.
+//
+// Before roundings can decide anything, lines are compared with the program's own run. Each
+// disc may be off by the tolerance and by the growth of roundings. Afterwards two right
+// programs have different discs, so each step is compared with the rule applied to the
+// student's own step before. Takes N lines of memory, and a plain step for each line later on.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/lines.hpp"
+#include "grading/mistakes.hpp"
+#include "grading/points.hpp"
+#include "grading/runs.hpp"
+#include "scene/scene_parameters.hpp"
+
+namespace carrom {
+
+class Grader {
+public:
+    /// `scene` and `stream` must outlive this. With `counts_points` grading goes on behind a wrong
+    /// step, from the student's own lines.
+    Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
+           const std::string& name, bool counts_points);
+
+    /// Once this is true the program's runs are not needed any more.
+    bool has_left_runs() const { return has_left_runs_; }
+    /// Measures the growth of roundings at a step, whether it is written or not.
+    void note_growth(std::int64_t step, const ExpectedDiscs& expected);
+    /// Reads the lines of that step and compares them with the rule; false if grading ends with
+    /// it. `expected` is empty once roundings decide.
+    bool grade(std::int64_t step, const ExpectedDiscs& expected);
+    /// Checks that no lines follow the last step.
+    void grade_end();
+    /// Whether no line has differed so far.
+    bool is_right() const { return verdict_.empty(); }
+    const Points& points() const { return points_; }
+    /// Whether all written steps so far were compared with the rule.
+    bool has_graded_all() const { return n_not_graded_ == 0; }
+
+    /// Says which line differs, or in which sense the output is the same.
+    std::string verdict() const;
+
+private:
+    /// The reference for a step.
+    struct Aim {
+        std::vector<DiscState> discs;
+        double clock = 0;
+        std::vector<double> allowed;                ///< by id; infinite if roundings decide
+        std::vector<std::vector<DiscState>> others; ///< results of other roundings
+    };
+
+    bool read(std::int64_t step);
+    bool can_grade(std::int64_t step) const;
+    bool hold(const Aim& aim, std::int64_t step);
+    bool are_possible(std::int64_t step);
+    std::string misplaced(const StudentLine& line, std::int64_t step, DiscId id) const;
+    double tolerance_of(const StudentLine& line) const;
+    Aim aim_at(const ExpectedDiscs& expected) const;
+    void move_last_digits(DiscState& disc, std::uint64_t seed) const;
+    Aim aim_from_own_lines() const;
+    SharedState own_state(const Aim& aim, std::int64_t step) const;
+    double difference_to(const std::vector<DiscState>& discs, double clock, DiscId id) const;
+    bool hold_to(const Aim& aim, std::int64_t step);
+    bool hold_counters(const Aim& aim, std::int64_t step);
+    bool hold_excused(const Aim& aim, std::int64_t step);
+    std::vector<GivenDisc> given(const Aim& aim) const;
+    bool blame(const Aim& aim, DiscId id, std::int64_t step);
+    std::string reason(const Aim& aim, DiscId id, std::int64_t step) const;
+    const SharedState& shared_state() const { return has_left_runs_ ? *own_before_ : *before_; }
+    bool is_last(std::int64_t step) const { return step == scene_.steps; }
+
+    const SceneParameters& scene_;
+    RuleSetting setting_;
+    double tolerance_, unit_;
+    StudentOutput output_;
+    std::vector<StudentLine> lines_;        ///< the step's lines, by id
+    std::optional<SharedState> before_;     ///< at the written step before, to go on from
+    std::optional<SharedState> own_before_; ///< that step by the student's lines
+    std::int64_t written_before_ = 0;
+    std::vector<double> digits_before_;     ///< StudentLine::last_digit
+    double finest_ = 0, finest_before_ = 0; ///< the finest last digit of any line of a step
+    std::vector<bool> is_counter_unknown_;
+    bool has_left_runs_ = false;
+    std::int64_t first_left_ = 0, n_steps_ = 0, n_not_graded_ = 0;
+    std::optional<std::int64_t> first_drift_;
+    double largest_ = 0;
+    std::string verdict_; ///< the first line that differs; empty before
+    bool counts_points_;
+    Points points_;
+};
+
+} // namespace carrom

@@ -1,0 +1,400 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Put what has been measured into docs/understanding/performance.md: tables between its markers,
+pictures beside its CSV files.
+
+  tests/studies/page.py [--folder docs/data/performance] [--page docs/understanding/performance.md]
+
+Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), large_cluster.csv
+(cluster_model.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
+measure_all.sh writes all but sizes.csv. Other machines' rates, as rates_xeon.csv, get a table each
+behind the first one's. A part whose file is missing keeps what it says. Words around the markers
+are the page's own. Needs the Python environment of docs/tools/README.md.
+"""
+
+import argparse
+import csv
+import json
+import pathlib
+import re
+import sys
+
+import matplotlib.pyplot as plt
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "tools"))
+import plot_style
+
+STYLES = [
+    (marker, line, colour)
+    for marker, line, colour in zip("os^Dvx", ("-", "--", "-.", ":", "-", "--"), plot_style.COLOURS)
+]
+KERNELS = {
+    "vector_filter": "filter of pairs",
+    "contact_predicate": "contact predicate",
+    "cell_grid_sort": "sorting into cells",
+}
+
+
+def read_csv(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def table(heading, rows):
+    return "\n".join(
+        ["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)]
+        + ["| " + " | ".join(row) + " |" for row in rows]
+    )
+
+
+def short(value, digits=3):
+    return f"{float(value):.{digits}g}" if value not in ("", None) else ""
+
+
+def rate_text(row):
+    value = float(row["rate"])
+    return f"{value / 1e6:.3g}" if value > 0 else ""
+
+
+PEERS = (("LAMMPS", "over_lammps", 3), ("stream", "over_stream", 2))
+WAYS = ("threads", "ranks")  # to use two cores
+
+
+def processor_of(rows):
+    """With its vectors, where they are known, and Carrom's version."""
+    first = rows[0]
+    vectors = re.search(r"vectors (\w+)", first["compiler"])
+    words = [re.sub(r", \d+ cores$", "", first["machine"]), vectors and vectors.group(1)]
+    return ", ".join([*filter(None, words), first["version"]])
+
+
+def by_case(files, cell):
+    """A row for each case, a column for each file. `cell(row)` gives a case's text there."""
+    cases = list(dict.fromkeys(r["case"] for rows in files for r in rows))
+    found = [{r["case"]: cell(r) for r in rows} for rows in files]
+    return table(
+        ["case", *map(processor_of, files)],
+        [[name_of(case), *(texts.get(case, "") for texts in found)] for case in cases],
+    )
+
+
+def is_of_one_core(row):
+    return row["ranks"] == row["threads"] == "1" and "generated" not in row["case"]
+
+
+def name_of(case):
+    return case.replace("all, ", "event-driven, ")
+
+
+def edmd_part(files):
+    beside = [[r for r in rows if r.get("over_edmd")] for rows in files]
+    return by_case(
+        [rows for rows in beside if rows], lambda r: f"{short(r['over_edmd'])} ({rate_text(r)})"
+    )
+
+
+def sizes_part(rows):
+    """Mixtures with their rate, its share of equal discs' and how it stands to EDMD."""
+    rate = {r["case"]: float(r["rate"]) for r in rows}
+
+    def share(row):
+        return rate[row["case"]] / rate[f"sizes 1 and 1, {row['case'].split(', ')[1]}"]
+
+    return table(
+        ["case", "million collisions per second", "share of equal discs' rate", "x EDMD"],
+        [
+            [r["case"], rate_text(r), f"{share(r):.2f}", short(r.get("over_edmd"))]
+            for r in rows
+            if r["case"].startswith("sizes")
+        ],
+    )
+
+
+def two_cores_part(files):
+    def gains(rows):
+        rate = {r["case"]: float(r["rate"]) for r in rows}
+        return [
+            r | {"gain": [rate[f"{r['case']}, 2 {word}"] / rate[r["case"]] for word in WAYS]}
+            for r in rows
+            if all(f"{r['case']}, 2 {word}" in rate for word in WAYS)
+        ]
+
+    found = [gains(rows) for rows in files]
+    return by_case(
+        [rows for rows in found if rows], lambda r: " / ".join(f"{g:.2f}" for g in r["gain"])
+    )
+
+
+def rates_part(rows):
+    first = rows[0]
+    peers = [peer for peer in PEERS if any(row.get(peer[1]) for row in rows)]
+    body = [
+        [
+            name_of(r["case"]),
+            f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
+            r["unit"],
+            *(short(r[column], digits) for _, column, digits in peers),
+        ]
+        for r in rows
+    ]
+    return "\n".join(
+        [
+            (
+                f"{processor_of(rows)}; {first['compiler'].split(', vectors')[0]}. Medians of"
+                f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most."
+            ),
+            "",
+            table(
+                ["case", "million per second", "of"] + [f"x {name}" for name, _, _ in peers], body
+            ),
+        ]
+    )
+
+
+def cluster_part(rows):
+    """Efficiency by case and ranks; cluster.csv has the rest."""
+    ranks = sorted({int(r["ranks"]) for r in rows})
+    cases = {}
+    for r in rows:
+        cases.setdefault(r["case"], {})[int(r["ranks"])] = f"{float(r['efficiency']):.3f}"
+    return table(
+        ["efficiency, by ranks", *map(str, ranks)],
+        [[case, *(found.get(n, "") for n in ranks)] for case, found in cases.items()],
+    )
+
+
+def new_axes(xlabel, ylabel):
+    figure, axes = plt.subplots()
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    return figure, axes
+
+
+def draw_series(axes, series):
+    for index, (label, points) in enumerate(series.items()):
+        marker, line, colour = STYLES[index % len(STYLES)]
+        axes.plot(
+            [x for x, _ in points],
+            [y for _, y in points],
+            marker=marker,
+            linestyle=line,
+            color=colour,
+            markerfacecolor="white",
+            label=label,
+        )
+    axes.legend()
+
+
+def draw_cluster(rows, folder):
+    for kind, title in (("weak", "weak_scaling.png"), ("strong", "strong_scaling.png")):
+        series = {}
+        for row in rows:
+            if row["case"].startswith(kind):
+                series.setdefault(row["case"].split(", ", 1)[1], []).append(
+                    (int(row["ranks"]), float(row["efficiency"]))
+                )
+        if not series:
+            continue
+        figure, axes = new_axes(
+            "ranks, one a node (simulated)", "time of own computing / time of a step"
+        )
+        draw_series(
+            axes,
+            {
+                name.replace(" a rank", " discs a rank")
+                + (" discs in all" if kind == "strong" else ""): sorted(points)
+                for name, points in series.items()
+            },
+        )
+        axes.axhline(0.9, color="0.6", linewidth=1)
+        axes.set_xscale("log", base=2)
+        ticks = sorted({int(row["ranks"]) for row in rows})
+        axes.set_xticks(ticks, [str(tick) for tick in ticks])
+        axes.set_ylim(0, 1.05)
+        figure.savefig(folder / title)
+        plt.close(figure)
+
+
+def draw_large_cluster(rows, folder):
+    figure, both = plt.subplots(1, 2, figsize=(11, 5.5), sharey=True)
+    for axes, kind in zip(both, ("weak, 1e6 a rank", "strong, 1e8")):
+        series, chosen = {}, (row for row in rows if row["case"].startswith(kind))
+        for row in chosen:
+            point = (int(row["ranks"]), float(row["efficiency"]))
+            series.setdefault(row["case"].removeprefix(f"{kind}, "), []).append(point)
+        draw_series(axes, series)
+        axes.get_legend().remove()
+        axes.set_xscale("log", base=2)
+        axes.set(xlabel=f"ranks, 32 a node ({kind})", ylim=(0, 1.05))
+    both[0].set_ylabel("time of one core / time of all ranks")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.savefig(folder / "large_cluster.png")
+    plt.close(figure)
+
+
+def draw_numbers(rows, folder):
+    points = sorted(
+        (int(r["n_discs"]), float(r["ns_per_disc_step"]))
+        for r in rows
+        if re.fullmatch(r"gas, 1e\d", r["case"])
+    )
+    if len(points) < 2:
+        return
+    streams = sorted(
+        (int(r["n_discs"]), 1e9 / float(r["stream_rate"]))
+        for r in rows
+        if re.fullmatch(r"gas, 1e\d", r["case"]) and r["stream_rate"]
+    )
+    figure, axes = new_axes("number of discs N", "nanoseconds per disc and step")
+    draw_series(
+        axes,
+        {
+            "gas of packing 0.2, time-stepped method, one core": points,
+            "a plain stream of 64 bytes a disc": streams,
+        },
+    )
+    axes.set(xscale="log", yscale="log")
+    figure.savefig(folder / "cost_against_size.png")
+    plt.close(figure)
+
+
+def draw_sizes(rows, folder):
+    """Collisions a second against the ratio of sizes, of Carrom and of EDMD, which has no rate
+    where it did not end within its time.
+    """
+    series = {}
+    for row in rows:
+        found = re.fullmatch(r"sizes 1 and (\d+), packing (\S+)", row["case"])
+        for name, column in (("Carrom", "rate"), ("EDMD", "edmd_rate")):
+            if found and row[column]:
+                points = series.setdefault(f"{name}, packing {found.group(2)}", [])
+                points.append((int(found.group(1)), float(row[column]) / 1e6))
+    figure, axes = new_axes("ratio of radii R", "million collisions per second")
+    draw_series(axes, series)
+    axes.set(xscale="log", yscale="log")
+    axes.set_xticks([1, 3, 10, 30], ["1", "3", "10", "30"])
+    axes.minorticks_off()
+    figure.savefig(folder / "sizes.png")
+    plt.close(figure)
+
+
+def read_kernels(path):
+    with open(path, encoding="utf-8") as file:
+        found = json.load(file)["benchmarks"]
+    return [
+        b for b in found if b.get("run_type") != "aggregate" or b.get("aggregate_name") == "median"
+    ]
+
+
+def read_peaks(path):
+    return {
+        name: float(value)
+        for name, value in (line.split() for line in path.read_text(encoding="utf-8").splitlines())
+    }
+
+
+def kernels_part(peaks):
+    return (
+        f"The machine's peaks on one core are {peaks['double']:.3g} x 10^9 operations a second in"
+        f" double precision and {peaks['single']:.3g} x 10^9 in single. A stream in place moves"
+        f" {peaks['stream_memory']:.3g} GB/s from memory and {peaks['stream_cache']:.3g} GB/s in"
+        " the second level of cache, read and written bytes."
+    )
+
+
+def draw_roofline(kernels, peaks, folder):
+    figure, axes = new_axes("operations per byte", "$10^9$ operations per second, one core")
+    low, high = 0.02, 64.0
+    for name, gbytes, line in (
+        ("cache", peaks["stream_cache"], "--"),
+        ("memory", peaks["stream_memory"], "-"),
+    ):
+        knee = peaks["single"] / gbytes
+        axes.plot(
+            [low, knee, high],
+            [low * gbytes, peaks["single"], peaks["single"]],
+            color="black",
+            linestyle=line,
+            linewidth=1.2,
+            label=f"{name}, {gbytes:.0f} GB/s, then single precision",
+        )
+    axes.axhline(peaks["double"], color="0.5", linestyle=":", label="double precision")
+    shown = [kernel for kernel in kernels if kernel["flops"] > 0]
+    for index, kernel in enumerate(shown):
+        x, y = kernel["flops"] / kernel["bytes"], kernel["items_per_second"] * kernel["flops"] / 1e9
+        name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
+        kind, _, n_discs = name.partition("/")
+        name = KERNELS.get(kind, kind) + (f", {int(n_discs):,} discs" if n_discs else "")
+        axes.plot(
+            [x],
+            [y],
+            marker=STYLES[index % len(STYLES)][0],
+            color="black",
+            linestyle="none",
+            markersize=6,
+            markerfacecolor="white",
+        )
+        axes.annotate(
+            name,
+            (x, y),
+            textcoords="offset points",
+            xytext=(7, (4, -12, 4, 4, -12)[index % 5]),
+            ha="left",  # the lines of the roof are at the left of all points
+            fontsize=10,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
+        )
+    axes.set(xscale="log", yscale="log", xlim=(low, high))
+    axes.legend(fontsize=10, loc="lower right")
+    figure.savefig(folder / "roofline.png")
+    plt.close(figure)
+
+
+def replace_part(text, name, part):
+    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+    if begin not in text or end not in text:
+        sys.exit(f"the page has no markers '{begin}' and '{end}'")
+    return text[: text.index(begin) + len(begin)] + "\n" + part + "\n" + text[text.index(end) :]
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--folder", type=pathlib.Path, default="docs/data/performance")
+    parser.add_argument(
+        "--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md")
+    )
+    options = parser.parse_args()
+    plot_style.use()
+    folder, text = options.folder, options.page.read_text(encoding="utf-8")
+    if (folder / "rates.csv").exists():
+        rows = read_csv(folder / "rates.csv")
+        files = [rows, *(read_csv(path) for path in sorted(folder.glob("rates_*.csv")))]
+        one_core = [
+            [r for r in found if not r.get("over_edmd") and is_of_one_core(r)] for found in files
+        ]
+        parts = [rates_part(found) for found in one_core if found]
+        text = replace_part(text, "rates", "\n\n".join(parts))
+        text = replace_part(text, "two cores", two_cores_part(files))
+        text = replace_part(text, "edmd", edmd_part(files))
+        draw_numbers(rows, folder)
+    if (folder / "sizes.csv").exists():
+        rows = read_csv(folder / "sizes.csv")
+        text = replace_part(text, "sizes", sizes_part(rows))
+        draw_sizes(rows, folder)
+    if (folder / "cluster.csv").exists():
+        rows = read_csv(folder / "cluster.csv")
+        text = replace_part(text, "cluster", cluster_part(rows))
+        draw_cluster(rows, folder)
+    if (folder / "large_cluster.csv").exists():
+        rows = read_csv(folder / "large_cluster.csv")
+        text = replace_part(text, "large cluster", cluster_part(rows))
+        draw_large_cluster(rows, folder)
+    if (folder / "kernels.json").exists() and (folder / "peaks.txt").exists():
+        kernels, peaks = read_kernels(folder / "kernels.json"), read_peaks(folder / "peaks.txt")
+        text = replace_part(text, "kernels", kernels_part(peaks))
+        draw_roofline(kernels, peaks, folder)
+    options.page.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
