@@ -53,7 +53,8 @@ class Grading(ProgramTest):
             if rest == 0:
                 self.assertIn(f"end of the output: {n_steps} steps, should be {STEPS}", text)
             else:
-                self.assertIn(f"end of the output: step {n_steps + 1}, disc {rest} is missing", text)
+                self.assertIn(f"end of the output: step {n_steps + 1}, disc {rest} is missing",
+                              text)
         cut_in_a_line = self.right[:self.n_discs * 3] + ["3 0 4.25"]
         self.assertEqual(self.score(self.grade(cut_in_a_line))[0], (10 + 60 * 2 // STEPS, 100))
 
