@@ -164,6 +164,28 @@ class Grading(ProgramTest):
         self.assertEqual(self.score(text)[0], (30, 90), text)
         self.assertIn("line 5: step 3, disc 4 differs", text)
 
+    def test_newer_texts_of_the_course_have_no_word_for_the_output(self):
+        scene = (self.folder / "scene.in").read_text(encoding="ascii").splitlines()
+        scene[3] = "3"
+        self.write("old.in", "\n".join(scene) + "\n")
+        right = self.student(self.folder / "old.in").splitlines()
+        self.write("new.in", "\n".join([*scene[:4], "", *scene[5:]]) + "\n")
+        scene[4] = "perf"
+        self.write("perf.in", "\n".join(scene) + "\n")
+        wanted = self.run_program(1, "run", "perf.in", "--report", "old.json")
+        new = self.run_program(2, "run", "new.in", "--report", "new.json")
+        self.assertEqual(new.out, wanted.out)
+        self.assertEqual(self.hash_of("new.json"), self.hash_of("old.json"))
+        for lines, most in ((right, 100), (right[-self.n_discs:], 90),
+                            ([*right[:self.n_discs], *right[-self.n_discs:]], 100)):
+            text = self.grade(lines, code=0, scene="new.in")
+            self.assertEqual(self.score(text)[0], (most, most), text)
+        # A wrong disc is named with the line that it has in the file.
+        self.write("bad.in", "\n".join([*scene[:4], *scene[5:8], "3 1 x 0 0", *scene[9:]]) + "\n")
+        self.run_program(1, "run", "bad.in", code=2, says="bad.in:8: ")
+        self.write("cut.in", "\n".join(scene[:4]) + "\n")
+        self.run_program(1, "run", "cut.in", code=2, says="cut.in:4: the input ends before 'print'")
+
 
 if __name__ == "__main__":
     main()
