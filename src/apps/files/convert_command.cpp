@@ -239,7 +239,7 @@ Subcommand convert_subcommand() {
   carrom convert collisions.h5 --to csv --output collisions.csv
   carrom convert kept/checkpoint-000000001000.h5 --to text | head
 
-The command carrom-import of the Python package does the reverse, also with files of GSD and LAMMPS.)";
+The command carrom-import of the Python package does the reverse; it takes GSD and LAMMPS, too.)";
     struct Words {
         std::string file, format, output;
     };
