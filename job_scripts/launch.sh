@@ -22,10 +22,10 @@ load_modules() {
 
 # launch_with RANKS THREADS: loads modules and sets `launch`, the words that come before the
 # program. Uses MODULES, PROGRAM, LAUNCHER, LAUNCHER_OPTIONS and, if it is set, SRUN_MPI, the plugin
-# of `srun --mpi` (default: pmix for Open MPI, pmi2 for MPICH). Each rank is bound to THREADS cores
-# of its own, and each of its threads to one of them, because a thread that moves leaves its memory
-# behind; ranks fill one node after the other. OMP_PLACES and OMP_PROC_BIND may be set to something
-# else.
+# of `srun --mpi` (default: pmix for Open MPI, pmi2 for MPICH, cray_shasta for that of Cray). Each
+# rank is bound to THREADS cores of its own, and each of its threads to one of them, because a
+# thread that moves leaves its memory behind; ranks fill one node after the other. OMP_PLACES and
+# OMP_PROC_BIND may be set to something else.
 launch_with() {
     local ranks=$1 threads=$2
     load_modules

@@ -19,10 +19,12 @@ bind_to_cores() {
     esac
 }
 
-# srun_plugin PROGRAM: what `srun --mpi` takes for the MPI library that it is linked with
+# srun_plugin PROGRAM: what `srun --mpi` takes for the MPI library that the program names. The
+# program can be a script that starts another one, as a wheel has it, so it is asked itself.
 srun_plugin() {
-    case $(ldd "$1" 2>/dev/null) in
-        *libmpich* | *libmpi.so.12*) echo pmi2 ;;
+    case $("$1" --version 2>/dev/null </dev/null | grep '^MPI ') in
+        *'CRAY MPICH'*) echo cray_shasta ;;
+        *MPICH* | *MVAPICH* | *Intel*) echo pmi2 ;;
         *) echo pmix ;;
     esac
 }

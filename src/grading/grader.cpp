@@ -27,15 +27,24 @@ constexpr double deciding = 0.1;
 constexpr double coarsest_digit = 0.01;
 /// In radii: an output whose numbers all have few digits excuses no larger difference.
 constexpr double coarsest_output = 0.5;
+/// In box sides: roundings of a step in single precision, which has 24 bits, are smaller.
+constexpr double float_unit = 0x1p-21;
+/// In box sides: grading ends with a disc that is farther outside, because its numbers may
+/// overflow.
+constexpr double farthest = 1000;
 
 } // namespace
 
 Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
                const std::string& name, bool counts_points)
     : scene_(scene), setting_{scene.box, scene.radius, scene.micro_steps, scene.sync_every},
-      tolerance_(tolerance), unit_(static_cast<double>(scene.micro_steps)), output_(stream, name),
-      lines_(scene.n_discs), digits_before_(scene.n_discs),
-      is_counter_unknown_(scene.n_discs, false), counts_points_(counts_points) {}
+      tolerance_(tolerance), unit_(static_cast<double>(scene.micro_steps)),
+      steps_(stream, name,
+             {scene.n_discs, scene.steps, scene.text_output == TextOutput::every_step}),
+      digits_before_(scene.n_discs), is_counter_unknown_(scene.n_discs, false),
+      counts_points_(counts_points) {
+    if (scene.steps > 0) points_.are_counters_right = false; // until they are seen
+}
 
 void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
     if (has_left_runs_) return;
@@ -45,80 +54,132 @@ void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
 }
 
 bool Grader::grade(std::int64_t step, const ExpectedDiscs& expected) {
-    if (!read(step)) return false;
+    note_growth(step, expected);
+    if (step == 0) before_ = SharedState{setting_, expected.discs, 0};
+    const bool goes_on = steps_.is_next(step) ? grade_lines(step, expected) : note_missing(step);
+    if (goes_on) return step < scene_.steps || note_more(step);
+    for (std::int64_t later = step + 1; later <= scene_.steps; ++later) count_missing(later);
+    return false;
+}
+
+void Grader::count_missing(std::int64_t step) {
+    if (!steps_.is_due(step)) return;
+    if (step == 0)
+        points_.is_start_right = false;
+    else
+        points_.n_missing += 1;
+}
+
+/// Returns whether grading goes on.
+bool Grader::note_problem(const std::string& problem) {
+    points_.are_lines_whole = false;
+    if (verdict_.empty()) verdict_ = problem;
+    return counts_points_;
+}
+
+/// A step that is not there. Returns whether grading goes on.
+bool Grader::note_missing(std::int64_t step) {
+    const std::string problem = steps_.missing_problem(step);
+    if (problem.empty()) return true;
+    count_missing(step);
+    return note_problem(problem) && steps_.next_line() && steps_.next_line()->step > step;
+}
+
+/// Lines behind the last step. Returns whether they are graded, as one step more.
+bool Grader::note_more(std::int64_t step) {
+    if (!steps_.next_line()) return false;
+    return note_problem(steps_.more_problem()) && step == scene_.steps && steps_.is_next(step + 1);
+}
+
+bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
+    steps_.read();
+    const bool were_lines_whole = points_.are_lines_whole;
+    if (!steps_.problem().empty() && !note_problem(steps_.problem())) return false;
+    if (steps_.is_only_in_other_order()) {
+        points_.are_in_order = false;
+        points_.are_lines_whole = were_lines_whole;
+    }
+    if (!steps_.is_whole()) {
+        count_missing(step);
+        return true;
+    }
+    finest_ = unlimited;
+    for (const StudentLine& line : lines()) finest_ = std::min(finest_, line.finest_digit);
+    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show how they were rounded
+    finest_ = std::max(finest_, unit_of_float_);
     n_steps_ += 1;
     if (!can_grade(step)) {
         n_not_graded_ += 1;
-        return are_possible(step);
+        if (step >= scene_.steps) points_.are_counters_right.reset();
+        const bool goes_on = are_possible(step);
+        if (goes_on) go_on_from_lines(step, {});
+        return goes_on;
     }
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
-    const bool is_as_it_should_be = hold(aim, step);
-    if (!is_as_it_should_be && !(counts_points_ && are_possible(step))) return false;
-    own_before_ = own_state(aim, step);
+    const bool is_right = hold(aim, step);
+    if (!is_right && !(counts_points_ && are_possible(step))) return false;
+    if (!is_right) has_left_runs_ = true; // the program's run is elsewhere by now
+    go_on_from_lines(step, aim.discs);
+    return true;
+}
+
+/// Makes the student's lines the state that the next step is graded from. `counters` has those of
+/// the rule, or is empty if they are unknown.
+void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& counters) {
+    if (counters.empty()) is_counter_unknown_.assign(scene_.n_discs, true);
+    own_before_ = own_state(counters, step);
     before_ = own_before_;
-    if (!is_as_it_should_be) has_left_runs_ = true; // the program's run is elsewhere by now
-    if (!has_left_runs_) before_->discs = aim.discs;
-    for (const StudentLine& line : lines_) digits_before_[line.id] = line.last_digit;
+    if (!has_left_runs_) before_->discs = counters;
+    for (const StudentLine& line : lines()) digits_before_[line.id] = last_digit(line);
     finest_before_ = finest_;
     written_before_ = step;
-    return true;
 }
 
 /// A step follows from the student's lines only if they are of the step before, and fine enough.
 bool Grader::can_grade(std::int64_t step) const {
     if (!has_left_runs_) return true;
-    return step - written_before_ <= 1 && finest_before_ <= coarsest_digit * setting_.radius;
+    return own_before_ && step - written_before_ == 1 &&
+           finest_before_ <= coarsest_digit * setting_.radius;
 }
 
 /// Compares the lines of a step with the rule, and counts points.
 bool Grader::hold(const Aim& aim, std::int64_t step) {
-    const bool are_places_right = hold_to(aim, step) && hold_excused(aim, step);
+    const bool are_places_right = (step > 0 || hold_precision(aim)) && hold_to(aim, step) &&
+                                  hold_excused(aim, step);
     const bool are_counters_right = hold_counters(aim, step);
-    if (is_last(step)) points_.are_counters_right = are_counters_right;
     if (step == 0) points_.is_start_right = are_places_right;
-    if (step > 0) points_.n_graded += 1;
-    if (step > 0 && are_places_right) points_.n_right += 1;
+    if (step > 0 && step <= scene_.steps) {
+        points_.n_graded += 1;
+        if (are_places_right) points_.n_right += 1;
+    }
     return are_places_right && are_counters_right;
 }
 
-void Grader::grade_end() {
-    StudentLine line;
-    if (!output_.next(line)) return;
-    points_.are_lines_whole = false;
+/// False if step 0 is the input rounded to single precision. Then later steps are graded as if the
+/// student's numbers had as few digits.
+bool Grader::hold_precision(const Aim& aim) {
+    const double unit = float_unit * setting_.box.longest();
+    if (tolerance_ >= unit || !is_rounded_to_float(lines(), aim.discs, unit_)) return true;
+    unit_of_float_ = unit;
+    finest_ = std::max(finest_, unit);
     if (verdict_.empty())
-        verdict_ = fmt::format("line {}: the output should end before this line\nrule: lines\n",
-                               line.number);
-}
-
-/// Reads the lines of a step; false if they are not those of all discs by id.
-bool Grader::read(std::int64_t step) {
-    finest_ = unlimited;
-    for (DiscId id = 0; id < scene_.n_discs; ++id) {
-        StudentLine& line = lines_[id];
-        const std::string wrong = output_.next(line)
-                                      ? misplaced(line, step, id)
-                                      : fmt::format(
-                                            "end of the output: step {}, disc {} is missing", step,
-                                            id);
-        finest_ = std::min(finest_, line.finest_digit);
-        if (wrong.empty()) continue;
-        points_.are_lines_whole = false;
-        if (!verdict_.empty()) return false;
-        verdict_ = wrong + "\nrule: lines\n  each step that is written has all discs by id; the "
-                           "last one has p_c and w_c too\n";
-        return false;
-    }
-    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show how they were rounded
-    return true;
+        verdict_ = "step 0 is the input rounded to single precision\nrule: precision\n  what the "
+                   "program may do: numbers are read or kept as float, which has 7 digits\n";
+    return false;
 }
 
 /// Checks what holds at any step, whatever roundings decide: finite numbers, centres in the box.
+/// With points it is enough that the rule can go on from the numbers.
 bool Grader::are_possible(std::int64_t step) {
-    const double slack = setting_.radius; // a disc may be beyond its wall to the micro-step's end
-    for (const StudentLine& line : lines_) {
+    const double longest = setting_.box.longest();
+    // A disc may be beyond its wall to the micro-step's end.
+    const double slack = counts_points_ ? farthest * longest : setting_.radius;
+    for (const StudentLine& line : lines()) {
         const bool is_inside = line.x >= -slack && line.x <= setting_.box.x + slack &&
                                line.y >= -slack && line.y <= setting_.box.y + slack;
-        if (is_inside && std::isfinite(line.vx) && std::isfinite(line.vy)) continue;
+        const double speed = std::max(std::fabs(line.vx), std::fabs(line.vy));
+        const double fastest = counts_points_ ? slack : std::numeric_limits<double>::max();
+        if (is_inside && speed <= fastest) continue; // false for NaN
         if (!verdict_.empty()) return false;
         verdict_ = fmt::format("line {}: step {}, disc {} is outside the box or not finite\n"
                                "rule: lines\n  each number is finite, and each centre in the box\n",
@@ -128,36 +189,26 @@ bool Grader::are_possible(std::int64_t step) {
     return true;
 }
 
-std::string Grader::misplaced(const StudentLine& line, std::int64_t step, DiscId id) const {
-    if (line.step != step || line.id != id)
-        return fmt::format("line {}: should be of step {}, disc {}, is of step {}, disc {}",
-                           line.number, step, id, line.step, line.id);
-    const bool needs_counters = is_last(step) && step > 0;
-    if (line.has_counters != needs_counters)
-        return fmt::format("line {}: step {}, disc {}: should {}", line.number, step, id,
-                           needs_counters ? "end in p_c and w_c"
-                                          : "have no p_c and w_c; the last step has them");
-    return {};
-}
-
 double Grader::tolerance_of(const StudentLine& line) const {
-    return tolerance_ + std::max(std::min(line.last_digit, coarsest_digit * setting_.radius),
+    return tolerance_ + std::max(std::min(last_digit(line), coarsest_digit * setting_.radius),
                                  std::min(finest_, coarsest_output * setting_.radius));
 }
 
 Grader::Aim Grader::aim_at(const ExpectedDiscs& expected) const {
     Aim aim{expected.discs, expected.clock, {}, {}};
-    for (const StudentLine& line : lines_)
+    for (const StudentLine& line : lines())
         aim.allowed.push_back(tolerance_of(line) + growth_margin * expected.spread[line.id]);
     return aim;
 }
 
-/// The student's numbers as a state of the run, with the counters of `aim`.
-SharedState Grader::own_state(const Aim& aim, std::int64_t step) const {
+/// The student's numbers as a state of the run, with these counters or none.
+SharedState Grader::own_state(const std::vector<DiscState>& counters, std::int64_t step) const {
     SharedState state{setting_, {}, step * setting_.micro_steps};
     const auto tau = static_cast<double>(state.micro_steps_done % setting_.sync_every);
-    for (const StudentLine& line : lines_) {
-        DiscState disc = aim.discs[line.id];
+    for (const StudentLine& line : lines()) {
+        DiscState disc;
+        if (!counters.empty()) disc = counters[line.id];
+        disc.id = line.id;
         disc.x = line.x;
         disc.y = line.y;
         disc.vx = line.vx / unit_;
@@ -196,7 +247,7 @@ Grader::Aim Grader::aim_from_own_lines() const {
             spread[disc.id] = std::max(
                 spread[disc.id], difference(aim.discs[disc.id], aim.clock, disc, aim.clock, unit_));
     }
-    for (const StudentLine& line : lines_) {
+    for (const StudentLine& line : lines()) {
         const double grown = step_margin * spread[line.id];
         aim.allowed.push_back(grown > deciding * setting_.radius ? unlimited
                                                                  : tolerance_of(line) + grown);
@@ -206,7 +257,7 @@ Grader::Aim Grader::aim_from_own_lines() const {
 
 double Grader::difference_to(const std::vector<DiscState>& discs, double clock, DiscId id) const {
     const DiscState& disc = discs[id];
-    const StudentLine& line = lines_[id];
+    const StudentLine& line = lines()[id];
     const double differences[] = {
         std::fabs(line.x - disc.x_at(clock)), std::fabs(line.y - disc.y_at(clock)),
         std::fabs(line.vx - disc.vx * unit_), std::fabs(line.vy - disc.vy * unit_)};
@@ -219,7 +270,7 @@ double Grader::difference_to(const std::vector<DiscState>& discs, double clock, 
 }
 
 bool Grader::hold_to(const Aim& aim, std::int64_t step) {
-    for (const StudentLine& line : lines_) {
+    for (const StudentLine& line : lines()) {
         const double off = difference_to(aim.discs, aim.clock, line.id);
         const bool is_finite = std::isfinite(line.x + line.y + line.vx + line.vy);
         if (!is_finite || off > aim.allowed[line.id]) return blame(aim, line.id, step);
@@ -233,7 +284,7 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
 /// If roundings decide, a disc may be at any place to which a rounding leads. Equal times
 /// are not roundings: if a wrong choice between them gives the line, that is the mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
-    for (const StudentLine& line : lines_) {
+    for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
         for (const std::vector<DiscState>& discs : aim.others)
             if (discs[line.id].pair_collisions != aim.discs[line.id].pair_collisions ||
@@ -251,9 +302,11 @@ bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     return true;
 }
 
+/// The last step may come too early or too late.
 bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
-    if (!is_last(step) || step == 0) return true;
-    for (const StudentLine& line : lines_) {
+    if (!steps_.has_counters() || (step < scene_.steps && steps_.next_line())) return true;
+    points_.are_counters_right = false;
+    for (const StudentLine& line : lines()) {
         const DiscState& disc = aim.discs[line.id];
         if (is_counter_unknown_[line.id] || (line.pair_collisions == disc.pair_collisions &&
                                              line.wall_collisions == disc.wall_collisions))
@@ -267,12 +320,13 @@ bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
             std::uint64_t{disc.wall_collisions}, line.pair_collisions, line.wall_collisions);
         return false;
     }
+    points_.are_counters_right = true;
     return true;
 }
 
 std::vector<GivenDisc> Grader::given(const Aim& aim) const {
     std::vector<GivenDisc> discs;
-    for (const StudentLine& line : lines_) {
+    for (const StudentLine& line : lines()) {
         const double allowed = aim.allowed[line.id];
         discs.push_back({line.x, line.y, line.vx, line.vy,
                          allowed == unlimited ? tolerance_of(line) : allowed});
@@ -283,7 +337,7 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
 /// Notes the disc's line if it is the first that differs; returns false.
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
     if (!verdict_.empty()) return false;
-    const StudentLine& line = lines_[id];
+    const StudentLine& line = lines()[id];
     const DiscState& disc = aim.discs[id];
     verdict_ = fmt::format("line {}: step {}, disc {} differs\n", line.number, step, id);
     const auto append = [this](const char* label, double x, double y, double vx, double vy) {
@@ -319,7 +373,7 @@ std::string Grader::reason(const Aim& aim, DiscId id, std::int64_t step) const {
 }
 
 std::string Grader::verdict() const {
-    if (!verdict_.empty()) return verdict_;
+    if (!verdict_.empty()) return verdict_ + steps_.remark();
     std::string text = fmt::format("{}: {} discs in {} written steps; numbers within {:.3g}, the "
                                    "largest difference {:.3g}\n",
                                    n_not_graded_ > 0 ? "not graded to the end" : "same",
@@ -327,7 +381,7 @@ std::string Grader::verdict() const {
     if (first_drift_)
         text += fmt::format("from step {} on differences are only amplified roundings\n",
                             *first_drift_);
-    if (!has_left_runs_) return text;
+    if (!has_left_runs_) return text + steps_.remark();
     text += fmt::format("from step {} on roundings decide: runs that begin one bit apart differ\n",
                         first_left_);
     if (n_not_graded_ > 0)
@@ -336,7 +390,7 @@ std::string Grader::verdict() const {
             "them graded\n";
     else
         text += "  from there on each step was held to the rule from the output's step before\n";
-    return text;
+    return text + steps_.remark();
 }
 
 } // namespace carrom

@@ -4,9 +4,11 @@
 // Before roundings can decide anything, lines are compared with the program's own run. Each
 // disc may be off by the tolerance and by the growth of roundings. Afterwards two right
 // programs have different discs, so each step is compared with the rule applied to the
-// student's own step before. Takes N lines of memory, and a plain step for each line later on.
+// student's own step before. A step that is missing or cannot be read is counted, and the later
+// ones are graded. Takes N lines of memory, and a plain step for each line later on.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <istream>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "grading/mistakes.hpp"
 #include "grading/points.hpp"
 #include "grading/runs.hpp"
+#include "grading/steps.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
@@ -30,13 +33,10 @@ public:
 
     /// Once this is true the program's runs are not needed any more.
     bool has_left_runs() const { return has_left_runs_; }
-    /// Measures the growth of roundings at a step, whether it is written or not.
-    void note_growth(std::int64_t step, const ExpectedDiscs& expected);
-    /// Reads the lines of that step and compares them with the rule; false if grading ends with
-    /// it. `expected` is empty once roundings decide.
+    /// Reads the lines of that step, if it is there, and compares them with the rule. `expected` is
+    /// empty once roundings decide. Returns whether the next step is to be graded, which may be
+    /// one behind the last.
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
-    /// Checks that no lines follow the last step.
-    void grade_end();
     /// Whether no line has differed so far.
     bool is_right() const { return verdict_.empty(); }
     const Points& points() const { return points_; }
@@ -55,16 +55,22 @@ private:
         std::vector<std::vector<DiscState>> others; ///< results of other roundings
     };
 
-    bool read(std::int64_t step);
+    void note_growth(std::int64_t step, const ExpectedDiscs& expected);
+    bool note_problem(const std::string& problem);
+    bool note_missing(std::int64_t step);
+    bool note_more(std::int64_t step);
+    void count_missing(std::int64_t step);
+    bool grade_lines(std::int64_t step, const ExpectedDiscs& expected);
     bool can_grade(std::int64_t step) const;
+    void go_on_from_lines(std::int64_t step, const std::vector<DiscState>& counters);
     bool hold(const Aim& aim, std::int64_t step);
+    bool hold_precision(const Aim& aim);
     bool are_possible(std::int64_t step);
-    std::string misplaced(const StudentLine& line, std::int64_t step, DiscId id) const;
     double tolerance_of(const StudentLine& line) const;
     Aim aim_at(const ExpectedDiscs& expected) const;
     void move_last_digits(DiscState& disc, std::uint64_t seed) const;
     Aim aim_from_own_lines() const;
-    SharedState own_state(const Aim& aim, std::int64_t step) const;
+    SharedState own_state(const std::vector<DiscState>& counters, std::int64_t step) const;
     double difference_to(const std::vector<DiscState>& discs, double clock, DiscId id) const;
     bool hold_to(const Aim& aim, std::int64_t step);
     bool hold_counters(const Aim& aim, std::int64_t step);
@@ -73,16 +79,19 @@ private:
     bool blame(const Aim& aim, DiscId id, std::int64_t step);
     std::string reason(const Aim& aim, DiscId id, std::int64_t step) const;
     const SharedState& shared_state() const { return has_left_runs_ ? *own_before_ : *before_; }
-    bool is_last(std::int64_t step) const { return step == scene_.steps; }
+    const std::vector<StudentLine>& lines() const { return steps_.lines(); }
+    double last_digit(const StudentLine& line) const {
+        return std::max(line.last_digit, unit_of_float_);
+    }
 
     const SceneParameters& scene_;
     RuleSetting setting_;
     double tolerance_, unit_;
-    StudentOutput output_;
-    std::vector<StudentLine> lines_;        ///< the step's lines, by id
+    StudentSteps steps_;
     std::optional<SharedState> before_;     ///< at the written step before, to go on from
     std::optional<SharedState> own_before_; ///< that step by the student's lines
     std::int64_t written_before_ = 0;
+    double unit_of_float_ = 0;              ///< if the student's numbers are in single precision
     std::vector<double> digits_before_;     ///< StudentLine::last_digit
     double finest_ = 0, finest_before_ = 0; ///< the finest last digit of any line of a step
     std::vector<bool> is_counter_unknown_;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/errors.hpp"
 #include "scene/number.hpp"
 
@@ -52,18 +54,41 @@ std::uint64_t StudentOutput::count(std::string_view word) const {
     return *value;
 }
 
-bool StudentOutput::next(StudentLine& line) {
+/// A step and an id first, and as many words as a line of a disc has.
+bool StudentOutput::is_disc() const {
+    return (words_.size() == words_of_a_disc || words_.size() == words_with_counters) &&
+           parse_id(words_[0]) && parse_id(words_[1]);
+}
+
+void StudentOutput::leave_out(std::string_view text) {
+    if (++n_left_out_ > 1) return;
+    first_left_out_ = lines_.line_number();
+    left_out_ = trimmed(text);
+}
+
+/// Goes on to the next line of a disc.
+bool StudentOutput::next_words() {
     std::string_view text;
-    do {
+    for (;;) {
         if (!lines_.next(text)) {
             if (lines_.has_failed() || lines_.is_endless()) refuse("cannot be read to its end");
+            if (n_left_out_ > 0 && !has_discs_)
+                throw InputError({{name_, first_left_out_,
+                                   "is no line of a disc, and no other line is one: `step id x y "
+                                   "vx vy`, in the last step also `p_c w_c`"}});
             return false;
         }
         if (lines_.is_cut()) refuse("a line of more than 4096 characters");
         split_words(text, words_with_counters, words_);
-    } while (words_.empty());
-    if (words_.size() != words_of_a_disc && words_.size() != words_with_counters)
-        refuse("is no line of a disc: `step id x y vx vy`, in the last step also `p_c w_c`");
+        if (is_disc()) break;
+        if (!words_.empty()) leave_out(text);
+    }
+    has_discs_ = true;
+    return true;
+}
+
+bool StudentOutput::next(StudentLine& line) {
+    if (!next_words()) return false;
     line = {};
     line.finest_digit = std::numeric_limits<double>::infinity();
     line.number = lines_.line_number();
@@ -72,7 +97,7 @@ bool StudentOutput::next(StudentLine& line) {
     double* const numbers[] = {&line.x, &line.y, &line.vx, &line.vy};
     for (std::size_t i = 0; i < 4; ++i) {
         *numbers[i] = number(words_[2 + i]);
-        const double digit = last_digit_of(words_[2 + i]);
+        const double digit = line.digits[i] = last_digit_of(words_[2 + i]);
         line.last_digit = std::max(line.last_digit, digit);
         if (digit > 0) line.finest_digit = std::min(line.finest_digit, digit);
     }
@@ -82,6 +107,17 @@ bool StudentOutput::next(StudentLine& line) {
         line.wall_collisions = count(words_[7]);
     }
     return true;
+}
+
+std::string StudentOutput::remark() const {
+    if (n_left_out_ == 0) return {};
+    const std::string first = fmt::format("line {}: {}", first_left_out_, in_quotes(left_out_));
+    if (n_left_out_ == 1)
+        return fmt::format("remark: a line was left out, because it is no line of a disc: {}\n",
+                           first);
+    return fmt::format("remark: {} lines were left out, because they are no lines of discs; the "
+                       "first is {}\n",
+                       n_left_out_, first);
 }
 
 } // namespace carrom

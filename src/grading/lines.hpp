@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the lines of discs in the output of a student's program one by one.
+// Reads the lines of discs in the output of a student's program one by one. Other lines, such as a
+// header or a time, are left out with a remark, because they say nothing about the discs.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct StudentLine {
     std::int64_t step = 0;
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
-    double last_digit = 0;   ///< the value of one unit of it, in the number with the fewest digits
+    double digits[4] = {}; ///< the value of one unit of the last digit of x, y, vx, vy; 0 if whole
+    double last_digit = 0; ///< the value of one unit of it, in the number with the fewest digits
     double finest_digit = 0; ///< in the number with the most; infinite if all are whole numbers
     bool has_counters = false;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
@@ -29,19 +31,27 @@ public:
     /// The stream must outlive this.
     StudentOutput(std::istream& stream, std::string name);
 
-    /// The next line that is not blank; false at the end. InputError if it is no line of a disc.
+    /// The next line of a disc; false at the end. InputError if one of its numbers is none, or if
+    /// the output has other lines only.
     bool next(StudentLine& line);
 
-    std::int64_t line_number() const { return lines_.line_number(); }
+    /// Names the lines that were left out; empty if there are none.
+    std::string remark() const;
 
 private:
     [[noreturn]] void refuse(const std::string& text) const;
     double number(std::string_view word) const;
     std::uint64_t count(std::string_view word) const;
+    bool next_words();
+    bool is_disc() const;
+    void leave_out(std::string_view text);
 
     LineReader lines_;
     std::string name_;
     std::vector<std::string_view> words_;
+    bool has_discs_ = false;
+    std::int64_t n_left_out_ = 0, first_left_out_ = 0;
+    std::string left_out_; ///< the first of them
 };
 
 } // namespace carrom

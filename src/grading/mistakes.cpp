@@ -16,6 +16,7 @@ struct KnownMistake {
     const char* text;
 };
 
+constexpr const char* candidates = "candidates";
 constexpr const char* order = "order";
 constexpr const char* one_collision = "one collision a step";
 constexpr const char* impulse = "impulse";
@@ -67,10 +68,19 @@ constexpr std::array known_mistakes{
                  "and only the last collision counts"},
     KnownMistake{Mistake::half_impulse, impulse,
                  "discs exchange half of their relative velocity, and fly on side by side"},
+    KnownMistake{
+        Mistake::one_disc_only, impulse,
+        "a collision changes only one of its two discs, as when two threads write at once"},
+    KnownMistake{Mistake::pair_missed, candidates, "two discs that should collide flew on freely"},
+    KnownMistake{Mistake::wall_missed, candidates, "a disc flew on freely through a wall"},
 };
 
-std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, Mistake mistake) {
-    PlainRule rule(state.setting, state.discs, state.micro_steps_done, mistake);
+/// Mistakes that concern one disc are tried with this many.
+constexpr std::size_t most_subjects = 4;
+
+std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, Mistake mistake,
+                           DiscId subject) {
+    PlainRule rule(state.setting, state.discs, state.micro_steps_done, mistake, subject);
     for (std::int64_t i = 0; i < micro_steps; ++i) rule.run_micro_step();
     const auto unit = static_cast<double>(state.setting.micro_steps);
     std::vector<GivenDisc> result;
@@ -88,30 +98,56 @@ bool agree(const GivenDisc& made, const GivenDisc& given) {
            is_near(made.vy, given.vy);
 }
 
+std::size_t n_different(const std::vector<GivenDisc>& made, const std::vector<GivenDisc>& given) {
+    std::size_t n = 0;
+    for (std::size_t id = 0; id < given.size(); ++id) n += agree(made[id], given[id]) ? 0 : 1;
+    return n;
+}
+
+bool concerns_one_disc(Mistake mistake) {
+    return mistake == Mistake::one_disc_only || mistake == Mistake::pair_missed ||
+           mistake == Mistake::wall_missed;
+}
+
+/// The disc `wrong`, and a few others whose lines differ from those of the rule: one of them can be
+/// the reason why `wrong` meets another disc.
+std::vector<DiscId> differing(const std::vector<GivenDisc>& made,
+                              const std::vector<GivenDisc>& given, DiscId wrong) {
+    std::vector<DiscId> ids{wrong};
+    for (DiscId id = 0; id < given.size() && ids.size() < most_subjects; ++id)
+        if (id != wrong && !agree(made[id], given[id])) ids.push_back(id);
+    return ids;
+}
+
 } // namespace
 
 std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_steps,
                                    const std::vector<GivenDisc>& given, DiscId wrong) {
     std::optional<Explanation> best;
-    for (const KnownMistake& known : known_mistakes) {
-        const std::vector<GivenDisc> made = run(state, micro_steps, known.kind);
-        if (!agree(made[wrong], given[wrong])) continue;
-        std::size_t n_unexplained = 0;
-        for (std::size_t id = 0; id < given.size(); ++id)
-            if (!agree(made[id], given[id])) n_unexplained += 1;
-        if (!best || n_unexplained < best->n_unexplained)
-            best = Explanation{known.rule, known.text,
-                               known.kind == Mistake::ties_by_higher_id ||
-                                   known.kind == Mistake::pair_before_wall ||
-                                   known.kind == Mistake::corner_on_one_axis,
-                               n_unexplained};
-    }
+    const auto search = [&](const KnownMistake& known, DiscId subject) {
+        const std::vector<GivenDisc> made = run(state, micro_steps, known.kind, subject);
+        if (!agree(made[wrong], given[wrong])) return;
+        const std::size_t n_unexplained = n_different(made, given);
+        if (best && n_unexplained >= best->n_unexplained) return;
+        best = Explanation{known.rule, known.text,
+                           known.kind == Mistake::ties_by_higher_id ||
+                               known.kind == Mistake::pair_before_wall ||
+                               known.kind == Mistake::corner_on_one_axis,
+                           n_unexplained};
+    };
+    for (const KnownMistake& known : known_mistakes)
+        if (!concerns_one_disc(known.kind)) search(known, wrong);
+    const std::vector<DiscId> subjects = differing(run(state, micro_steps, Mistake::none, wrong),
+                                                   given, wrong);
+    for (const KnownMistake& known : known_mistakes)
+        for (const DiscId subject : subjects)
+            if (concerns_one_disc(known.kind)) search(known, subject);
     return best;
 }
 
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
                   const std::vector<DiscState>& discs, double clock) {
-    const std::vector<GivenDisc> made = run(state, micro_steps, Mistake::none);
+    const std::vector<GivenDisc> made = run(state, micro_steps, Mistake::none, 0);
     const auto unit = static_cast<double>(state.setting.micro_steps);
     for (std::size_t id = 0; id < discs.size(); ++id)
         if (!agree(made[id], {discs[id].x_at(clock), discs[id].y_at(clock), discs[id].vx * unit,
@@ -121,7 +157,7 @@ bool follows_rule(const SharedState& state, std::int64_t micro_steps,
 }
 
 std::string facts(const SharedState& state, DiscId id) {
-    PlainRule rule(state.setting, state.discs, state.micro_steps_done, Mistake::none);
+    PlainRule rule(state.setting, state.discs, state.micro_steps_done);
     rule.run_micro_step();
     constexpr int most = 8;
     int n_found = 0;
@@ -143,11 +179,29 @@ std::string facts(const SharedState& state, DiscId id) {
     return text;
 }
 
+bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vector<DiscState>& discs,
+                         double unit) {
+    bool is_seen = false;
+    for (const StudentLine& line : lines) {
+        const DiscState& disc = discs[line.id];
+        const double exact[] = {disc.x, disc.y, disc.vx * unit, disc.vy * unit};
+        const double given[] = {line.x, line.y, line.vx, line.vy};
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (line.digits[i] == 0) continue; // a whole number does not show its rounding
+            const double slack = 0.501 * line.digits[i] + 1e-15 * std::fabs(exact[i]);
+            const double rounded = static_cast<float>(exact[i]);
+            if (!(std::fabs(given[i] - rounded) <= slack)) return false;
+            is_seen = is_seen || std::fabs(given[i] - exact[i]) > slack;
+        }
+    }
+    return is_seen;
+}
+
 bool can_explain(std::uint64_t n_discs, std::int64_t micro_steps) {
     constexpr double most_pairs = 2e10; // a minute or two
     const auto n = static_cast<double>(n_discs);
     return n * n / 2 * static_cast<double>(micro_steps) *
-               static_cast<double>(known_mistakes.size()) <
+               static_cast<double>(known_mistakes.size() + 3 * most_subjects) <
            most_pairs;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/disc_state.hpp"
+#include "grading/lines.hpp"
 #include "grading/rule.hpp"
 
 namespace carrom {
@@ -43,6 +44,11 @@ bool follows_rule(const SharedState& state, std::int64_t micro_steps,
 
 /// The contacts of the disc in the next micro-step, by the rule: a line for each candidate.
 std::string facts(const SharedState& state, DiscId id);
+
+/// Whether all lines are the discs at time 0 with numbers rounded to single precision, and their
+/// digits show it. `unit` multiplies velocities.
+bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vector<DiscState>& discs,
+                         double unit);
 
 /// False if a search would take minutes.
 bool can_explain(std::uint64_t n_discs, std::int64_t micro_steps);

@@ -57,12 +57,13 @@ struct PlainRule::Path {
 };
 
 PlainRule::PlainRule(const RuleSetting& setting, std::vector<DiscState> discs,
-                     std::int64_t micro_steps_done, Mistake mistake)
+                     std::int64_t micro_steps_done, Mistake mistake, DiscId subject)
     : setting_(setting), x_walls_(setting.box.x, setting.radius, 1e-8 * setting.radius),
       y_walls_(setting.box.y, setting.radius, 1e-8 * setting.radius),
       deepest_overlap_(
           std::max(1e-12 * (2 * setting.radius), 16 * 0x1p-52 * setting.box.longest())),
-      mistake_(mistake), discs_(std::move(discs)), micro_steps_(micro_steps_done) {}
+      mistake_(mistake), subject_(subject), discs_(std::move(discs)),
+      micro_steps_(micro_steps_done) {}
 
 void PlainRule::run_micro_step() {
     const double m = clock();
@@ -155,6 +156,9 @@ void PlainRule::keep_candidates(double m) {
     for (Candidate& candidate : candidates_) {
         const bool is_free = !is_taken[candidate.p] &&
                              (is_wall(candidate) || !is_taken[candidate.q]);
+        if (is_free && (is_first_of_subject(candidate, Mistake::pair_missed) ||
+                        is_first_of_subject(candidate, Mistake::wall_missed)))
+            continue;
         candidate.is_kept = is_free || mistake_ == Mistake::every_candidate;
         if (is_free || mistake_ == Mistake::first_choices_only) {
             is_taken[candidate.p] = true;
@@ -162,6 +166,16 @@ void PlainRule::keep_candidates(double m) {
         }
         if (candidate.is_kept) keep(candidate, m);
     }
+}
+
+/// Whether that mistake is made with this candidate: once, with a pair or a wall of `subject`.
+bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake) {
+    const bool is_its_own = candidate.p == subject_ ||
+                            (!is_wall(candidate) && candidate.q == subject_);
+    const bool is_its_kind = is_wall(candidate) == (mistake == Mistake::wall_missed);
+    if (mistake_ != mistake || has_missed_ || !is_its_own || !is_its_kind) return false;
+    has_missed_ = true;
+    return true;
 }
 
 /// The event-driven method inside the micro-step: after each collision its discs are searched anew.
@@ -199,9 +213,11 @@ void PlainRule::keep(const Candidate& candidate, double m) {
         return;
     }
     DiscState& q = discs_[candidate.q];
+    const DiscState before = discs_[subject_];
     collide(p, q, m + candidate.t);
     stop(p, m, candidate.t);
     stop(q, m, candidate.t);
+    if (is_first_of_subject(candidate, Mistake::one_disc_only)) discs_[subject_] = before;
 }
 
 /// Carries out a collision with the discs of the micro-step's start, as if each were the only one.

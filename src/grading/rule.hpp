@@ -41,6 +41,9 @@ enum class Mistake {
     overlap_leaves,
     overlap_at_end,
     corner_on_one_axis,
+    one_disc_only, ///< these three concern one collision of the disc `subject`
+    pair_missed,
+    wall_missed,
 };
 
 struct RuleSetting {
@@ -60,7 +63,7 @@ public:
 
     /// `discs` by id, as a DiscSystem stores them after `micro_steps_done`.
     PlainRule(const RuleSetting& setting, std::vector<DiscState> discs,
-              std::int64_t micro_steps_done, Mistake mistake);
+              std::int64_t micro_steps_done, Mistake mistake = Mistake::none, DiscId subject = 0);
 
     void run_micro_step();
 
@@ -80,6 +83,7 @@ private:
     double wall_time(const DiscState& disc, double m) const;
     void sort_candidates();
     void keep_candidates(double m);
+    bool is_first_of_subject(const Candidate& candidate, Mistake mistake);
     void keep_all_collisions(double m);
     void keep(const Candidate& candidate, double m);
     void keep_from_start(const Candidate& candidate, double m);
@@ -92,6 +96,8 @@ private:
     RestingWalls<double> x_walls_, y_walls_;
     double deepest_overlap_;
     Mistake mistake_;
+    DiscId subject_;
+    bool has_missed_ = false; ///< the mistake about `subject` has been made
     std::vector<DiscState> discs_;
     std::vector<DiscState> start_; ///< the discs at the micro-step's start, for `..._from_start`
     std::int64_t micro_steps_;

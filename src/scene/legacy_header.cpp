@@ -73,6 +73,8 @@ void add_legacy_header(Settings& settings, Problems& problems, std::string_view 
     if (found == 0)
         add_problem(problems, {name, 0},
                     "the input is empty; expected N, L, r, S and 'print' or 'perf', one per line");
+    else if (found == entries.size() - 1 && discs_follow)
+        settings.set({"output.text", place, {std::string("ends")}});
     else if (found < entries.size())
         add_problem(problems, place,
                     fmt::format("the input ends before {}", entries[found].meaning));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The legacy text format: N, L, r, S and `print` or `perf`, one per line, then nothing or N lines
-// "id x y vx vy".
+// "id x y vx vy". Before such lines `print` or `perf` may be left out.
 #pragma once
 
 #include <string>

@@ -68,6 +68,14 @@ bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
     return false;
 }
 
+/// Whether the next line begins with a number: newer texts of the course have no word for the
+/// output between the steps and the discs.
+bool begins_a_disc(std::istream& stream, std::int64_t& n_lines) {
+    if (!skip_blank(stream, n_lines)) return false;
+    const int c = stream.peek();
+    return c >= '0' && c <= '9';
+}
+
 } // namespace
 
 std::ifstream open_input(const std::string& path) {
@@ -87,7 +95,10 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
         return input;
     }
     std::string line;
-    for (int found = 0; found < legacy_header_lines && take_line(stream, line);) {
+    for (int found = 0; found < legacy_header_lines;) {
+        if (found == legacy_header_lines - 1 && begins_a_disc(stream, input.lines_before_discs))
+            break;
+        if (!take_line(stream, line)) break;
         input.lines_before_discs += 1;
         if (line.size() > LineReader::longest_line)
             refuse(name, input.lines_before_discs, "a line of more than 4096 characters");

@@ -8,7 +8,7 @@ Rough discs of two sizes, with the mean diameter d, fill a silo with a flat floo
 through an opening of the width D in its middle. Their contacts last from sync to sync. Prints CSV:
 for each opening the discs that leave in a step, as mean and standard error over the seeds, and what
 the fitted law gives. W^(2/3) is a straight line in D, whose slope is C^(2/3) and whose zero is k d.
-The last line has k and C in units of d and sqrt(g d), and the exponent that fits best for k = 1.5,
+The last line has k and C in units of d and sqrt(g / d), and the exponent that fits best for k = 1.5,
 with standard errors from leaving out one seed at a time.
 
 The code is 1 where k is more than three standard errors outside 1 to 2 (Beverloo, Leniger and van
@@ -106,7 +106,7 @@ def line(xs, ys):
 
 
 def law(flows):
-    """k, C in units of sqrt(g d), and the exponent for k = 1.5."""
+    """k, C in units of sqrt(g / d), and the exponent for k = 1.5."""
     means = {opening: statistics.fmean(values) for opening, values in flows.items()}
     slope, k = line(list(means), [w ** (2 / 3) for w in means.values()])
     exponent, _ = line([math.log(opening - 1.5) for opening in means],

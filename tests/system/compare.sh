@@ -45,6 +45,8 @@ n_named=0
 while read -r mistake rule; do
     is_seen=no
     for scene in ties random_1 random_2; do
+        # Where times are equal, one collision that is left out looks like a wrong order.
+        case $scene-$mistake in ties-*-free | ties-one-disc) continue ;; esac
         # some mistakes end in a division by 0
         student $scene.in "$mistake" .8f >wrong.out 2>/dev/null || continue
         cmp -s $scene.out wrong.out && continue
@@ -138,7 +140,7 @@ refused() { # TEXT WORD...
     expect_silence "compare $*"
 }
 echo 'Time: 3 s' >chatter.out
-refused 'chatter.out:1: is no line of a disc' chatter.out ties.in
+refused 'chatter.out:1: is no line of a disc, and no other line is one' chatter.out ties.in
 echo '0 0 1 2 x 4' >letters.out
 refused "letters.out:1: 'x' is no number" letters.out ties.in
 refused 'none.out' none.out none.in

@@ -37,6 +37,20 @@ for file in share/carrom/inputs/gas.toml share/doc/carrom/LICENSE \
     share/doc/carrom/docs/reference/keys.md; do
     [ -s "$prefix/$file" ] || complain "not installed: $file"
 done
+for library in fmt tomlplusplus CLI11 nlohmann_json highway xxhash random123; do
+    grep -qiE 'copyright|licen[cs]e' "$prefix/share/doc/carrom/licenses/$library.txt" ||
+        complain "the licence of $library is not installed"
+done
+
+# The image of Apptainer copies all that a build reads, and no build.
+mkdir "$test_folder/image"
+awk '/^%/ { is_list = $0 == "%files" } is_list && $2 ~ /^\/src\// { print $1 }' \
+    "$CARROM_SOURCE_DIR/docs/install/carrom.def" | while read -r name; do
+    cp -r "$CARROM_SOURCE_DIR/$name" "$test_folder/image/"
+done
+step image "$cmake" -S "$test_folder/image" -B "$test_folder/image/build" -DCARROM_TESTS=OFF \
+    -DCMAKE_CXX_COMPILER="$compiler"
+rm -rf "$test_folder/image"
 
 # The manual: no warning, and every option of every command.
 page=$prefix/share/man/man1/carrom.1

@@ -18,4 +18,27 @@ for script in "$CARROM_SOURCE_DIR"/job_scripts/*.sbatch; do
     done
 done
 [ "$(ls -A)" = top ] && [ "$(ls -A top)" = job_scripts ] || complain "files were written"
+
+# The plugin of srun follows from what the program says of its MPI library, also if it is a script.
+source "$CARROM_SOURCE_DIR/job_scripts/mpi.sh"
+while IFS='|' read -r library plugin; do
+    printf '#!/bin/sh\n[ "$1" = --version ] && echo "MPI       %s"\n' "$library" >program
+    chmod +x program
+    [ "$(srun_plugin ./program)" = "$plugin" ] ||
+        complain "$library is started by $(srun_plugin ./program), not $plugin"
+done <<'LIBRARIES'
+Open MPI v4.1.4|pmix
+Open MPI v5.0.7|pmix
+MPICH Version: 4.0.2|pmi2
+MPI VERSION    : CRAY MPICH version 8.1.25.17 (ANL base 3.4a2)|cray_shasta
+Intel(R) MPI Library 2021.10 for Linux* OS|pmi2
+MVAPICH2 Version      :|pmi2
+LIBRARIES
+case $("$CARROM_PROGRAM" --version | grep '^MPI ') in
+*'Open MPI'*) wanted=pmix ;;
+*) wanted=pmi2 ;;
+esac
+[ "$(srun_plugin "$CARROM_PROGRAM")" = $wanted ] || complain "the program is not started by $wanted"
+grep -lE '^#SBATCH.*--hint' "$CARROM_SOURCE_DIR"/job_scripts/*.sbatch &&
+    complain 'Slurm refuses --hint beside --cpu-bind, which launch.sh has'
 finish

@@ -109,7 +109,8 @@ class Runner:
         (programs / "carrom").symlink_to(os.environ.get("CARROM_PROGRAM", self.build / "carrom"))
         commands = {
             "mpirun": os.environ.get("CARROM_MPIEXEC", "mpiexec"),
-            "carrom-plot": "python3 -m carrom.plot.commands",  # as pip would install it
+            "carrom-import": "python3 -m carrom.importing",  # as pip would install it
+            "carrom-plot": "python3 -m carrom.plot.commands",
         }
         for name, command in commands.items():
             (programs / name).write_text(f'#!/bin/sh\nexec {command} "$@"\n')

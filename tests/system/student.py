@@ -9,6 +9,7 @@ what students write by mistake.
 
 import math
 import random
+import struct
 import sys
 
 NEVER = 2.0
@@ -33,6 +34,10 @@ MISTAKES = {  # and the rule that `carrom compare` must name
     "overlap-late": "overlap",
     "overlap-end": "overlap",
     "corner": "corner",
+    "pair-free": "candidates",
+    "wall-free": "candidates",
+    "one-disc": "impulse",
+    "single": "precision",
     "count-stops": "counters",
     "count-corner": "counters",
     "unsorted": "lines",
@@ -47,10 +52,16 @@ class Disc:
         self.pairs = self.walls = 0
 
 
+def as_float(number):
+    """Rounded to single precision."""
+    return struct.unpack("f", struct.pack("f", number))[0]
+
+
 class Box:
     def __init__(self, length, radius, discs, mistake):
         self.low, self.high, self.band = radius, length - radius, 1e-8 * radius
         self.sigma, self.discs, self.mistake = 2 * radius, discs, mistake
+        self.n_seen = 0  # pairs or walls, for mistakes that happen once
 
     def axis_time(self, x, v, rest=1.0):
         if v < 0 and x + v * rest < self.low + self.band:
@@ -114,6 +125,10 @@ class Box:
         for t, p, q in self.candidates():
             both = {p} if q < 0 else {p, q}
             is_free = not both & taken
+            if is_free and self.mistake == ("wall-free" if q < 0 else "pair-free"):
+                self.n_seen += 1
+                if self.n_seen == 3:
+                    continue
             if is_free or self.mistake == "lost-blocks":
                 taken |= both
             if is_free or self.mistake in ("list", "same-start", "last-start"):
@@ -140,6 +155,12 @@ class Box:
         for disc in discs:
             moved.add(disc.id)
             self.finish(disc, 1 - t)
+        if self.mistake == "one-disc" and q >= 0:
+            self.n_seen += 1
+            if self.n_seen == 3:
+                disc = self.discs[q]
+                x, y, disc.vx, disc.vy = self.start[q]
+                disc.x, disc.y = x + disc.vx, y + disc.vy
 
     def happen_from_start(self, t, discs, moved):
         """A collision as if it were the only one of the step. Changes of velocity add up, or the
@@ -257,6 +278,11 @@ def main():
     digits = sys.argv[3] if len(sys.argv) > 3 else ".8f"
     box = Box(length, radius, discs, mistake)
     for step in range(steps + 1):
+        if mistake == "single":
+            for disc in discs:
+                disc.x, disc.y, disc.vx, disc.vy = map(
+                    as_float, (disc.x, disc.y, disc.vx, disc.vy)
+                )
         if step > 0:
             (box.step_all if mistake == "many" else box.step)()
         if wanted == "perf" and 0 < step < steps:

@@ -23,16 +23,19 @@ namespace {
 constexpr const char* compare_footer =
     R"(OUTPUT has the lines that a program for the same scene has written: `step id x y vx vy`, in
 the last step also `p_c w_c`. It is held to the time-stepped method. The first line that differs is
-printed, with the rule that decides it and what the program may do instead: order, one collision
-a step, impulse, stop at a wall, overlap, corner, counters, lines.
+printed, with the rule that decides it and what the program may do instead: candidates, order, one
+collision a step, impulse, stop at a wall, overlap, corner, precision, counters, lines. Lines that
+are no lines of discs, such as a header or a time, are left out with a remark.
 
 The tolerance is for positions and for velocities per step. One unit of the last digit that OUTPUT
 has comes on top, up to half a radius. Roundings grow with every collision, and lines may be off by
 that much more.
 
-With --points grading goes on behind a wrong step, from the lines of the student, and a score is
-printed: 10 points for whole lines, 10 for the start, 60 for the share of steps that follow from the
-step before, 20 for the counters of the last step.
+With --points grading goes on behind a wrong or missing step, from the lines of the student, and a
+score is printed: 10 points for whole lines (5 of them for their order), 10 for the start, 60 for
+the share of steps that follow from the step before, 20 for the counters of the last step. If the
+scene does not ask for every step, the last one alone is enough, and the start is left out of the
+sum.
 
 Examples:
   carrom compare output.txt inputs/tiny.in
@@ -80,26 +83,19 @@ SceneParameters read_scene_on_all(const CompareOptions& options, std::istream& s
 }
 
 /// Grades step after step; returns whether no line differs. **Collective.**
-bool grade(const SceneParameters& scene, ComparedRuns& runs, Grader& grader,
-           const Communicator& ranks) {
+bool grade(ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
     int goes_on = 1, has_left_runs = 0, is_right = 0;
-    for (std::int64_t step = 0; step <= scene.steps && goes_on == 1; ++step) {
+    for (std::int64_t step = 0; goes_on == 1; ++step) {
         ExpectedDiscs expected;
         if (has_left_runs == 0) expected = runs.at(step);
-        const bool is_written = step == 0 || step == scene.steps ||
-                                scene.text_output == TextOutput::every_step;
         let_root(ranks, [&] {
-            if (has_left_runs == 0) grader.note_growth(step, expected);
-            if (is_written && !grader.grade(step, expected)) goes_on = 0;
+            goes_on = grader.grade(step, expected) ? 1 : 0;
             has_left_runs = grader.has_left_runs() ? 1 : 0;
+            is_right = grader.is_right() ? 1 : 0;
         });
         ranks.broadcast(goes_on);
         ranks.broadcast(has_left_runs);
     }
-    let_root(ranks, [&] {
-        if (goes_on == 1) grader.grade_end();
-        is_right = grader.is_right() ? 1 : 0;
-    });
     ranks.broadcast(is_right);
     return is_right == 1;
 }
@@ -125,7 +121,7 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
     std::istream& output = options.output == "-" ? std::cin : output_file;
     Grader grader(scene, options.tolerance.value_or(1e-6 * scene.radius), output,
                   options.output == "-" ? "standard input" : options.output, options.counts_points);
-    const bool is_same = grade(scene, runs, grader, ranks);
+    const bool is_same = grade(runs, grader, ranks);
     if (ranks.is_root()) fmt::print("{}", grader.verdict());
     if (ranks.is_root() && options.counts_points) fmt::print("{}", grader.points().text());
     int is_graded = grader.has_graded_all() ? 1 : 0; // only rank 0 knows it

@@ -237,7 +237,9 @@ Subcommand convert_subcommand() {
     constexpr const char* examples = R"(Examples:
   carrom convert trajectory.h5 --to xyz > discs.xyz
   carrom convert collisions.h5 --to csv --output collisions.csv
-  carrom convert kept/checkpoint-000000001000.h5 --to text | head)";
+  carrom convert kept/checkpoint-000000001000.h5 --to text | head
+
+The command carrom-import of the Python package does the reverse; it takes GSD and LAMMPS, too.)";
     struct Words {
         std::string file, format, output;
     };
