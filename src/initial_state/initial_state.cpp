@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/useful_threads.hpp"
 #include "dynamics/obstacles.hpp"
 #include "initial_state/legacy_discs.hpp"
 #include "initial_state/listed_discs.hpp"
@@ -71,7 +72,9 @@ std::vector<InputDisc> generated_discs(const SceneParameters& scene,
                                        const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
-    return insert_at_random(scene, communicator, n_threads);
+    // Placing has hundreds of short parallel regions, in each of which all threads have to wake.
+    const std::uint64_t own = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
+    return insert_at_random(scene, communicator, useful_threads(n_threads, own));
 }
 
 std::vector<InputDisc> legacy_discs(const SceneParameters& scene,

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "io/files.hpp"
+#include "io/seal.hpp"
 
 namespace carrom::h5 {
 
@@ -143,7 +144,7 @@ void refuse_other_files(hid_t file, const std::string& path) {
         if (std::error_code error; !std::filesystem::exists(part, error) && !error)
             continue; // whoever needs it reports that it is not there
         try {
-            const Descriptor plain(part, O_RDONLY);
+            check_heaps(part); // which must be a plain file
             const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
             if (!parts_named_in(opened.id()).empty())
                 throw FileError("has numbers in further files");

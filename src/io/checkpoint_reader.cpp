@@ -20,6 +20,7 @@
 #include "io/checksums.hpp"
 #include "io/child_process.hpp"
 #include "io/files.hpp"
+#include "io/segments.hpp"
 #include "parallel/slabs.hpp"
 
 namespace carrom {
@@ -297,6 +298,7 @@ std::optional<CheckpointHeader> check_damage(const std::string& path,
     on_root(communicator, path, ExitCode::bad_input, [&] {
         refuse_old_format(path);
         inspect_in_child_first([&] {
+            static_cast<void>(read_checked_index(path, false)); // before HDF5 opens segments
             is_checkpoint = h5::has(h5::open_file(path, h5::Access::read).id(), run_path) ? 1 : 0;
         });
     });

@@ -10,6 +10,7 @@
 
 #include "io/checked_dataset.hpp"
 #include "io/files.hpp"
+#include "io/seal.hpp"
 #include "io/start_io.hpp"
 #include "parallel/native.hpp"
 
@@ -171,19 +172,24 @@ void create_file(const std::string& path, const std::function<void(hid_t file)>&
     }
 }
 
-File open_file(const std::string& path, Access access) {
+File open_alone(const std::string& path, Access access) {
     be_quiet();
     const Descriptor plain(path, O_RDONLY); // HDF5 would wait for the other end of a pipe
+    if (access == Access::read && !check_seal(path)) check_heaps(path);
     if (H5Fis_hdf5(path.c_str()) == 0)
         throw FileError("is no HDF5 file, so none that carrom has written");
     try {
-        File file = opened(path, access, H5P_DEFAULT);
-        if (access == Access::read) refuse_other_files(file.id(), path);
-        return file;
+        return opened(path, access, H5P_DEFAULT);
     } catch (const FileError& error) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
         throw FileError("is cut short, or its first bytes are damaged");
     }
+}
+
+File open_file(const std::string& path, Access access) {
+    File file = open_alone(path, access);
+    if (access == Access::read) refuse_other_files(file.id(), path);
+    return file;
 }
 
 SharedFile::SharedFile(const std::string& path, Access access, const Communicator& communicator) {

@@ -82,7 +82,10 @@ Space space(std::span<const hsize_t> dimensions);
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
+/// A file that joins others is read only if these are plain files below its folder.
 File open_file(const std::string& path, Access access);
+/// Opens a file whose parts are of no interest, or are checked by the caller.
+File open_alone(const std::string& path, Access access);
 
 /// A file that ranks have open through MPI-IO, each to read or write its own rows.
 /// After a failure nothing collective is called on it, so it then stays open until the

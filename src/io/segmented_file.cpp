@@ -14,6 +14,7 @@
 #include "io/checked_dataset.hpp"
 #include "io/child_process.hpp"
 #include "io/h5md.hpp"
+#include "io/seal.hpp"
 
 namespace carrom {
 

@@ -1,53 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/segments.hpp"
 
-#include <cstring>
 #include <filesystem>
-#include <string_view>
-
-#include <fcntl.h>
 
 #include <fmt/format.h>
 
 #include "io/checked_dataset.hpp"
 #include "io/files.hpp"
+#include "io/seal.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr std::string_view mark = "carrom, checked:"; // then a checksum of 16 bytes: the file's end
-constexpr std::size_t end_size = mark.size() + sizeof(StateHash);
 constexpr const char *columns_path = "/carrom/recording/columns",
                      *segments_path = "/carrom/recording/segments";
 constexpr std::uint64_t largest_column = std::uint64_t{1} << 60;
 constexpr std::size_t n_fixed = 6; ///< a segment's numbers before the places of its columns
-
-StateHash hash_of(std::span<const std::byte> bytes) {
-    Hasher hasher;
-    hasher.add(bytes);
-    return hasher.digest();
-}
-
-std::vector<std::byte> read_end(const Descriptor& file, std::uint64_t begin) {
-    std::vector<std::byte> bytes(file.size() - begin);
-    if (file.read(bytes, begin) < bytes.size()) throw FileError("is cut short");
-    return bytes;
-}
-
-/// The mark and the checksum; nothing if the file does not end as an index does.
-std::vector<std::byte> end_of_index(const Descriptor& file) {
-    if (file.size() < end_size) return {};
-    std::vector<std::byte> end = read_end(file, file.size() - end_size);
-    if (std::memcmp(end.data(), mark.data(), mark.size()) != 0) return {};
-    return end;
-}
-
-/// Returns the file's bytes if they end as an index does.
-std::vector<std::byte> bytes_of_index(const std::string& path) {
-    const Descriptor file(path, O_RDONLY);
-    return end_of_index(file).empty() ? std::vector<std::byte>{} : read_end(file, 0);
-}
 
 Index read_index(hid_t file, const std::string& path) {
     Index index{h5::read_column<std::uint64_t>(file, columns_path), {}};
@@ -122,34 +91,9 @@ void write_index(hid_t file, const Index& index) {
     h5::write_column(file, segments_path, numbers);
 }
 
-void seal_index(const std::string& path) {
-    const Descriptor file(path, O_RDWR);
-    std::vector<std::byte> bytes = read_end(file, 0);
-    const std::size_t size = bytes.size();
-    bytes.resize(size + end_size);
-    std::memcpy(bytes.data() + size, mark.data(), mark.size());
-    const StateHash hash = hash_of(std::span(bytes).first(size + mark.size()));
-    std::memcpy(bytes.data() + size + mark.size(), &hash, sizeof hash);
-    file.write(std::span(bytes).subspan(size), size);
-    file.sync();
-}
-
-std::optional<StateHash> seal_of(const std::string& path) {
-    const std::vector<std::byte> end = end_of_index(Descriptor(path, O_RDONLY));
-    if (end.empty()) return std::nullopt;
-    StateHash hash;
-    std::memcpy(&hash, end.data() + mark.size(), sizeof hash);
-    return hash;
-}
-
 std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted) {
-    const std::vector<std::byte> bytes = bytes_of_index(path);
-    if (bytes.empty()) return std::nullopt;
-    const std::size_t hashed = bytes.size() - sizeof(StateHash);
-    const StateHash wanted = hash_of(std::span(bytes).first(hashed));
-    if (std::memcmp(&wanted, bytes.data() + hashed, sizeof wanted) != 0)
-        throw FileError("is damaged: its bytes do not have its checksum");
-    Index index = read_index(h5::open_file(path, h5::Access::read).id(), path);
+    if (!check_seal(path)) return std::nullopt;
+    Index index = read_index(h5::open_alone(path, h5::Access::read).id(), path);
     require_free_files(index.segments.size());
     for (const FileSegment& segment : index.segments) {
         try {

@@ -2,7 +2,7 @@
 // The segments of a recording, the list of them in the file that joins them, and the checksums.
 //
 // Segments are checked without HDF5, which might not survive a damaged one. The
-// joining file ends with a mark and the XXH3-128 of all bytes before.
+// joining file ends with a seal (seal.hpp).
 #pragma once
 
 #include <cstddef>
@@ -48,12 +48,6 @@ StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
                             const std::vector<std::uint64_t>& row_bytes);
 
 void write_index(hid_t file, const Index& index);
-
-/// Appends the mark and the checksum to a file that joins segments, and brings it to disk.
-void seal_index(const std::string& path);
-
-/// The checksum at the end of a file that joins segments; none of other files.
-std::optional<StateHash> seal_of(const std::string& path);
 
 /// The index of a file that joins segments; none if its last bytes show that it is no
 /// such file. Checks the file's own bytes and the structure of its segments, and all

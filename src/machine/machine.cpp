@@ -24,6 +24,7 @@
 
 #include <hwy/targets.h>
 
+#include "core/useful_threads.hpp"
 #include "parallel/agreement.hpp"
 
 namespace carrom {
@@ -31,10 +32,10 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
-/// Threads for each core where ranks share cores. A few are usual in trials on small machines.
-constexpr int most_crowded = 4;
-/// With fewer discs a thread works mostly on copies of discs of others. Two threads are no matter.
-constexpr std::uint64_t least_discs_per_thread = 16, few_threads = 2;
+/// Threads for each core where ranks share cores. Two are usual in trials on small machines.
+constexpr int most_crowded = 2;
+/// Two threads are no matter, however few the discs are.
+constexpr int few_threads = 2;
 
 /// A batch script may set it from a variable that does not exist; then it counts as unset.
 std::string thread_variable() {
@@ -116,7 +117,7 @@ std::size_t stack_of_threads() {
                               ? 1
                               : static_cast<int>(unit / 2);
         const double bytes = std::ldexp(number, 10 * power);
-        return bytes >= PTHREAD_STACK_MIN && bytes < 0x1p62 ? static_cast<std::size_t>(bytes) : 0;
+        return bytes >= static_cast<double>(PTHREAD_STACK_MIN) && bytes < 0x1p62 ? static_cast<std::size_t>(bytes) : 0;
     }
     return 0;
 }
@@ -212,14 +213,31 @@ void check_threads(int threads, const Communicator& ranks) {
     agree(ranks, failure.empty(), failure);
 }
 
+std::string limit_in_the_way() {
+    constexpr rlim_t least_memory = 128 << 20; // Open MPI and two threads take 105 MiB
+    constexpr rlim_t least_files = 24;         // Open MPI and a run without a folder take 17
+    const auto limit_of = [](auto kind) {
+        rlimit limit{};
+        return getrlimit(kind, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
+    };
+    if (const rlim_t bytes = limit_of(RLIMIT_AS); bytes < least_memory)
+        return "this process may have only " + std::to_string(bytes >> 10) +
+               " KiB of memory, and MPI and threads take " + std::to_string(least_memory >> 10) +
+               ": raise that limit (ulimit -v unlimited), then try again";
+    if (const rlim_t files = limit_of(RLIMIT_NOFILE); files < least_files)
+        return "this process may have only " + std::to_string(files) +
+               " files open at once, and MPI takes " + std::to_string(least_files) +
+               ": raise that limit (ulimit -n 1024), then try again";
+    return {};
+}
+
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks) {
     // Where threads are bound, only OpenMP knows the cores that they may use together.
     const int cores = std::max(1, omp_get_num_procs());
     const int sharers = sharers_of(allowed_cores().key, ranks);
     const std::uint64_t own = n_discs / static_cast<std::uint64_t>(ranks.size());
-    const auto useful = static_cast<int>(
-        std::clamp<std::uint64_t>(own / least_discs_per_thread, few_threads, most_threads));
+    const int useful = std::max(few_threads, useful_threads(most_threads, own));
     const int best = std::min(std::max(1, cores / sharers), useful);
     const std::string advice = "; try: --threads " + std::to_string(best);
     if (threads > cores || (threads > best && threads * sharers > most_crowded * cores))

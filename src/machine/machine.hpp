@@ -34,8 +34,12 @@ int default_threads(const Communicator& ranks);
 /// OpenMP itself would end the program then, with its own code. **Collective.**
 void check_threads(int threads, const Communicator& ranks);
 
+/// The limit of this process that leaves MPI and threads too little memory or too few open files to
+/// start; empty if there is none. Libraries would end the program, each with a code of its own.
+std::string limit_in_the_way();
+
 /// A warning with the number of threads to take if a rank has more threads than cores, if ranks
-/// that share cores have many more together, or if a rank has more than its discs keep at work;
+/// that share cores have more than twice as many together, or if a rank has more than its discs keep at work;
 /// else empty. **Collective.**
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks);

@@ -40,6 +40,12 @@ bool has_launcher() {
                        [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
+bool is_first_process() {
+    return std::all_of(known_launchers.begin(), known_launchers.end(), [](const auto& variables) {
+        return number_in(variables.size) <= 1 || number_in(variables.rank) == 0;
+    });
+}
+
 LoneProcess lone_process(int n_ranks) {
     if (n_ranks > 1) return {};
     for (const auto& [size, rank] : known_launchers) {

@@ -10,6 +10,9 @@ namespace carrom {
 /// Processes of a launcher that is not listed here each run alone.
 bool has_launcher();
 
+/// Whether this process is alone, or the first of those that its launcher has started.
+bool is_first_process();
+
 /// A process that the launcher of another MPI library has started with others. They do
 /// not know each other, and each would write the same files.
 struct LoneProcess {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "run/files/destinations.hpp"
 #include "run/files/report_file.hpp"
 #include "scene/limits.hpp"
 #include "scene/scene_text.hpp"
@@ -78,9 +79,16 @@ std::string write_failure_scene(const std::string& folder, const SceneParameters
                                 const CheckFailure& failure) {
     if (failure.discs_around.empty()) return "there are no discs around it to show";
     const std::string name = fmt::format("check_step_{}_disc_{}", failure.step, failure.disc);
-    const std::string scene_path = (std::filesystem::path(folder) / (name + ".toml")).string();
-    std::string write_error = write_whole_file(
-        (std::filesystem::path(folder) / (name + ".discs")).string(), disc_lines(scene, failure));
+    const std::filesystem::path place = folder;
+    const std::string scene_path = (place / (name + ".toml")).string(),
+                      discs_path = (place / (name + ".discs")).string();
+    std::string write_error;
+    for (const Problem& problem :
+         problems_with({{"the scene", scene_path, Output::scene},
+                        {"the list of its discs", discs_path, Output::scene}},
+                       {{"the scene that ran", scene.name}}))
+        if (write_error.empty()) write_error = problem.place + ' ' + problem.text;
+    if (write_error.empty()) write_error = write_whole_file(discs_path, disc_lines(scene, failure));
     if (write_error.empty())
         write_error = write_whole_file(scene_path, text_around(scene, failure, name + ".discs"));
     if (!write_error.empty()) return "the discs around it could not be written: " + write_error;

@@ -106,6 +106,13 @@ grep -qE "$checkpoint: disc [0-9]+ at .* is not inside the box" "$test_folder/er
     { complain 'a disc without its id'; show; }
 grep -qE "$checkpoint:[0-9]|lines" "$test_folder/err" &&
     { complain 'a line of a checkpoint'; show; }
+# A wrong number of discs in species is one error, and the scene has no discs.count to name.
+printf '[box]\nsize = 1000\n[discs]\nspecies = [{count = 5, radius = 1}, {count = 3, radius = 2}]
+from = "%s"\n[time]\nsteps = 1\n' "$checkpoint" >species.toml
+run 1 run species.toml --quiet
+expect_code 2 'a wrong number of discs in species'
+expect_told 'has 300 discs, and the scene is of 8' 'a wrong number of discs in species'
+[ "$(wc -l <"$test_folder/err")" -eq 1 ] || { complain 'more than one error of species'; show; }
 # Which of two sources is meant is unknown, so the discs of neither are read.
 for other in 'file = "left"' 'list = [[3, 3, 0, 0]]'; do
     next_scene "radius = $radius

@@ -28,14 +28,16 @@ class Limits(ProgramTest):
         super().setUp()
         self.write("scene.toml", SCENE)
 
-    def ended(self, *words, variables=None, memory=None):
-        """The code and the messages of a run with these variables and as many bytes of memory."""
+    def ended(self, *words, variables=None, memory=None, files=None):
+        """The code and the messages of a run with these variables and limits."""
         def limit():
-            resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+            for kind, most in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_NOFILE, files)):
+                if most:
+                    resource.setrlimit(kind, (most, most))
         Limits.n_runs += 1
         run = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, text=True, timeout=60,
                              env=ENVIRONMENT | (variables or {}), capture_output=True, check=False,
-                             preexec_fn=limit if memory else None)
+                             preexec_fn=limit)
         return run.returncode, run.stderr
 
     def run_quietly(self, *words, **limits):
@@ -67,6 +69,31 @@ class Limits(ProgramTest):
             # Another OpenMP or MPI may do with it; what no run may return is a verdict.
             self.assertIn(code, (0, 3, 127), words)
             self.assertTrue(code != 3 or "carrom: " in words or "rank 0" in words, words)
+
+    def test_limits_below_what_libraries_take(self):
+        """MPI's library ended these with codes 1, 2, 12, 134 and 139."""
+        for kilobytes in (45_000, 61_440, 80_000, 90_000):
+            for threads in (1, 2):
+                code, words = self.run_quietly("--threads", threads, memory=kilobytes << 10)
+                self.assertEqual(code, 3, words)
+                self.assertIn(f"only {kilobytes} KiB of memory", words)
+        for files in (5, 6, 7, 8, 9, 10, 11, 12, 13, 16, 20):
+            code, words = self.run_quietly(files=files)
+            self.assertEqual(code, 3, words)
+            self.assertIn(f"only {files} files open", words)
+            self.assertIn("(ulimit -n 1024)", words)
+        self.assertEqual(self.run_quietly("--threads", 2, memory=192 << 20, files=40)[0], 0)
+
+    def test_many_threads_of_few_discs_end_soon(self):
+        """Placing woke all threads hundreds of times: 35 s for 1000 threads."""
+        self.write("few.toml", SCENE.replace("count = 200", "count = 30"))
+        begin = resource.getrusage(resource.RUSAGE_CHILDREN)
+        code, words = self.ended("run", "few.toml", "--quiet", "--threads", 400)
+        end = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertEqual(code, 0, words)
+        self.assertIn("try: --threads", words)
+        switches = (end.ru_nvcsw + end.ru_nivcsw) - (begin.ru_nvcsw + begin.ru_nivcsw)
+        self.assertLess(switches, 250_000)  # 50,000; before 720,000
 
     def test_on_several_ranks(self):
         self.run_program(2, "run", "scene.toml", "--threads", 9, "--steps", 0, "--quiet",

@@ -5,6 +5,7 @@
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
 #include "io/start_io.hpp"
+#include "machine/machine.hpp"
 #include "parallel/launcher.hpp"
 #include "parallel/mpi.hpp"
 
@@ -24,6 +25,11 @@ bool is_started_well(const carrom::Communicator& ranks) {
 int main(int argc, char** argv) {
     carrom::keep_standard_streams();
     const carrom::Action action = carrom::parse_command_line(argc, argv);
+    if (const std::string limit = carrom::limit_in_the_way();
+        !limit.empty() && (action.needs_mpi || carrom::has_launcher())) {
+        if (carrom::is_first_process()) carrom::print_message("carrom: {}\n", limit);
+        return static_cast<int>(carrom::ExitCode::collective_failure);
+    }
     if (action.needs_mpi || action.stops_on_request) carrom::let_threads_sleep(argv);
     if (action.stops_on_request) carrom::note_stop_signals();
     carrom::guard_exit();

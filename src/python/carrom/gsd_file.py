@@ -17,6 +17,7 @@ from carrom.adapters import (
     positions_of,
     velocities_of,
 )
+from carrom.destinations import refuse_owned
 from carrom.errors import NoDataError
 from carrom.frame import Frame
 from carrom.runs import Run
@@ -48,6 +49,7 @@ def to_gsd(
         raise NoDataError("to_gsd needs at least one frame")
     rows = _thermo_rows(source) if isinstance(source, Run) else {}
     path = Path(path)
+    refuse_owned(path)
     part = path.with_name(path.name + ".part")
     with hoomd.open(part, mode="w") as file:
         for frame in frames:

@@ -10,7 +10,7 @@ from typing import Any
 import h5py
 
 from carrom.errors import FileError
-from carrom.plain import open_plain
+from carrom.heaps import have_end
 
 _MOST_OBJECTS = 100_000
 _DEEPEST_GROUP = 16
@@ -43,7 +43,8 @@ def open_file(path: str | os.PathLike[str]) -> h5py.File:
 def _opened(path: Path) -> h5py.File:
     """Open as everybody does, so that the same file can be open elsewhere in this process."""
     try:
-        open_plain(path).close()
+        if not have_end(path):
+            raise FileError(f"{path}: is damaged: HDF5 would come to no end in one of its heaps")
         try:
             return h5py.File(path, "r")
         except OSError:  # perhaps a file system without locks, or it is open without them

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from carrom.destinations import refuse_owned
 from carrom.errors import CarromError, FileError
 from carrom.plain import open_plain
 from carrom.running import run
@@ -121,6 +122,7 @@ def _seconds_of_a_step(row: Row) -> float:
 
 def write_table(rows: Iterable[Row], path: str | os.PathLike[str]) -> None:
     """Write rows as CSV. The first columns are those of job_scripts/strong_scaling.sbatch."""
+    refuse_owned(path)
     with open(path, "w", encoding="ascii", newline="") as file:
         table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         table.writeheader()
@@ -146,6 +148,7 @@ def plot(rows: Sequence[Row], path: str | os.PathLike[str]) -> None:
     mpl.use("Agg")
     from matplotlib import pyplot
 
+    refuse_owned(path)
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
     cores = sorted({int(row["cores"]) for row in rows})
     left.plot(cores, [n / cores[0] for n in cores], color="0.6", linestyle="--", label="ideal")
@@ -222,6 +225,9 @@ def main(words: Sequence[str] | None = None) -> int:
     if wanted.weak and wanted.discs is None and wanted.table is None:
         parser.error("--weak needs --discs, the number for one core")
     try:
+        for path in (wanted.output, wanted.plot):
+            if path:
+                refuse_owned(path)
         rows = _rows(wanted)
         write_table(rows, wanted.output)
         if wanted.plot:

@@ -24,6 +24,7 @@ import numpy.typing as npt
 from carrom import display
 from carrom.checkpoints import Checkpoint
 from carrom.core_module import load
+from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
 from carrom.launching import CarromWarning, ProgressLike
@@ -356,6 +357,7 @@ class Simulation:
 
         `carrom.Simulation(path)` and `carrom run --restart` go on from it with the same bits.
         """
+        refuse_owned(path, begins=(b"\x89HDF",))
         self._core.write_checkpoint(os.fspath(path))
         return Path(path)
 

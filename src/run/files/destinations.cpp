@@ -48,8 +48,11 @@ const char* words_for(FileContent content) {
 
 /// Whether an output may replace a file with this content.
 bool may_replace(Output output, FileContent content) {
-    if (content == FileContent::nothing) return true;
-    return content == (output == Output::report ? FileContent::report : FileContent::other);
+    switch (output) {
+    case Output::report: return content == FileContent::nothing || content == FileContent::report;
+    case Output::scene: return content == FileContent::nothing || content == FileContent::scene;
+    default: return content == FileContent::nothing || content == FileContent::other;
+    }
 }
 
 /// The reason against an output, apart from those of other outputs and of what is read.

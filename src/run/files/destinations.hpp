@@ -24,6 +24,7 @@ enum class Output {
     text,     ///< in place, so a pipe or a terminal is allowed; replaces texts
     report,   ///< as a whole; replaces reports
     table,    ///< a new file of CSV
+    scene,    ///< as a whole, with a name that only this program gives; replaces scenes and discs
     folder,   ///< a folder of a run or of replicas
     of_folder ///< a file of the run's own folder, which the run may replace
 };

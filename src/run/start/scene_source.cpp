@@ -97,7 +97,8 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
         });
     FromFile from;
     std::vector<std::string>& settings = from.settings;
-    if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
+    if (file.n_discs > 0 && scene.n_discs == 0) // else the scene has its own number
+        settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
     if (!file.departed.empty()) from.warning = note_on_departed(path, file);
     return from;

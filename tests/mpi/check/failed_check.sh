@@ -15,6 +15,15 @@ for method in time-stepped event-driven; do
     expect_told 'overlaps disc 9 by 2' "the failure under $method"
     expect_told '12 discs around it, from the step before, are in check_step_2_disc_5.toml' \
         "the failure under $method"
+    # A checkpoint of somebody under that name stays, and is no reason to end otherwise.
+    mv check_step_2_disc_5.discs kept.discs
+    printf '\211HDF\r\n\032\n' >check_step_2_disc_5.discs
+    run "$n_ranks" "$method"
+    expect_code 70 "a missed contact beside a file under $method"
+    expect_told 'could not be written: the list of its discs check_step_2_disc_5.discs is an HDF5' \
+        "a file in the way under $method"
+    [ "$(wc -c <check_step_2_disc_5.discs)" = 8 ] || complain "a file is replaced under $method"
+    mv kept.discs check_step_2_disc_5.discs
     CARROM_PROGRAM=$program
     run "$n_ranks" run check_step_2_disc_5.toml --check --report report.json
     expect_code 0 "the neighbourhood again under $method"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -333,3 +334,23 @@ def test_reports_nested_without_end_are_no_reports(
     (tmp_path / "copy/report.json").write_text(text)
     with pytest.raises(carrom.FileError, match=r"report\.json"):
         print(carrom.open(tmp_path / "copy", check=False).report)
+
+
+def test_a_heap_without_end_is_damage(run: carrom.Run, tmp_path: Path) -> None:
+    """HDF5 up to 2.0 loops where free room in a global heap has no size."""
+    shutil.copytree(Path(str(run.folder)), tmp_path / "copy")
+    path = tmp_path / "copy/trajectory.h5"
+    content = path.read_bytes()
+    heap = content.index(b"GCOL")
+    for begin in (heap + 16, heap + 24):
+        for end in (heap + 4096, len(content)):
+            path.write_bytes(content[:begin] + bytes(end - begin) + content[end:])
+            code = (
+                f"import carrom\nfor check in (False, True):\n"
+                f"    try: carrom.open({str(path)!r}, check=check).frames[-1].x\n"
+                f"    except carrom.FileError: print('damaged')\n"
+            )
+            done = subprocess.run(
+                [sys.executable, "-c", code], capture_output=True, text=True, timeout=60
+            )
+            assert done.stdout == "damaged\ndamaged\n", done.stderr

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from carrom import plot
+from carrom.destinations import refuse_owned
 from carrom.errors import CarromError
 from carrom.plot.sources import COLOURS
 from carrom.scene import read_scene
@@ -25,6 +26,7 @@ def main(words: Sequence[str] | None = None) -> int:
         import matplotlib as mpl
 
         mpl.use("Agg")
+        refuse_owned(options.output)
         options.act(options)
     except (CarromError, ValueError, OSError) as error:
         print(f"carrom-plot: {error}", file=sys.stderr)

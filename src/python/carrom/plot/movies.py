@@ -20,6 +20,7 @@ from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 from PIL import Image
 
+from carrom.destinations import refuse_owned
 from carrom.errors import FileError, MissingPackageError
 from carrom.frame import Frame
 from carrom.plot.drawing import Picture, Style, colour_of
@@ -71,6 +72,7 @@ def movie(
     if every < 1 or not rate > 0:
         raise ValueError(f"every must be at least 1 and rate above 0, not {every} and {rate}")
     path = Path(path)
+    refuse_owned(path)
     if not path.parent.is_dir():
         raise FileError(f"{path}: there is no folder {path.parent}")
     ffmpeg = "" if path.suffix == ".gif" else find_ffmpeg()
