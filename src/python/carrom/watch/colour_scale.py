@@ -45,7 +45,8 @@ class ColourScale:
 def speeds(velocities: Array) -> Array:
     """Return the speeds (n,) of velocities (n, 2) in the precision that the page draws."""
     wide = velocities.astype(np.float64)
-    return np.sqrt(np.einsum("ij,ij->i", wide, wide)).astype(np.float32)
+    found: Array = np.sqrt(np.einsum("ij,ij->i", wide, wide)).astype(np.float32)
+    return found
 
 
 def _top_of(frame: Frame) -> float:
