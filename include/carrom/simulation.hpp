@@ -28,6 +28,7 @@ struct Options {
     /// Gets on rank 0 each line that `carrom run` prints as it starts, such as warnings and what a
     /// pilot has chosen. Empty: nobody does.
     std::function<void(const std::string& line)> messages{};
+    bool counts_images = false; ///< of `read_images`; takes 16 bytes a disc in periodic boxes
 };
 
 /// When `advance_to` writes checkpoints, and which of them it keeps.
@@ -89,6 +90,13 @@ public:
     void read_velocities(std::span<double> xy) const; ///< length per step
     void read_spins(std::span<double> spins) const;   ///< angle per step
     void read_collisions(std::span<std::int64_t> counts) const;
+
+    /// Writes box lengths that discs have flown on through periodic sides, along x and along y, to
+    /// places 2 id and 2 id + 1: each rank those of its share of the ids. The place plus these
+    /// lengths goes on without jumps. They count from the scene's start, or from a checkpoint that
+    /// has none. Writes nothing unless `Options::counts_images` was set and a side is periodic.
+    /// Throws InputError between sheared sides, whose images move. **Collective.**
+    void read_images(std::span<std::int32_t> lengths) const;
 
     /// Radius, mass and species of all discs of the scene, by id. Not collective.
     std::vector<DiscKind> kinds() const;

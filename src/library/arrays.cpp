@@ -5,6 +5,7 @@
 
 #include "library/live_part.hpp"
 #include "library/simulation_state.hpp"
+#include "parallel/meeting.hpp"
 
 namespace carrom {
 
@@ -65,6 +66,21 @@ void Simulation::read_collisions(std::span<std::int64_t> counts) const {
         counts[2 * disc.id] = static_cast<std::int64_t>(disc.wall_collisions);
         counts[2 * disc.id + 1] = static_cast<std::int64_t>(disc.pair_collisions);
     });
+}
+
+void Simulation::read_images(std::span<std::int32_t> lengths) const {
+    check_size("read_images", lengths.size(), 2 * scene().n_discs);
+    Run& run = live().run();
+    if (run.scene().effects.are_sheared())
+        throw InputError({{"read_images", 0,
+                           "between sheared sides images move: whole numbers do not say where "
+                           "they are"}});
+    meet(run.ranks(), "Simulation::read_images");
+    if (!run.images()) return;
+    for (const DiscImage& image : run.images()->now()) {
+        lengths[2 * image.id] = image.x;
+        lengths[2 * image.id + 1] = image.y;
+    }
 }
 
 std::vector<DiscKind> Simulation::kinds() const {

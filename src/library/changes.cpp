@@ -123,18 +123,28 @@ std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vect
     return problems;
 }
 
-/// Changes the discs of a stored state. Returns whether this rank's places and whether any numbers
-/// have changed. Departed discs stay as they are.
-std::pair<bool, bool> change_stored(const std::vector<Disc>& discs, const Run& run,
-                                    StoredState& state) {
+/// What a call has changed on this rank.
+struct Changed {
+    bool places = false, any = false;
+    /// Box lengths between where moved discs flew, outside of a periodic box, and where the box saw
+    /// them. Their stored places are new, so no sync brings them back.
+    std::vector<Crossing> crossings{};
+};
+
+/// Changes the discs of a stored state. Departed discs stay as they are.
+Changed change_stored(const std::vector<Disc>& discs, const Run& run, StoredState& state) {
     const DiscSystem& system = run.system();
     const Frame frame = system.frame();
+    const Periods& box = frame.periods;
+    const auto lengths = [](double flown, double shown, double period) {
+        return period == 0 ? 0 : std::round((flown - shown) / period);
+    };
     const double unit = system.velocity_unit(), time = system.clock();
     std::vector<double> no_spins;
     std::vector<double>& spins = state.columns.has(SideColumn::spin)
                                      ? state.columns[SideColumn::spin]
                                      : no_spins;
-    std::pair<bool, bool> changed{false, false};
+    Changed changed;
     for (std::size_t i = 0; i < state.discs.size(); ++i) {
         DiscState& stored = state.discs[i];
         if (stored.has_departed()) continue;
@@ -142,8 +152,13 @@ std::pair<bool, bool> change_stored(const std::vector<Disc>& discs, const Run& r
         const DiscState shown = frame.in_box(stored, time);
         const Change change = change_of(disc, shown, unit, spins.empty() ? 0 : spins[i] * unit);
         if (!change.is_any()) continue;
-        changed.first |= change.of_place;
-        changed.second = true;
+        changed.any = true;
+        if (change.of_place) {
+            changed.places = true;
+            changed.crossings.push_back({stored.id,
+                                         lengths(stored.x_at(time) + frame.x, shown.x, box.x),
+                                         lengths(stored.y_at(time) + frame.y, shown.y, box.y)});
+        }
         apply(disc, change, shown, frame, time, unit, stored);
         if (change.of_spin) spins[i] = disc.spin / unit;
     }
@@ -155,6 +170,7 @@ std::pair<bool, bool> change_stored(const std::vector<Disc>& discs, const Run& r
 RunStart stored_start(Run& run) {
     RunStart start;
     start.samples = run.stored_samples();
+    start.counts_images = run.images() != nullptr;
     const std::span<const DiscState> discs = run.system().discs();
     StoredState& state = start.stored.emplace();
     state.discs.assign(discs.begin(), discs.end());
@@ -184,17 +200,20 @@ void Simulation::change_discs(std::span<const Disc> changed) {
     std::ranges::sort(sorted, {}, &Disc::id);
     agree_on_problems(run.ranks(), problems_of(sorted, discs(), run));
     RunStart start = stored_start(run);
-    const auto [places, any] = change_stored(sorted, run, *start.stored);
-    if (!run.ranks().any(any)) return;
-    const bool are_moved = run.ranks().any(places);
+    const Changed mine = change_stored(sorted, run, *start.stored);
+    if (!run.ranks().any(mine.any)) return;
+    const bool are_moved = run.ranks().any(mine.places);
     const std::uint64_t overlaps = are_moved ? run.system().totals().overlapping_pairs : 0;
     if (are_moved) {
-        std::vector<std::int64_t> effects = std::move(start.samples.effects);
-        start.samples = {};
-        start.samples.effects = std::move(effects);
+        StoredSamples kept;
+        kept.effects = std::move(start.samples.effects);
+        kept.have_images = start.samples.have_images;
+        if (kept.have_images) kept.first_places = std::move(start.samples.first_places);
+        start.samples = std::move(kept);
     }
     start.samples.averages.clear();
     live().replace(std::move(start), are_moved ? std::optional(overlaps) : std::nullopt);
+    if (ImageCounts* images = live().run().images()) images->add(mine.crossings);
 }
 
 } // namespace carrom

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,6 +23,16 @@
 namespace carrom {
 
 namespace {
+
+/// At most one crossing a disc comes with each sync, which is 64 steps after the last one if a step
+/// has one micro-step.
+constexpr std::int64_t steps_between_readings = 64;
+
+/// Images are of periodic sides at rest alone.
+bool may_count_images(const Options& options, const SceneParameters& scene) {
+    return options.counts_images && !scene.effects.are_sheared() &&
+           (scene.effects.is_periodic_x() || scene.effects.is_periodic_y());
+}
 
 /// **Collective.**
 Tuning tuning_of(const Options& options, const Communicator& ranks) {
@@ -46,8 +57,9 @@ std::unique_ptr<Simulation::State> begun(const Session& session, const Scene& sc
     meet(ranks, "Simulation");
     const Tuning tuning = tuning_of(options, ranks);
     FirstState first = first_state(scene, ranks, tuning);
-    return std::make_unique<Simulation::State>(std::move(first.scene),
-                                               RunStart{.discs = std::move(first.discs)}, ranks,
+    RunStart start{.discs = std::move(first.discs)};
+    start.counts_images = may_count_images(options, first.scene);
+    return std::make_unique<Simulation::State>(std::move(first.scene), std::move(start), ranks,
                                                tuning, messages_of(options, ranks));
 }
 
@@ -60,6 +72,23 @@ Simulation::State::State(SceneParameters checked, RunStart start, const Communic
     : tuning(of_run),
       run_(std::make_unique<Run>(std::move(checked), std::move(start), ranks, tuning, messages)) {
     facts = facts_of(run_->scene());
+    read_images_often();
+}
+
+std::int64_t Simulation::State::ImageReading::next_due(std::int64_t) const {
+    return std::numeric_limits<std::int64_t>::max(); // a step where the run stops anyway will do
+}
+
+bool Simulation::State::ImageReading::act() {
+    if (run.step() - last_step < steps_between_readings) return true;
+    static_cast<void>(run.images()->counts());
+    last_step = run.step();
+    return true;
+}
+
+void Simulation::State::read_images_often() {
+    image_reading_.reset();
+    if (run_->images()) run_->add(image_reading_.emplace(*run_));
 }
 
 void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> most_overlaps) {
@@ -74,6 +103,7 @@ void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> mos
     }
     checkpoints_.reset(); // it refers to the run
     run_ = std::move(next);
+    read_images_often();
     if (wanted_checkpoints_) keep_checkpoints(*wanted_checkpoints_);
 }
 
@@ -106,6 +136,7 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
     wanted.messages = messages_of(options, ranks);
     Loaded loaded;
     with_named_keys([&] { load_restart(wanted, loaded, ranks); });
+    loaded.start.counts_images = may_count_images(options, loaded.scene);
     return Simulation(std::make_unique<State>(std::move(loaded.scene), std::move(loaded.start),
                                               ranks, tuning_of(options, ranks), wanted.messages));
 }

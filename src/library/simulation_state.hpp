@@ -35,7 +35,20 @@ struct Simulation::State {
     Tuning tuning;
 
 private:
+    /// Keeps crossings of periodic sides from filling the memory where nobody reads the images.
+    struct ImageReading final : StepAction {
+        explicit ImageReading(Run& of) : run(of) {}
+        std::int64_t next_due(std::int64_t) const override;
+        bool act() override;
+
+        Run& run;
+        std::int64_t last_step = 0;
+    };
+
+    void read_images_often();
+
     std::unique_ptr<Run> run_; ///< another one once discs were changed
+    std::optional<ImageReading> image_reading_;
     std::optional<CheckpointOutput> wanted_checkpoints_;
     std::optional<Checkpoints> checkpoints_; ///< from keep_checkpoints on
 };

@@ -33,6 +33,10 @@ public:
 
     /// Counts from 0 at the last sync on.
     void begin_anew();
+    /// Adds box lengths by which own discs have been brought back other than by syncs.
+    void add(std::span<const Crossing> crossings) {
+        crossings_.insert(crossings_.end(), crossings.begin(), crossings.end());
+    }
 
     /// The counts of this rank's run of ids at the last sync. To be called often,
     /// because crossings since the last call take memory. **Collective.**

@@ -125,7 +125,8 @@ from pathlib import Path
 CHANGES = {
     '"h5py>=3.7",': '"h5py>=3.7", "mpich>=4.1",',
     "[project.scripts]\n": '[project.scripts]\ncarrom = "carrom.program:main"\n',
-    'carrom = ["py.typed"]': 'carrom = ["py.typed", "bin/*", "libraries/*", "licenses/*"]',
+    'carrom = ["py.typed", "*.pyi"]':
+        'carrom = ["py.typed", "*.pyi", "bin/*", "libraries/*", "licenses/*"]',
 }
 path = Path(sys.argv[1])
 text = path.read_text(encoding="utf-8")

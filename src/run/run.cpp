@@ -39,7 +39,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
     if (const double more = system_.bytes_for_crowds(); more > 0 && !is_restart_)
         check_memory(scene_, ranks_, more); // now that places are known
     refuse_hard_cases(scene_, system_, ranks_, messages);
-    if (scene_.trajectory && scene_.trajectory->has_image) {
+    if (start.counts_images || (scene_.trajectory && scene_.trajectory->has_image)) {
         images_.emplace(scene_.box, system_, ranks_);
         has_earlier_images_ = start.samples.have_images;
         if (has_earlier_images_)

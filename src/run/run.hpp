@@ -48,8 +48,8 @@ public:
     const Sampler& sampler() const { return sampler_; }
     /// Order and energy, if the run has some that may change unseen.
     const OrderWatch& watch() const { return watch_; }
-    /// Counts for a trajectory that shows images; null if there is none. They go on
-    /// from a checkpoint that has some.
+    /// Counts for a trajectory that shows images, or as the start asks for them; else null. They
+    /// go on from a checkpoint that has some.
     ImageCounts* images() { return images_ ? &*images_ : nullptr; }
     bool has_earlier_images() const { return has_earlier_images_; }
 

@@ -92,6 +92,19 @@ class BrowserTest(unittest.TestCase):
         self.assertAlmostEqual((np.ptp(rows) + 1) / height, scale, delta=0.02 * scale)
         self.assertAlmostEqual(covered.sum() / scale**2, 200 * np.pi * radius**2, delta=0.03 * 480)
 
+    def test_a_step_has_one_scale_of_colours_in_all_windows(self):
+        loss = '[effects.contact]\nkind = "restitution"\nrestitution = 0.6\n'
+        run("cools", text=SCENE.format(steps=60, every=5, pressure=10) + loss)
+        found = set()
+        with Page("cools") as page:
+            for words in ("?step=60", "?step=0&play=1", "?step=60&play=-1"):
+                _, text = self.shown(page, words)
+                found.add(re.search('id="high">([^<]*)<', text)[1])
+        self.assertEqual(len(found), 1)
+        _, _, velocities = stored("cools")
+        speeds = np.sort(np.linalg.norm(velocities[0].astype(float), axis=1))
+        self.assertAlmostEqual(float(found.pop()), speeds[199], delta=0.01 * speeds[199])
+
     def test_walls_that_move_are_drawn_where_they_are(self):
         text = SCENE.format(steps=60, every=5, pressure=10)
         text = text.replace("[discs]", 'right = {kind = "moving", speed = -0.1}\n[discs]')

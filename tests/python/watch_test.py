@@ -80,6 +80,7 @@ class ServerTest(unittest.TestCase):
         run("large", text=text.replace("count = 200", "count = 200_000"))
         with Page("large") as page:
             page.json("state?have=0&last=-1")  # opens the run, as a page does first
+            page.frame("step=0")  # has the scale of colours read
             counted, plain = [], h5py.Dataset.__getitem__
 
             def read(dataset, *words):
@@ -117,6 +118,32 @@ class ServerTest(unittest.TestCase):
             )
             with self.assertRaisesRegex(urllib.error.HTTPError, "404"):
                 page.json("field?name=colour")
+
+    def test_the_scale_of_colours_is_that_of_the_first_frame(self):
+        """In a granular gas speeds fall, so that each step of its own would have another scale."""
+        loss = '[effects.contact]\nkind = "restitution"\nrestitution = 0.6\n'
+        run("scale", text=SCENE.format(steps=60, every=5, pressure=10) + loss)
+        _, _, velocities = stored("scale")
+        speeds = np.linalg.norm(velocities.astype(float), axis=2)
+        slower = np.sort(speeds[0])[199]  # 0.995 of 200 discs are slower
+        self.assertLess(speeds[-1].max(), 0.9 * slower)
+        for first in (60, 25, 0):  # windows that open at other steps, each of a server of its own
+            with Page("scale") as page:
+                for words in (f"step={first}", "step=60", "step=60&view=10,10,20,20", "step=0"):
+                    about, _ = page.frame(words)
+                    self.assertAlmostEqual(about["top"], slower, places=6, msg=(first, words))
+
+    def test_discs_that_rest_at_first_have_the_scale_of_the_first_motion(self):
+        fall = "[effects.gravity]\ny = -0.001\n"
+        text = SCENE.format(steps=20, every=5, pressure=10).replace("speed = 0.2", "speed = 0")
+        run("fall", text=text + fall)
+        _, _, velocities = stored("fall")
+        self.assertEqual(np.abs(velocities[0]).max(), 0)
+        with Page("fall") as page:
+            for step in (20, 0):
+                about, _ = page.frame(f"step={step}")
+                wanted = np.sort(np.linalg.norm(velocities[1], axis=1))[199]
+                self.assertAlmostEqual(about["top"], wanted, places=6)
 
     def test_curves_are_those_of_the_tables(self):
         run("curves", options=("--set", "output.collisions=true"))

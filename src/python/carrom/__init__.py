@@ -27,6 +27,8 @@ from carrom.frame import Frame
 from carrom.frames import Frames
 from carrom.gsd_file import to_gsd
 from carrom.launching import CarromWarning
+from carrom.live_results import LiveTables
+from carrom.memory_frame import MemoryFrame
 from carrom.physics import (
     Measured,
     average,
@@ -49,8 +51,11 @@ from carrom.trajectory_frame import TrajectoryFrame
 
 __version__ = "0.3.0"
 
-trust([Run, TrajectoryFrame, Checkpoint, Frames, Sweep, Simulation], [Tables, Frames, Checkpoints])
-del trust, TrajectoryFrame
+trust(
+    [Run, TrajectoryFrame, Checkpoint, Frames, Sweep, Simulation, MemoryFrame],
+    [Tables, Frames, Checkpoints, LiveTables],
+)
+del trust, TrajectoryFrame, MemoryFrame, LiveTables
 
 # `open` is left out, so that `from carrom import *` does not replace that of Python.
 __all__ = [

@@ -11,6 +11,7 @@ import numpy as np
 from carrom import display
 from carrom.disc_arrays import Array
 from carrom.errors import NoDataError
+from carrom.labelled import import_package
 from carrom.physics import Measured
 from carrom.tables import Table, is_whole
 
@@ -58,6 +59,16 @@ class Averages(Mapping[str, Measured]):
             "error": np.array([measured.error for measured in self._of.values()]),
         }
         return Table.from_columns(columns).to_pandas().set_index("average")
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return a Dataset of `value` and `error` over `average`, the names."""
+        xr = import_package("xarray", "to_xarray")
+        columns = {
+            name: ("average", np.array([getattr(measured, name) for measured in self.values()]))
+            for name in Measured._fields
+        }
+        data: xarray.Dataset = xr.Dataset(columns, coords={"average": list(self)})
+        return data
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self, *_SHORT]

@@ -3,13 +3,18 @@
 
 from __future__ import annotations
 
+import contextlib
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from carrom.disc_arrays import Array
+from carrom.errors import SceneError
 from carrom.frame import Frame
+
+if TYPE_CHECKING:
+    from carrom.simulation import Simulation
 
 
 class LocalDiscs(NamedTuple):
@@ -28,22 +33,15 @@ class LocalDiscs(NamedTuple):
 class MemoryFrame(Frame):
     """The discs of a simulation at one step, in float64. Later steps do not change it."""
 
-    def __init__(
-        self,
-        step: int,
-        box: Array,
-        periodic: tuple[bool, bool],
-        bodies: tuple[Array, Array, Array],
-        motion: tuple[Array, Array, Array],
-        collisions: tuple[Array, Array],
-    ) -> None:
-        """Take radii, masses and species, then positions, velocities and spins."""
-        self.step = step
-        self.box = box
-        self.periodic = periodic
-        self._radius, self._mass, self._species = bodies
-        self.x, self.v, self.spin = motion
-        self.wall_collisions, self.pair_collisions = collisions
+    def __init__(self, sim: Simulation) -> None:
+        """Copy all arrays of a simulation. On several ranks all make the call."""
+        self.step = sim.step
+        self.box, self.periodic = sim.box, sim.periodic
+        self._radius, self._mass, self._species = sim.radii, sim.masses, sim.species
+        self.x, self.v, self.spin = sim.positions, sim.velocities, sim.spins
+        self.wall_collisions, self.pair_collisions = sim.wall_collisions, sim.pair_collisions
+        with contextlib.suppress(SceneError):  # between sheared sides there are no images
+            self.image = sim.images
 
     @property
     def n_discs(self) -> int:
@@ -64,6 +62,7 @@ class MemoryFrame(Frame):
     x: Array
     v: Array
     spin: Array
+    image: Array
     wall_collisions: Array
     pair_collisions: Array
 

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from html import escape
+from typing import Any
 
 _STEP = re.compile(r"step (\d+) of (\d+) ")
 _SHARE = re.compile(r"(\d+) of (\d+)")
@@ -69,15 +70,25 @@ def _line() -> tuple[Show, Callable[[], None]]:
 
 
 def _bar() -> tuple[Show, Callable[[], None]]:
-    """Show progress as a bar below the cell of a notebook."""
+    """Show progress as a bar below the cell of a notebook.
+
+    It is made when there is something to show, because a loop of short runs would otherwise fill
+    the notebook with empty outputs.
+    """
     from IPython.display import HTML, display
 
-    handle = display(HTML(""), display_id=True)
+    handles: list[Any] = []
 
     def show(line: str) -> None:
-        handle.update(HTML(bar_html(line)))
+        if not handles:
+            handles.append(display(HTML(""), display_id=True))
+        handles[0].update(HTML(bar_html(line)))
 
-    return show, lambda: handle.update(HTML(""))
+    def wipe() -> None:
+        for handle in handles:
+            handle.update(HTML(""))
+
+    return show, wipe
 
 
 def bar_html(line: str) -> str:

@@ -16,18 +16,21 @@ import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, TypeVar, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from carrom import display
+from carrom.actions import Action, Actions
 from carrom.checkpoints import Checkpoint
 from carrom.core_module import load
 from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
+from carrom.given_arrays import checked, locked
 from carrom.launching import CarromWarning, ProgressLike
+from carrom.live_report import Changes, facts_to_show, report_of
 from carrom.live_results import Averages, LiveTables
 from carrom.memory_frame import LocalDiscs, MemoryFrame
 from carrom.progress import progress_display
@@ -35,8 +38,10 @@ from carrom.scene import SceneLike, flattened, set_words
 from carrom.simulation_source import checkpoint_of, handle_of, source_of
 from carrom.words import with_arguments
 
-Action = Callable[["Simulation"], object]
+if TYPE_CHECKING:
+    from carrom import _core
 
+_A = TypeVar("_A", bound=Action)
 _STRETCH = 0.1  # seconds between two looks at Ctrl-C and the bar
 
 
@@ -94,10 +99,12 @@ class Simulation:
             raise
         self._begin(made)
 
-    def _begin(self, made: Any) -> None:
+    def _begin(self, made: _core.Core) -> None:
         self._made = made
         self._thread = load().thread
-        self._actions: list[tuple[int, Action]] = []
+        self._first_step = made.step
+        self._actions = Actions()
+        self._changes = Changes()
         self._is_running = False
         facts = made.facts
         self.method: str = facts["method"]
@@ -105,11 +112,11 @@ class Simulation:
         self.periodic: tuple[bool, bool] = facts["periodic"]
         self.last_step = int(facts["steps"])
         self.n_discs = int(facts["n_discs"])
-        self.radii, self.masses, self.species = map(_locked, made.kinds)
+        self.radii, self.masses, self.species = map(locked, made.kinds)
         self._warn()
 
     @property
-    def _core(self) -> Any:
+    def _core(self) -> _core.Core:
         if threading.get_ident() != self._thread:
             raise CarromError(
                 "a simulation belongs to the thread that made the first one; MPI allows no other"
@@ -169,43 +176,35 @@ class Simulation:
         stretch = 1 if core.ranks == 1 else end
         while step < end:
             before = time.perf_counter()
-            core.advance(min(stretch, self._next_due(step, end) - step))
+            core.advance(min(stretch, self._actions.next_due(step, end) - step))
             done, step = int(core.step) - step, int(core.step)
             now = time.perf_counter()
             if core.ranks == 1:
                 stretch = max(1, min(int(_STRETCH * done / max(now - before, 1e-9)), 10 * stretch))
-            for interval, action in list(self._actions):
-                if step % interval == 0:
-                    action(self)
+            self._actions.call(self, step)
             if now - begin > 5 * _STRETCH:
                 rate = (step - first) / (now - begin)
                 share = 100 * (step - first) / (end - first)
                 show(f"step {step} of {end} ({share:.1f} %), {rate:.3g} steps/s")
 
-    def _next_due(self, step: int, end: int) -> int:
-        """Return the next step at which an action is due, or the end."""
-        dues = ((step // interval + 1) * interval for interval, _ in self._actions)
-        return min((end, *dues))
-
-    def every(self, interval: int, action: Action | None = None) -> Any:
+    @overload
+    def every(self, interval: int) -> Callable[[_A], _A]: ...
+    @overload
+    def every(self, interval: int, action: _A) -> _A: ...
+    def every(self, interval: int, action: Any = None) -> Any:
         """Call `action(sim)` at the end of each step that is a multiple of `interval`.
 
         Actions of one step are called in the order in which they were added. Without `action` it
         is a decorator. Returns the action, for `forget`.
         """
-        if operator.index(interval) < 1:
-            raise ValueError(f"interval is a number of steps, at least 1, not {interval}")
         if action is None:
             return lambda function: self.every(interval, function)
-        self._actions.append((operator.index(interval), action))
+        self._actions.add(interval, action)
         return action
 
     def forget(self, action: Action) -> None:
         """Call an action no more."""
-        kept = [pair for pair in self._actions if pair[1] is not action]
-        if len(kept) == len(self._actions):
-            raise ValueError(f"{action!r} is no action of this simulation")
-        self._actions = kept
+        self._actions.forget(action)
 
     # Discs
 
@@ -240,6 +239,18 @@ class Simulation:
         self.change(spins=values)
 
     @property
+    def images(self) -> Array:
+        """Box lengths (N, 2), whole numbers, that discs have flown on through periodic sides.
+
+        `positions + images * box` goes on without jumps. They count from the scene's start, or
+        from a checkpoint that has none, as those of `carrom run` without images in a trajectory.
+
+        Raises:
+            SceneError: sides are sheared, so that images move
+        """
+        return self._gathered(self._core.images)
+
+    @property
     def wall_collisions(self) -> Array:
         """Collisions with walls and obstacles since the scene's start, (N,) integers."""
         return self._gathered(self._core.collisions)[:, 0]
@@ -271,14 +282,17 @@ class Simulation:
         Raises:
             SceneError: a number is not finite, a disc is outside of the box or in an obstacle, or
                 discs would overlap; nothing is changed then
-            ValueError: an array has another shape
+            ValueError: an array has another shape, a unit or masked elements
+            TypeError: an array has no real numbers
         """
         pairs, numbers = (self.n_discs, 2), (self.n_discs,)
-        self._core.change(
-            _checked("positions", positions, pairs),
-            _checked("velocities", velocities, pairs),
-            _checked("spins", spins, numbers),
-        )
+        given = {
+            "positions": checked("positions", "lengths", positions, pairs),
+            "velocities": checked("velocities", "lengths per step", velocities, pairs),
+            "spins": checked("spins", "radians per step", spins, numbers),
+        }
+        self._core.change(**given)
+        self._changes.note((name for name in given if given[name] is not None), self.step)
 
     @property
     def local(self) -> LocalDiscs:
@@ -293,20 +307,12 @@ class Simulation:
             if self._comm is None:
                 raise CarromError("arrays of several ranks need comm=, a communicator of mpi4py")
             mine = self._comm.allreduce(mine)
-        return _locked(mine)
+        return locked(mine)
 
     @property
     def frame(self) -> MemoryFrame:
         """The discs now as a `carrom.Frame`: for pandas, freud, OVITO, `carrom.plot.frame` ..."""
-        collisions = self._gathered(self._core.collisions)
-        return MemoryFrame(
-            self.step,
-            self.box,
-            self.periodic,
-            (self.radii, self.masses, self.species),
-            (self.positions, self.velocities, self.spins),
-            (collisions[:, 0], collisions[:, 1]),
-        )
+        return MemoryFrame(self)
 
     # Sums, averages and tables
 
@@ -350,6 +356,17 @@ class Simulation:
         """What `output.measurements` of the scene asks for, as sampled so far."""
         return LiveTables(self._core.tables)
 
+    @property
+    def report(self) -> dict[str, Any]:
+        """Sums and averages by the keys of `report.json`, as far as no machine is in them.
+
+        `changes` has how often positions, velocities or spins were set, and at which steps first
+        and last; `averages["from_step"]` says where averages have begun anew.
+        """
+        core = self._core
+        steps = self._first_step, self.step
+        return report_of(core.facts, core.totals, core.averages, steps, self._changes)
+
     # Branches
 
     def checkpoint(self, path: str | os.PathLike[str]) -> Path:
@@ -366,34 +383,13 @@ class Simulation:
         twin = object.__new__(Simulation)
         twin._comm = self._comm
         twin._begin(self._core.copy())
+        twin._first_step = self._first_step
+        twin._changes = Changes(self._changes.as_dict())
         return twin
 
     def __repr__(self) -> str:
         return f"<Simulation of {self.n_discs} discs, step {self.step} of {self.last_step}>"
 
     def _repr_html_(self) -> str:
-        totals = self.totals
-        facts = {
-            "step": f"{self.step} of {self.last_step}",
-            "discs": self.n_discs,
-            "method": self.method,
-            "kinetic energy": f"{totals['kinetic_energy']:.9g}",
-            "collisions of pairs": totals["pair_collisions"],
-            "state hash": totals["state_hash"],
-        }
+        facts = facts_to_show(self.report, self.step, self.last_step)
         return display.facts("simulation", facts) + display.picture(self.frame)
-
-
-def _locked(array: Array) -> Array:
-    array.flags.writeable = False
-    return array
-
-
-def _checked(name: str, values: npt.ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
-    """Return numbers as the extension takes them."""
-    if values is None:
-        return None
-    array = np.ascontiguousarray(values, dtype=np.float64)
-    if array.shape != shape:
-        raise ValueError(f"{name} have the shape {shape}, not {array.shape}")
-    return array

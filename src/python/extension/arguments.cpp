@@ -12,7 +12,8 @@ std::shared_ptr<Session> of_process; ///< until end_session
 
 Options options_of(int threads, const std::shared_ptr<std::vector<std::string>>& lines) {
     return {.threads = threads,
-            .messages = [lines](const std::string& line) { lines->push_back(line); }};
+            .messages = [lines](const std::string& line) { lines->push_back(line); },
+            .counts_images = true};
 }
 
 void check_rows(std::size_t rows, std::uint64_t wanted, const char* what) {

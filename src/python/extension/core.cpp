@@ -36,6 +36,11 @@ template <class Call> auto without_lock(const Call& call) {
     return call();
 }
 
+/// A text of an array property.
+std::string of_own_discs(const char* what) {
+    return std::string(what) + "; 0 at ids of other ranks' discs.";
+}
+
 std::vector<std::string> taken_lines(Core& core) {
     std::vector<std::string> lines;
     lines.swap(*core.lines);
@@ -50,41 +55,67 @@ NB_MODULE(_core, module) {
     using namespace carrom::python;
     using namespace nb::literals;
     nb::register_exception_translator(translate);
-    module.def("make_errors_by", [](nb::object maker) { error_maker() = std::move(maker); });
-    module.def("end_session", end_session);
-    module.def("mpi_library", carrom::Session::mpi_library);
+    module.doc() = "The library in this process. `carrom.Simulation` is what users call.\n\n"
+                   "\"Collective\": all ranks of the simulation's communicator make the call.";
+    module.def(
+        "make_errors_by", [](nb::object maker) { error_maker() = std::move(maker); }, "maker"_a,
+        "Take the function (lines, exit code) that makes exceptions.");
+    module.def("end_session", end_session, "End MPI with the last simulation.");
+    module.def("mpi_library", carrom::Session::mpi_library,
+               "Return name and version of the MPI library.");
     module.def("new", new_core, "text"_a, "is_file"_a, "settings"_a, "threads"_a,
-               "communicator"_a.none());
+               "communicator"_a.none(),
+               "Begin with a scene, TOML text or the path of a file, and settings KEY=VALUE on "
+               "top. 0 threads: the usual number. Collective.");
     module.def("from_checkpoint", core_from_checkpoint, "path"_a, "settings"_a, "threads"_a,
-               "communicator"_a.none());
-    nb::class_<Core>(module, "Core")
-        .def_prop_ro("step", [](const Core& core) { return core.simulation.step(); })
-        .def_prop_ro("rank", [](const Core& core) { return core.session->rank(); })
-        .def_prop_ro("ranks", [](const Core& core) { return core.session->size(); })
-        .def_prop_ro("facts", facts_of)
-        .def_prop_ro("kinds", kinds_of)
-        .def_prop_ro("ids", ids_of)
-        .def_prop_ro("positions", positions_of)
-        .def_prop_ro("velocities", velocities_of)
-        .def_prop_ro("spins", spins_of)
-        .def_prop_ro("collisions", collisions_of)
-        .def_prop_ro("totals", totals_of)
-        .def_prop_ro("averages", averages_of)
-        .def_prop_ro("tables", tables_of)
-        .def("taken_lines", taken_lines)
-        .def("advance",
-             [](Core& core, std::int64_t steps) {
-                 without_lock([&] { core.simulation.advance(steps); });
-             })
-        .def("restart_averages",
-             [](Core& core) { without_lock([&] { core.simulation.restart_averages(); }); })
-        .def("change", change, "positions"_a.none(), "velocities"_a.none(), "spins"_a.none())
-        .def("write_checkpoint",
-             [](const Core& core, const std::string& path) {
-                 without_lock([&] { core.simulation.write_checkpoint(path); });
-             })
-        .def("copy", [](const Core& core) {
-            return Core{core.session, std::make_shared<std::vector<std::string>>(),
-                        without_lock([&] { return core.simulation.copy(); })};
-        });
+               "communicator"_a.none(), "Go on from a checkpoint's file or folder. Collective.");
+    nb::class_<Core>(module, "Core", "A simulation. Arrays are new ones, in the order of ids.")
+        .def_prop_ro(
+            "step", [](const Core& core) { return core.simulation.step(); },
+            "Steps since the scene's start.")
+        .def_prop_ro(
+            "rank", [](const Core& core) { return core.session->rank(); }, "This rank's number.")
+        .def_prop_ro(
+            "ranks", [](const Core& core) { return core.session->size(); }, "The number of ranks.")
+        .def_prop_ro("facts", facts_of, "Facts of the scene, by name.")
+        .def_prop_ro("kinds", kinds_of, "Radii (N,), lengths; masses (N,); species (N,), int64.")
+        .def_prop_ro("ids", ids_of, "Ids of this rank's discs, (n,), int64, ascending.")
+        .def_prop_ro("positions", positions_of, of_own_discs("(N, 2), lengths").c_str())
+        .def_prop_ro("velocities", velocities_of, of_own_discs("(N, 2), lengths per step").c_str())
+        .def_prop_ro("spins", spins_of, of_own_discs("(N,), radians per step").c_str())
+        .def_prop_ro("collisions", collisions_of,
+                     of_own_discs("(N, 2), int64: with walls, with discs").c_str())
+        .def_prop_ro("images", images_of,
+                     "(N, 2), int32: box lengths flown through periodic sides; 0 at ids of other "
+                     "ranks' shares. Collective.")
+        .def_prop_ro("totals", totals_of, "Sums over all discs, by name. Collective.")
+        .def_prop_ro("averages", averages_of, "Averages and their errors, by name. Collective.")
+        .def_prop_ro("tables", tables_of,
+                     "Measurements so far: (name, columns, rows (n, columns), remarks) of each.")
+        .def("taken_lines", taken_lines, "Return the lines printed since the last call.")
+        .def(
+            "advance",
+            [](Core& core, std::int64_t steps) {
+                without_lock([&] { core.simulation.advance(steps); });
+            },
+            "steps"_a, "Move forward, without Python's lock. Collective.")
+        .def(
+            "restart_averages",
+            [](Core& core) { without_lock([&] { core.simulation.restart_averages(); }); },
+            "Forget what has been averaged. Collective.")
+        .def("change", change, "positions"_a.none(), "velocities"_a.none(), "spins"_a.none(),
+             "Give this rank's discs other numbers, taken from arrays of all discs. Collective.")
+        .def(
+            "write_checkpoint",
+            [](const Core& core, const std::string& path) {
+                without_lock([&] { core.simulation.write_checkpoint(path); });
+            },
+            "path"_a, "Write the state as a whole file or not at all. Collective.")
+        .def(
+            "copy",
+            [](const Core& core) {
+                return Core{core.session, std::make_shared<std::vector<std::string>>(),
+                            without_lock([&] { return core.simulation.copy(); })};
+            },
+            "Return an independent simulation of the same state. Collective.");
 }

@@ -61,6 +61,7 @@ nb::object positions_of(const Core& core);
 nb::object velocities_of(const Core& core);
 nb::object spins_of(const Core& core);
 nb::object collisions_of(const Core& core);
+nb::object images_of(const Core& core);
 
 Core new_core(const std::string& text, bool is_file, const std::vector<std::string>& settings,
               int threads, std::optional<int> communicator);

@@ -58,6 +58,12 @@ nb::object collisions_of(const Core& core) {
         [&](std::span<std::int64_t> counts) { core.simulation.read_collisions(counts); });
 }
 
+nb::object images_of(const Core& core) {
+    return filled<std::int32_t>(
+        {core.simulation.scene().n_discs, 2},
+        [&](std::span<std::int32_t> lengths) { core.simulation.read_images(lengths); });
+}
+
 nb::tuple kinds_of(const Core& core) {
     const std::vector<DiscKind> kinds = core.simulation.kinds();
     double *radii = nullptr, *masses = nullptr;

@@ -16,6 +16,7 @@ struct RunStart {
     std::vector<InputDisc> discs{};      ///< for a run from step 0
     std::optional<StoredState> stored{}; ///< the state that a restart goes on from
     StoredSamples samples{};             ///< the measurements that it goes on with
+    bool counts_images = false;          ///< also where no trajectory shows them
 };
 
 } // namespace carrom

@@ -272,6 +272,14 @@ for sim in (together, alone):
     sim.velocities = velocities
     assert sim.copy().state_hash == sim.state_hash
     sim.run(10)
+for sim in (together, alone):
+    positions = sim.positions.copy()
+    positions[7:9] += 1e-7 * (sim.box / 2 - positions[7:9])
+    sim.positions = positions
+    sim.run(60)
+assert np.array_equal(together.images, alone.images)
+assert together.images.any()
+assert together.report["averages"] == alone.report["averages"]
 assert together.state_hash == alone.state_hash
 assert np.array_equal(together.positions, alone.positions)
 local = together.local
@@ -296,7 +304,7 @@ def test_ranks_come_to_the_state_of_one(ranks: int) -> None:
     environment = carrom.launching.environment(99) | {
         "PYTHONPATH": str(Path(carrom.__file__).parents[1])
     }
-    scene = repr(gas(steps=40, **PERIODIC))
+    scene = repr(gas(steps=100, **PERIODIC))
     command = [launcher, "-n", str(ranks), sys.executable, "-c", RANKS, scene]
     done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
     if "77" in done.stderr and done.returncode != 0:

@@ -21,6 +21,7 @@ from carrom.frames import Frames
 from carrom.plain import read_bytes
 from carrom.runs import Checkpoints, Run, open_run
 from carrom.scene import SCENE_FILES, flattened
+from carrom.watch.colour_scale import ColourScale
 from carrom.watch.curves import Curves, steps_of
 from carrom.watch.field import NewestField
 from carrom.watch.picture import MOST_DISCS, View, picture
@@ -46,6 +47,7 @@ class Follower:
         self._lock = threading.Lock()
         self._curves = Curves()
         self._field = NewestField()
+        self._scale = ColourScale()
         self._rate = Rate()
         self._identity = ""
         self._scene: dict[str, Any] = {}
@@ -108,6 +110,7 @@ class Follower:
         self._identity, self._run, self._rate = identity, None, Rate()
         self._curves.clear()
         self._field.clear()
+        self._scale.clear()
         try:
             # The page shows a run at once, and asks again each second.
             self._run = open_run(self.path, check=False)
@@ -207,7 +210,10 @@ class Follower:
                 raise NoDataError(f"there is no frame of step {step} (any more)")
             frame = frames[steps.index(step)]
             walls = walls_at(self._scene, frame.box, step)
-            return picture(frame, colour, view, MOST_DISCS, walls)
+            about, numbers = picture(frame, colour, view, MOST_DISCS, walls)
+            if about["colour"] == "speed":
+                about["top"] = self._scale.top(frames)
+            return about, numbers
 
 
 def _scene_of(run: Run) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import numpy as np
 from carrom.disc_arrays import Array
 from carrom.errors import NoDataError
 from carrom.frame import Frame
+from carrom.watch.colour_scale import speeds
 from carrom.watch.order import hexatic_order
 from carrom.watch.walls import Walls, at_rest
 
@@ -18,7 +19,6 @@ MOST_DISCS = 150_000
 """More discs in view are drawn as a density."""
 CELLS = 320
 """Cells along the longer side of a density."""
-_FASTEST = 0.995  # of the discs are slower than the end of the scale of colours
 _VIEW = "a view is x_low,y_low,x_high,y_high"
 COLOURS = ("speed", "psi6", "species")
 
@@ -104,16 +104,10 @@ def _values(frame: Frame, places: Array, colour: str, about: dict[str, Any]) -> 
         edges = np.where(frame.periodic, frame.box, 0.0)
         return np.abs(hexatic_order(frame.x[places].astype(float), edges)).astype(np.float32)
     try:
-        velocities = frame.v[places].astype(np.float64)
+        return speeds(frame.v[places])
     except NoDataError:
         about["note"] = "frames have no velocities: see output.trajectory.fields"
         return np.zeros(len(places), dtype=np.float32)
-    squares = np.einsum("ij,ij->i", velocities, velocities)
-    speeds = np.sqrt(squares).astype(np.float32)
-    if len(speeds):
-        rank = min(len(speeds) - 1, int(_FASTEST * len(speeds)))
-        about["top"] = float(np.partition(speeds, rank)[rank]) or float(speeds.max())
-    return np.asarray(speeds)
 
 
 def _discs(frame: Frame, places: Array, values: Array, view: View, about: dict[str, Any]) -> bytes:

@@ -8,7 +8,7 @@ const KEPT_BYTES = 200e6, AHEAD = 3;
 const page = {
   run: null, steps: [], index: -1, state: {}, curves: {}, field: null,
   frames: new Map(), bytes: 0, asked: new Set(),
-  direction: 0, due: 0, shown: null, view: null, top: 0, isViewWhole: true, generation: 0,
+  direction: 0, due: 0, shown: null, view: null, isViewWhole: true, generation: 0,
 };
 
 function timeText(seconds) {
@@ -65,8 +65,7 @@ function show() {
   if (!frame) return load(page.index);
   const about = frame.about;
   if (!page.view || page.isViewWhole) page.view = about.room;
-  if (about.colour === "speed" && !(page.top > 0)) page.top = about.top || 0;
-  const top = about.colour === "psi6" ? 1 : page.top;
+  const top = about.colour === "psi6" ? 1 : about.top || 0;
   const drawn = Discs.draw(element("discs"), frame, page.view, top);
   page.shown = frame;
   const counted = about.kind === "density"
@@ -145,7 +144,7 @@ function takeSteps(state) {
   if (state.run !== page.run) {
     forgetFrames();
     Object.assign(page, { run: state.run, steps: [], index: -1, curves: {} });
-    Object.assign(page, { top: 0, isViewWhole: true, view: null });
+    Object.assign(page, { isViewWhole: true, view: null });
   }
   const before = page.steps[page.index];
   if (state.first < page.steps.length) forgetFrames(); // cut back by a restart

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/compare/compare_lines.hpp"
+#include "grading/lines.hpp"
 #include "core/disc_state.hpp"
 
 namespace carrom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/compare/compare_steps.hpp"
+#include "grading/steps.hpp"
 
 #include <algorithm>
 #include <utility>
