@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/device.hpp"
 #include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/loss.hpp"
@@ -28,7 +29,7 @@
 namespace carrom {
 
 /// Time since the last collision of a disc within this sync interval.
-inline double since_collision(const DiscState& disc, double time) {
+CARROM_DEVICE inline double since_collision(const DiscState& disc, double time) {
     return disc.has_collided ? time - disc.tau : never;
 }
 
@@ -47,7 +48,7 @@ public:
 
     /// `since`: the time since the last collision of either. `closing`: how fast they approach, in
     /// sums of their radii.
-    bool holds(double since, double closing) const {
+    CARROM_DEVICE bool holds(double since, double closing) const {
         return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
     }
     /// At a wall a disc approaches its own image, at twice its speed and twice its radius.
@@ -70,7 +71,7 @@ public:
 
     /// The loss of a collision that takes, or would take, this energy at this squared speed of
     /// approach.
-    Loss loss(double energy, double squared_speed, bool is_guarded) const {
+    CARROM_DEVICE Loss loss(double energy, double squared_speed, bool is_guarded) const {
         if (!is_guarded) return {energy, 0};
         return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};
     }
