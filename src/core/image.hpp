@@ -144,7 +144,9 @@ struct Periods {
     [[gnu::always_inline]] double y_of(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
     }
-    CARROM_DEVICE double vx_of(const DiscState& disc) const { return disc.vx + image_of(disc).y * speed; }
+    CARROM_DEVICE double vx_of(const DiscState& disc) const {
+        return disc.vx + image_of(disc).y * speed;
+    }
 
     double place_of(const DiscState& disc, Axis axis, double time) const {
         return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
@@ -197,7 +199,7 @@ private:
         return disc.y_at(time) + image_of(disc).y * y;
     }
     [[gnu::noinline]] CARROM_DEVICE Shift shifted_between(const DiscState& p, const DiscState& q,
-                                            double time) const {
+                                                          double time) const {
         return shift_of({image_of(q).x - image_of(p).x, image_of(q).y - image_of(p).y}, time);
     }
     static int lengths(double place, double period) {

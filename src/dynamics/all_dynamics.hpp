@@ -14,7 +14,8 @@ namespace carrom {
 using PlainDynamics = Dynamics<WalledSpace, EqualBodies, PlainSurroundings<>>;
 /// The plain dynamics in less accurate arithmetic.
 template <class Real>
-using StudyDynamics = Dynamics<WalledSpace, EqualBodies, PlainSurroundings<StudiedArithmetic<Real>>>;
+using StudyDynamics =
+    Dynamics<WalledSpace, EqualBodies, PlainSurroundings<StudiedArithmetic<Real>>>;
 
 using WalledDynamics = Dynamics<WalledSpace, EqualBodies>;
 using WalledMixedDynamics = Dynamics<WalledSpace, SpeciesBodies>;

@@ -45,8 +45,8 @@ public:
         disc.y = y;
         disc.tau = time;
     }
-    [[gnu::always_inline]] CARROM_DEVICE static double
-    delay(const Encounter<double>& met, double sigma, double deepest_overlap) {
+    [[gnu::always_inline]] CARROM_DEVICE static double delay(const Encounter<double>& met,
+                                                             double sigma, double deepest_overlap) {
         return contact_delay(met.ex, met.ey, met.wx, met.wy, sigma, deepest_overlap);
     }
     /// Whether a contact that the formula finds counts.

@@ -39,7 +39,7 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                      { B::grow } -> std::convertible_to<bool>;
                      // Thousands of collisions of a disc within so many micro-steps do not end.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n);             // times now count from micro-step n
+                     changing.begin_interval(n); // times now count from micro-step n
                      { bodies.largest() } -> std::same_as<double>; // radius, before it has grown
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;
@@ -93,7 +93,9 @@ public:
 
     CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
     CARROM_DEVICE double largest() const { return radius_; }
-    CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const { return species_.of(disc.id); }
+    CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
+        return species_.of(disc.id);
+    }
     CARROM_DEVICE Body at(const DiscState& disc, double /*time*/) const {
         const SizeAndMass& it = species_.of(disc.id);
         return {it.radius, it.mass, 0};
@@ -130,7 +132,9 @@ public:
         at_sync_ = 1 + rate_ * static_cast<double>(n);
     }
     CARROM_DEVICE double largest() const { return radius_; }
-    CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const { return species_.of(disc.id); }
+    CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
+        return species_.of(disc.id);
+    }
     CARROM_DEVICE Body at(const DiscState& disc, double time) const {
         const SizeAndMass& it = species_.of(disc.id);
         return {it.radius * growth_at(time), it.mass, it.radius * rate_};

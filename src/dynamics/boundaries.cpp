@@ -132,8 +132,8 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
     return false;
 }
 
-Loss Boundaries::bounce(DiscState& disc, Axis axis, double time, const Body& body,
-                        const Body& then, double* spin) const {
+Loss Boundaries::bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
+                        double* spin) const {
     const std::size_t side = meeting(disc, axis, body).side;
     const double since = since_collision(disc, time);
     disc.x = disc.x_at(time);

@@ -7,9 +7,10 @@
 //      + arithmetic                precision and formula of contacts (arithmetic.hpp)
 //        sides, obstacles, flight  what else discs meet, and in which frame (surroundings.hpp)
 //
-// Each is a value with a small concept in its own header; here stands the text that uses them, once.
-// Kernels take a dynamics as a template argument. What is asked for each pair is compiled, and all
-// else is decided when the program runs, so that few combinations are enough (all_dynamics.hpp).
+// Each is a value with a small concept in its own header; here stands the text that uses them,
+// once. Kernels take a dynamics as a template argument. What is asked for each pair is compiled,
+// and all else is decided when the program runs, so that few combinations are enough
+// (all_dynamics.hpp).
 //
 // Lengths are the scene's. Times are micro-steps since the last sync, on the dynamics' own clock.
 // Places and velocities are those of its frame. Answers depend on the stored states alone, so all
@@ -46,9 +47,9 @@ public:
                           has_moving_images = InSpace::has_moving_images,
                           has_species = OfBodies::have_species,
                           has_mirror_walls = !have_effects, // they only reverse a velocity
-                          may_have_obstacles = have_effects && !OfBodies::grow,
+        may_have_obstacles = have_effects && !OfBodies::grow,
                           may_lose_discs = have_effects && !is_periodic, // through open sides
-                          is_for_study = Arithmetic::is_for_study;
+        is_for_study = Arithmetic::is_for_study;
     /// Thousands of collisions of a disc within this many micro-steps are an endless cascade.
     static constexpr double cascade_interval = std::max(OfBodies::cascade_interval,
                                                         Arithmetic::cascade_interval);
@@ -154,8 +155,9 @@ public:
 
     /// The contact of two discs in free flight (pair_contact.hpp). Discs that overlap by more than
     /// `deepest_overlap` have none.
-    [[gnu::always_inline]] CARROM_DEVICE PairContact<Real>
-    contact(const DiscState& p, const DiscState& q, double deepest_overlap) const {
+    [[gnu::always_inline]] CARROM_DEVICE PairContact<Real> contact(const DiscState& p,
+                                                                   const DiscState& q,
+                                                                   double deepest_overlap) const {
         if (may_lose_discs && (p.has_departed() || q.has_departed())) return {};
         const typename Arithmetic::State a(p), b(q);
         const Real base = std::max(a.tau, b.tau);

@@ -79,9 +79,10 @@ private:
     /// their shares: 2 m' / (m + m') for each disc's velocity, m' being the other's mass.
     /// Multiplying by 1 changes no bit.
     template <class Real>
-    [[gnu::always_inline]] CARROM_DEVICE static void
-    push_apart(DiscState& p, DiscState& q, const Encounter<Real>& met, Real impulse, Real p_share,
-               Real q_share) {
+    [[gnu::always_inline]] CARROM_DEVICE static void push_apart(DiscState& p, DiscState& q,
+                                                                const Encounter<Real>& met,
+                                                                Real impulse, Real p_share,
+                                                                Real q_share) {
         const Real k = impulse * met.rate();
         p.vx = static_cast<Real>(p.vx) + k * p_share * met.ex;
         p.vy = static_cast<Real>(p.vy) + k * p_share * met.ey;
@@ -133,9 +134,7 @@ private:
 
     /// The energy that restitution takes, for a reduced mass of 1 and a distance of 1: half of the
     /// squared rate of approach, times 1 - e^2.
-    CARROM_DEVICE double normal_loss(double k) const {
-        return 2 * normal_ * (1 - normal_) * k * k;
-    }
+    CARROM_DEVICE double normal_loss(double k) const { return 2 * normal_ * (1 - normal_) * k * k; }
     /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
     /// `k`, all in one unit.
     CARROM_DEVICE double tangential(double slip, double k) const {

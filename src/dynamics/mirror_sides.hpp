@@ -40,8 +40,8 @@ public:
         return !(x > x_walls_.low() + margin && x < x_walls_.high() - margin &&
                  y > y_walls_.low() + margin && y < y_walls_.high() - margin);
     }
-    Loss bounce(DiscState& disc, Axis axis, double time, const Body& /*body*/,
-                const Body& /*then*/, double* spin) const {
+    Loss bounce(DiscState& disc, Axis axis, double time, const Body& /*body*/, const Body& /*then*/,
+                double* spin) const {
         Arithmetic::advance(disc, time);
         reverse(disc, axis, {}, spin);
         disc.wall_collisions += 1;

@@ -87,8 +87,9 @@ public:
         : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
 
     CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
-    [[gnu::always_inline]] CARROM_DEVICE Encounter<double>
-    see(const DiscState& p, const DiscState& q, double dx, double dy, double /*time*/) const {
+    [[gnu::always_inline]] CARROM_DEVICE Encounter<double> see(const DiscState& p,
+                                                               const DiscState& q, double dx,
+                                                               double dy, double /*time*/) const {
         return {dx + periods_.x_between(p, q), dy + periods_.y_between(p, q), q.vx - p.vx,
                 q.vy - p.vy};
     }
@@ -118,8 +119,9 @@ public:
         : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
 
     CARROM_DEVICE void begin_interval(std::int64_t n) { periods_.begin_interval(n); }
-    [[gnu::always_inline]] CARROM_DEVICE Encounter<double>
-    see(const DiscState& p, const DiscState& q, double dx, double dy, double time) const {
+    [[gnu::always_inline]] CARROM_DEVICE Encounter<double> see(const DiscState& p,
+                                                               const DiscState& q, double dx,
+                                                               double dy, double time) const {
         const Shift shift = periods_.between(p, q, time);
         return {dx + shift.x, dy + shift.y, (q.vx - p.vx) + shift.vx, q.vy - p.vy};
     }

@@ -29,8 +29,8 @@ void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_disc
 SpeciesTable::SpeciesTable(std::span<const Species> species, double radius)
     : table_(table_of(species, radius)), view_(view_of(*table_)) {}
 
-std::shared_ptr<const SpeciesTable::Table>
-SpeciesTable::table_of(std::span<const Species> species, double radius) {
+std::shared_ptr<const SpeciesTable::Table> SpeciesTable::table_of(std::span<const Species> species,
+                                                                  double radius) {
     auto table = std::make_shared<Table>();
     DiscId end = 0;
     for (const Species& one : species) {

@@ -237,7 +237,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     }
     ++outcome->n_carried;
     if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
-    const bool is_corner = event.q == x_wall && dynamics.wall_time(discs[event.p], Axis::y) == event.time;
+    const bool is_corner = event.q == x_wall &&
+                           dynamics.wall_time(discs[event.p], Axis::y) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy
     carry_out(event);
     const bool has_left = Dynamics::may_lose_discs &&

@@ -36,7 +36,8 @@ struct EventHistory {
                                   mixed(disc.vy, 0x94d049bb133111ebu) + partner_id;
         std::uint64_t hash = (std::rotl(history, 17) ^ sum) * 0xff51afd7ed558ccdu;
         if (spin)
-            hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(*spin)) * 0xc4ceb9fe1a85ec53u;
+            hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(*spin)) *
+                   0xc4ceb9fe1a85ec53u;
         const std::uint64_t fastest = std::max<std::uint64_t>(speed, speed_class_of(history));
         history = ((hash ^ (hash >> 32)) & ~largest_speed_class) | fastest;
     }

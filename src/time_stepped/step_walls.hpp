@@ -3,8 +3,8 @@
 // method (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
 //
 // A disc takes part in one collision of a micro-step. So a disc that would leave the box, or run
-// into an obstacle, before the micro-step ends stops there and bounces in the next one. Walls are at
-// rest in this method; the sides decide what a bounce does (dynamics/boundaries.hpp).
+// into an obstacle, before the micro-step ends stops there and bounces in the next one. Walls are
+// at rest in this method; the sides decide what a bounce does (dynamics/boundaries.hpp).
 #pragma once
 
 #include <algorithm>

@@ -175,7 +175,8 @@ TEST_CASE("In double precision the study's walls and collisions have the plain b
     for (const ContactFormula formula :
          {ContactFormula::stable, ContactFormula::naive, ContactFormula::naive_contracted})
         check_alike(compare(PlainDynamics(box_size, radius),
-                            StudyDynamics<double>(box_size, radius, {}, formula), with_contact_times));
+                            StudyDynamics<double>(box_size, radius, {}, formula),
+                            with_contact_times));
 }
 
 TEST_CASE("The study's states in single precision are floats near the plain ones") {
