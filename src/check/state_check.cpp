@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "dynamics/plain_dynamics.hpp"
+#include "dynamics/arithmetic.hpp"
 #include "engine/near_pairs.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
@@ -56,7 +56,7 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
       species_(species), communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
-      tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {
+      tolerance_(StableArithmetic::tolerance(scene.box, 2 * scene.radius)) {
     const CheckAllowance allowance = allowance_of(scene.effects);
     may_lose_energy_ = allowance.collisions_take_energy;
     walls_give_energy_ = allowance.walls_give_energy;
@@ -165,7 +165,7 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     for (const Known& known : before_) {
         DiscState disc = known.disc;
         const double radius = species_.of(disc.id).radius * growth_at(micro_steps_before_);
-        PlainDynamics::advance(disc, clock);
+        StableArithmetic::advance(disc, clock);
         periods.wrap(disc, clock);
         if (periods.x == 0)
             disc.x = std::clamp(disc.x, walls.x_low + radius, walls.x_high - radius);
@@ -334,7 +334,7 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
         if (a >= now.population.n_own) return; // the owner of the lower id judges the pair
         DiscState p = now.population.discs[a], q = now.population.discs[b];
-        for (DiscState* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
+        for (DiscState* disc : {&p, &q}) StableArithmetic::advance(*disc, now.time);
         const Shift shift = now.periods.between(p, q, now.time);
         q.x += shift.x, q.y += shift.y, q.vx += shift.vx;
         const double depth = diameter_of(p, q) - std::hypot(q.x - p.x, q.y - p.y);

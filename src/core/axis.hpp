@@ -18,7 +18,10 @@ constexpr Axis other_axis(Axis axis) { return axis == Axis::x ? Axis::y : Axis::
 /// The axis that strips cut.
 constexpr Axis longer_axis(const Box& box) { return box.y > box.x ? Axis::y : Axis::x; }
 
-constexpr double along(Axis axis, double x, double y) { return axis == Axis::x ? x : y; }
+template <class Number>
+[[gnu::always_inline]] constexpr Number along(Axis axis, Number x, Number y) {
+    return axis == Axis::x ? x : y;
+}
 constexpr double along(Axis axis, const Box& box) { return along(axis, box.x, box.y); }
 
 /// (x, y) as (along, across), and the other way round.

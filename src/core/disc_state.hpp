@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "core/device.hpp"
 #include "core/raw_vector.hpp"
 
 #ifdef __FAST_MATH__
@@ -43,14 +44,14 @@ struct alignas(64) DiscState {
         vx = vy = tau = 0;
         is_departed = 1;
     }
-    bool has_departed() const { return is_departed != 0; }
+    CARROM_DEVICE bool has_departed() const { return is_departed != 0; }
 
-    double x_at(double time) const { return x + vx * (time - tau); }
-    double y_at(double time) const { return y + vy * (time - tau); }
+    CARROM_DEVICE double x_at(double time) const { return x + vx * (time - tau); }
+    CARROM_DEVICE double y_at(double time) const { return y + vy * (time - tau); }
 
     /// Changes whenever the state is rewritten within a sync interval: every rewrite comes with a
     /// collision.
-    std::uint32_t version() const {
+    CARROM_DEVICE std::uint32_t version() const {
         return static_cast<std::uint32_t>(wall_collisions + pair_collisions);
     }
 };
@@ -60,7 +61,7 @@ static_assert(sizeof(DiscState) == 64);
 /// to fill with.
 using DiscStates = RawVector<DiscState>;
 
-inline double squared_speed_of(const DiscState& disc) {
+CARROM_DEVICE inline double squared_speed_of(const DiscState& disc) {
     return disc.vx * disc.vx + disc.vy * disc.vy;
 }
 

@@ -21,6 +21,7 @@
 #include <limits>
 
 #include "core/axis.hpp"
+#include "core/device.hpp"
 #include "core/disc_state.hpp"
 #include "core/errors.hpp"
 
@@ -40,7 +41,7 @@ struct Shift {
     double vx = 0; ///< how fast the shift grows; it never does along y
 };
 
-inline Image image_of(const DiscState& disc) {
+CARROM_DEVICE inline Image image_of(const DiscState& disc) {
     return {static_cast<int>(disc.image_x), static_cast<int>(disc.image_y)};
 }
 
@@ -48,7 +49,7 @@ inline Image image_of(const DiscState& disc) {
 inline bool is_unshifted(const DiscState& disc) { return disc.image_x == 0 && disc.image_y == 0; }
 
 /// Whether both discs' images are displaced alike, which is so for nearly all pairs.
-inline bool are_shifted_alike(const DiscState& p, const DiscState& q) {
+CARROM_DEVICE inline bool are_shifted_alike(const DiscState& p, const DiscState& q) {
     return p.image_x == q.image_x && p.image_y == q.image_y;
 }
 
@@ -102,7 +103,7 @@ struct Periods {
     double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
     double along(Axis axis) const { return carrom::along(axis, x, y); }
     /// The shift of the row above the box.
-    double offset_at(double time) const { return offset + speed * time; }
+    CARROM_DEVICE double offset_at(double time) const { return offset + speed * time; }
 
     /// From now on times count from micro-step `n` of the scene. The offset is exact to a rounding
     /// of the box's length, however far the row has gone.
@@ -114,19 +115,19 @@ struct Periods {
     }
 
     /// The shift and the velocity of an image.
-    Shift shift_of(Image image, double time) const {
+    CARROM_DEVICE Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
     /// The shift from the image of `p` to that of `q`, beside the difference of their
     /// stored states. For (q, p) the numbers are the same with the other sign.
-    Shift between(const DiscState& p, const DiscState& q, double time) const {
+    CARROM_DEVICE Shift between(const DiscState& p, const DiscState& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
     /// For boxes at rest.
-    double x_between(const DiscState& p, const DiscState& q) const {
+    CARROM_DEVICE double x_between(const DiscState& p, const DiscState& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x;
     }
-    double y_between(const DiscState& p, const DiscState& q) const {
+    CARROM_DEVICE double y_between(const DiscState& p, const DiscState& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).y - image_of(p).y) * y;
     }
 
@@ -143,7 +144,9 @@ struct Periods {
     [[gnu::always_inline]] double y_of(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
     }
-    double vx_of(const DiscState& disc) const { return disc.vx + image_of(disc).y * speed; }
+    CARROM_DEVICE double vx_of(const DiscState& disc) const {
+        return disc.vx + image_of(disc).y * speed;
+    }
 
     double place_of(const DiscState& disc, Axis axis, double time) const {
         return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
@@ -195,8 +198,8 @@ private:
     [[gnu::noinline]] double shifted_y(const DiscState& disc, double time) const {
         return disc.y_at(time) + image_of(disc).y * y;
     }
-    [[gnu::noinline]] Shift shifted_between(const DiscState& p, const DiscState& q,
-                                            double time) const {
+    [[gnu::noinline]] CARROM_DEVICE Shift shifted_between(const DiscState& p, const DiscState& q,
+                                                          double time) const {
         return shift_of({image_of(q).x - image_of(p).x, image_of(q).y - image_of(p).y}, time);
     }
     static int lengths(double place, double period) {

@@ -129,9 +129,9 @@ private:
 };
 
 /// The columns that the dynamics' collisions change, without numbers yet.
-template <class Dynamics> SideColumns side_columns_of() {
+template <class Dynamics> SideColumns side_columns_of(const Dynamics& dynamics) {
     SideColumns columns;
-    if constexpr (Dynamics::has_spin) columns.add(SideColumn::spin);
+    if (dynamics.has_spin()) columns.add(SideColumn::spin);
     return columns;
 }
 

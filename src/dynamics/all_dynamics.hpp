@@ -5,25 +5,31 @@
 #pragma once
 
 #include "dynamics/dynamics.hpp"
-#include "dynamics/effect_dynamics.hpp"
-#include "dynamics/growing_dynamics.hpp"
-#include "dynamics/periodic_dynamics.hpp"
-#include "dynamics/plain_dynamics.hpp"
-#include "dynamics/sheared_dynamics.hpp"
-#include "dynamics/study_dynamics.hpp"
+#include "dynamics/studied_arithmetic.hpp"
+
+namespace carrom {
+
+/// The dynamics of a scene that names no effect: free flight, elastic pairs, four elastic walls at
+/// rest (docs/understanding/method.md, sections 3 and 4).
+using PlainDynamics = Dynamics<WalledSpace, EqualBodies, PlainSurroundings<>>;
+/// The plain dynamics in less accurate arithmetic.
+template <class Real>
+using StudyDynamics =
+    Dynamics<WalledSpace, EqualBodies, PlainSurroundings<StudiedArithmetic<Real>>>;
+
+using WalledDynamics = Dynamics<WalledSpace, EqualBodies>;
+using WalledMixedDynamics = Dynamics<WalledSpace, SpeciesBodies>;
+using PeriodicDynamics = Dynamics<PeriodicSpace, EqualBodies>;
+using PeriodicMixedDynamics = Dynamics<PeriodicSpace, SpeciesBodies>;
+/// One species or several, between walls, too: a box without periodic sides has no images.
+using GrowingDynamics = Dynamics<PeriodicSpace, GrowingBodies>;
+/// One species or several.
+using ShearedDynamics = Dynamics<ShearedSpace, SpeciesBodies>;
 
 // Calls make(dynamics) for each of them.
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
-        make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \
-            make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics)                          \
-                make(PeriodicMixedDynamics) make(PeriodicRoughDynamics) make(GrowingDynamics)      \
-                    make(ShearedMixedDynamics) make(ShearedRoughDynamics)
-
-namespace carrom {
-
-#define CARROM_CHECK(name) static_assert(Dynamics<name>);
-CARROM_FOR_EACH_DYNAMICS(CARROM_CHECK)
-#undef CARROM_CHECK
+        make(WalledDynamics) make(WalledMixedDynamics) make(PeriodicDynamics)                      \
+            make(PeriodicMixedDynamics) make(GrowingDynamics) make(ShearedDynamics)
 
 } // namespace carrom

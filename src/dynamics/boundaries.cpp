@@ -21,10 +21,9 @@ double rest_time_at(const Boundary& side, const ContactGuard& guard, double grav
 
 } // namespace
 
-Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
-                       const SpeciesTable& species_table)
+Boundaries::Boundaries(const Box& box, double radius, const Effects& effects)
     : sides_(effects.boundaries), guard_(effects, radius), drag_(effects.drag),
-      thermal_seed_(effects.thermal_seed), box_(box), radius_(radius), species_(species_table),
+      thermal_seed_(effects.thermal_seed), box_(box), radius_(radius),
       gravity_{effects.gravity.x, effects.gravity.y}, fall_(effects.gravity, effects.drag) {
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
@@ -95,8 +94,8 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
     return slowing * dragged_fall_delay(distance, slowing * rate, pull, drag_);
 }
 
-double Boundaries::delay_to(const DiscState& disc, std::size_t side) const {
-    const Approach line = approach(disc, side);
+double Boundaries::delay_to(const DiscState& disc, std::size_t side, const Body& body) const {
+    const Approach line = approach(disc, side, body);
     if (!oscillations_[side].is_any()) [[likely]]
         return delay_of(line, disc.tau);
     const double from_wall = sign_of(side) *
@@ -104,21 +103,22 @@ double Boundaries::delay_to(const DiscState& disc, std::size_t side) const {
     return oscillations_[side].contact_delay(line.distance, line.rate, from_wall, disc.tau);
 }
 
-Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis) const {
+Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis, const Body& body) const {
     if (disc.has_departed()) return {};
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
-    const double to_low = delay_to(disc, low), to_high = delay_to(disc, low + 1);
+    const double to_low = delay_to(disc, low, body), to_high = delay_to(disc, low + 1, body);
     if (to_low <= to_high) return {disc.tau + to_low, low};
     return {disc.tau + to_high, low + 1};
 }
 
 /// Takes a straight flight and a pull towards the wall only. A pull away from it is
 /// ignored, to be on the safe side.
-bool Boundaries::may_meet(const DiscState& disc, double time, double margin) const {
+bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
+                          const Body& body) const {
     if (disc.has_departed()) return false;
     const double rest = time - disc.tau, fallen_for = rest / fall_.slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
-        auto [distance, rate, pull] = approach(disc, side);
+        auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_any();
         if (oscillates) [[unlikely]] { // from the wall's highest place, which may come at once
@@ -132,44 +132,48 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin) con
     return false;
 }
 
-Loss Boundaries::bounce_at(DiscState& disc, Axis axis, double time, double* spin) const {
-    const std::size_t side = meeting(disc, axis).side;
+Loss Boundaries::bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
+                        double* spin) const {
+    const std::size_t side = meeting(disc, axis, body).side;
     const double since = since_collision(disc, time);
     disc.x = disc.x_at(time);
     disc.y = disc.y_at(time);
     disc.tau = time;
-    if (is_open(side)) return depart(disc, side, time, spin), Loss{};
-    const Loss loss = rebound(disc, side, since, time, spin);
+    if (is_open(side)) return depart(disc, side, time, then, spin), Loss{};
+    const Loss loss = rebound(disc, side, since, time, then, spin);
     disc.wall_collisions += 1;
     disc.has_collided = 1;
     return loss;
 }
 
-void Boundaries::depart(DiscState& disc, std::size_t side, double time, double* spin) const {
+void Boundaries::depart(DiscState& disc, std::size_t side, double time, const Body& body,
+                        double* spin) const {
     if (spin) *spin = 0;
     fall_.restart(disc, time);
-    (side / 2 == 0 ? disc.x : disc.y) = departure(disc, side);
+    (side / 2 == 0 ? disc.x : disc.y) = departure(side, body);
     disc.depart();
     disc.wall_collisions += 1;
 }
 
-void Boundaries::reverse(DiscState& disc, Axis axis, double* spin) const {
+void Boundaries::reverse(DiscState& disc, Axis axis, const Body& body, double* spin) const {
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const std::size_t side = velocity_of(disc, low / 2) < 0 ? low : low + 1;
-    rebound(disc, side, never, 0, spin);
+    rebound(disc, side, never, 0, body, spin);
 }
 
 Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double time,
-                         double* spin) const {
+                         const Body& body, double* spin) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
     double& along = side / 2 == 0 ? disc.vy : disc.vx;
     const bool oscillates = oscillations_[side].is_any();
     const double sign = sign_of(side),
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
-    const auto [radius, mass] = species_.of(disc.id);
-    const double closing = std::fabs(normal - wall), restitution = sides_[side].restitution;
+    const auto& [radius, mass, growth] = body;
+    // Like a bounce at a wall that comes in as fast as the disc grows.
+    const double closing = std::fabs(sign * (wall - normal) + growth),
+                 restitution = sides_[side].restitution;
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
-    double away = (is_guarded ? 1 : restitution) * closing;
+    double away = growth + (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
         // Discs leave a wall of temperature T with v_n of the density v_n / T exp(-v_n^2 / 2
         // T); the other component is Maxwell's. All images of a disc draw the same numbers.

@@ -16,6 +16,7 @@
 
 #include "core/axis.hpp"
 #include "core/disc_state.hpp"
+#include "dynamics/bodies.hpp"
 #include "dynamics/contact_guard.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
@@ -29,23 +30,25 @@ namespace carrom {
 class Boundaries {
 public:
     /// `effects` per micro-step; `radius` is the largest one.
-    Boundaries(const Box& box, double radius, const Effects& effects,
-               const SpeciesTable& species_table);
+    Boundaries(const Box& box, double radius, const Effects& effects);
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
     /// The walls themselves in the frame's coordinates.
     Extent extent_at(double time) const;
-    /// See PlainDynamics: inside of the walls at both ends, by as much as their paths
+    /// See Dynamics: inside of the walls at both ends, by as much as their paths
     /// bend in between.
     Extent walls_between(double begin, double end) const;
     /// When the disc meets a side of this axis, or `never`.
-    double wall_time(const DiscState& disc, Axis axis) const { return meeting(disc, axis).time; }
-    /// Carries out the collision of `time` = wall_time(disc, axis), the event-driven method.
-    /// `spin`, here and below: null where discs do not turn.
-    Loss bounce_at(DiscState& disc, Axis axis, double time, double* spin) const;
+    double wall_time(const DiscState& disc, Axis axis, const Body& body) const {
+        return meeting(disc, axis, body).time;
+    }
+    /// Carries out the collision of `time` = wall_time(disc, axis, body), the event-driven method;
+    /// `then` is the body at that time. `spin`, here and below: null where discs do not turn.
+    Loss bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
+                double* spin) const;
     /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
-    bool may_meet(const DiscState& disc, double time, double margin) const;
+    bool may_meet(const DiscState& disc, double time, double margin, const Body& body) const;
 
     /// The side to which a velocity along `axis` leads; it must not be 0.
     static std::size_t side_ahead(const DiscState& disc, Axis axis) {
@@ -53,24 +56,29 @@ public:
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
     }
     bool is_open(std::size_t side) const { return sides_[side].kind == BoundaryKind::open; }
+    bool is_open_ahead(const DiscState& disc, Axis axis) const {
+        return is_open(side_ahead(disc, axis));
+    }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
     /// The centre's coordinate across an open side, in the box, when the disc is just outside.
-    double departure(const DiscState& disc, std::size_t side) const {
-        return departure_or_touch(side, species_.of(disc.id).radius);
+    double departure(std::size_t side, const Body& body) const {
+        return departure_or_touch(side, body.radius);
     }
     /// What becomes of a disc that has come there, advanced to `time`.
-    void depart(DiscState& disc, std::size_t side, double time, double* spin) const;
+    void depart(DiscState& disc, std::size_t side, double time, const Body& body,
+                double* spin) const;
 
     /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being
     /// where it touches.
-    void reverse(DiscState& disc, Axis axis, double* spin) const;
+    void reverse(DiscState& disc, Axis axis, const Body& body, double* spin) const;
 
 private:
     struct Meeting {
         double time = never;
         std::size_t side = 0;
     };
-    /// Distance into the box, its rate in the clock, and its acceleration, at the disc's time.
+    /// Distance into the box, its rate in the clock, and its acceleration, at the disc's time. A
+    /// surface that moves out comes nearer.
     struct Approach {
         double distance, rate, pull;
     };
@@ -110,17 +118,17 @@ private:
         return wall_velocity(side, time) + oscillations_[side].at(time).velocity;
     }
     Extent extent_of_lines(double time) const;
-    Approach approach(const DiscState& disc, std::size_t side) const {
+    Approach approach(const DiscState& disc, std::size_t side, const Body& body) const {
         const double sign = sign_of(side);
-        return {sign * (place_of(disc, side / 2) -
-                        wall_at(side, disc.tau, species_.of(disc.id).radius)),
-                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)),
+        return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau, body.radius)),
+                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)) - body.growth,
                 sign * pull_at(side)};
     }
     double delay_of(const Approach& approach, double time) const;
-    double delay_to(const DiscState& disc, std::size_t side) const;
-    Meeting meeting(const DiscState& disc, Axis axis) const;
-    Loss rebound(DiscState& disc, std::size_t side, double since, double time, double* spin) const;
+    double delay_to(const DiscState& disc, std::size_t side, const Body& body) const;
+    Meeting meeting(const DiscState& disc, Axis axis, const Body& body) const;
+    Loss rebound(DiscState& disc, std::size_t side, double since, double time, const Body& body,
+                 double* spin) const;
     /// The velocity of the surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
         return sides_[side].surface.velocity / fall_.slowing_at(time) -
@@ -135,7 +143,6 @@ private:
     std::uint64_t thermal_seed_;
     Box box_;
     double radius_;
-    SpeciesTable species_;
     std::array<double, 4> away_{};             ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
     std::array<double, 2> gravity_;

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/device.hpp"
 #include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/loss.hpp"
@@ -30,7 +31,7 @@
 namespace carrom {
 
 /// Time since the last collision of a disc within this sync interval.
-inline double since_collision(const DiscState& disc, double time) {
+CARROM_DEVICE inline double since_collision(const DiscState& disc, double time) {
     return disc.has_collided ? time - disc.tau : never;
 }
 
@@ -51,7 +52,7 @@ public:
 
     /// `since`: the time since the last collision of either. `closing`: how fast they approach, in
     /// sums of their radii.
-    bool holds(double since, double closing) const {
+    CARROM_DEVICE bool holds(double since, double closing) const {
         return holds(since, closing, pair_share);
     }
     /// At a wall a disc approaches its own image, at twice its speed and twice its radius.
@@ -74,7 +75,7 @@ public:
 
     /// The loss of a collision that takes, or would take, this energy at this squared speed of
     /// approach.
-    Loss loss(double energy, double squared_speed, bool is_guarded) const {
+    CARROM_DEVICE Loss loss(double energy, double squared_speed, bool is_guarded) const {
         if (!is_guarded) return {energy, 0};
         return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};
     }
@@ -83,7 +84,7 @@ private:
     /// Neighbours of a contact at rest disturb it by some departures.
     static constexpr double rest_factor = 10;
 
-    bool holds(double since, double closing, double share) const {
+    CARROM_DEVICE bool holds(double since, double closing, double share) const {
         return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The effects of a scene beyond free flight, elastic pairs and four elastic walls, as numbers.
-// contacts.hpp, boundaries.hpp, gravity.hpp, drag.hpp and obstacles.hpp say what they do.
+// law.hpp, bodies.hpp, boundaries.hpp, gravity.hpp, drag.hpp and obstacles.hpp say what they do.
 #pragma once
 
 #include <array>

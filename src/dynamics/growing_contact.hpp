@@ -16,9 +16,10 @@ namespace carrom {
 /// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`,
 /// not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
 template <class Real>
-[[gnu::always_inline]] inline Real growing_contact_delay(Real dx, Real dy, Real wx, Real wy,
-                                                         Real sigma, Real growth,
-                                                         Real deepest_overlap) {
+[[gnu::always_inline]] CARROM_DEVICE inline Real growing_contact_delay(Real dx, Real dy, Real wx,
+                                                                       Real wy, Real sigma,
+                                                                       Real growth,
+                                                                       Real deepest_overlap) {
     const Real none = -1;
     const Real vx = std::fma(-growth, dx, wx), vy = std::fma(-growth, dy, wy);
     const Real clock = contact_delay(dx, dy, vx, vy, wx, wy, sigma, deepest_overlap);

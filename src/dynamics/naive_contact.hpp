@@ -11,13 +11,16 @@
 
 #include <cmath>
 
+#include "core/device.hpp"
+
 namespace carrom {
 
 /// The time until the points come within `sigma`; negative if they never do, and if they
 /// overlap already. With `contracted`, products are fused with the sums they go into, like a
 /// compiler does with -ffp-contract=fast. It is written out, so that all compilers do the same.
 template <class Real>
-Real naive_contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma, bool contracted) {
+CARROM_DEVICE Real naive_contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
+                                       bool contracted) {
     const auto sum_of_products = [contracted](Real a, Real b, Real c, Real d) {
         return contracted ? std::fma(a, b, c * d) : a * b + c * d;
     };

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/device.hpp"
+
 namespace carrom {
 
 /// A contact at `base` + `delay`; `base` is the later of the two local times. `delay` < 0 means
@@ -19,11 +21,11 @@ namespace carrom {
 template <class Real> struct PairContact {
     Real base = 0;
     Real delay = -1;
-    bool exists() const { return delay >= 0; }
+    CARROM_DEVICE bool exists() const { return delay >= 0; }
 };
 
 /// Twice the area spanned by (ax, ay) and (bx, by), to within about an ulp of the result.
-template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
+template <class Real> CARROM_DEVICE Real cross(Real ax, Real ay, Real bx, Real by) {
     const Real p1 = ax * by;
     const Real e1 = std::fma(ax, by, -p1);
     const Real p2 = ay * bx;
@@ -39,8 +41,9 @@ template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
 /// Inlined wherever it is called, so that the code of one dynamics does not depend on which others
 /// are compiled beside it.
 template <class Real>
-[[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real vx, Real vy, Real wx,
-                                                 Real wy, Real sigma, Real deepest_overlap) {
+[[gnu::always_inline]] CARROM_DEVICE inline Real contact_delay(Real dx, Real dy, Real vx, Real vy,
+                                                               Real wx, Real wy, Real sigma,
+                                                               Real deepest_overlap) {
     const Real none = -1;
     const Real b = dx * vx + dy * vy;
     if (!(b < 0)) return none;
@@ -57,16 +60,18 @@ template <class Real>
     return c / (-b + std::sqrt(disc));
 }
 template <class Real>
-[[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
-                                                 Real deepest_overlap) {
+[[gnu::always_inline]] CARROM_DEVICE inline Real contact_delay(Real dx, Real dy, Real wx, Real wy,
+                                                               Real sigma, Real deepest_overlap) {
     return contact_delay(dx, dy, wx, wy, wx, wy, sigma, deepest_overlap);
 }
 
 /// The contact of discs `p` and `q` (in any order) from their stored states alone, so
 /// the bits do not depend on who asks, and when. Inlined like contact_delay.
 template <class Real, class AnyDisc>
-[[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q,
-                                                             Real sigma, Real deepest_overlap) {
+[[gnu::always_inline]] CARROM_DEVICE inline PairContact<Real> pair_contact(const AnyDisc& p,
+                                                                           const AnyDisc& q,
+                                                                           Real sigma,
+                                                                           Real deepest_overlap) {
     const Real base = std::max(p.tau, q.tau);
     const Real dx = q.x_at(base) - p.x_at(base);
     const Real dy = q.y_at(base) - p.y_at(base);

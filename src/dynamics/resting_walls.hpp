@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/device.hpp"
+
 namespace carrom {
 
 template <class Real> class RestingWalls {
@@ -20,12 +22,12 @@ public:
     RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 
-    Real low() const { return low_; }
-    Real high() const { return high_; }
+    CARROM_DEVICE Real low() const { return low_; }
+    CARROM_DEVICE Real high() const { return high_; }
 
     /// Time-stepped method: the in-step time of the bounce in micro-step m, 0 to 1, or `never`. The
     /// disc was at x at its own time tau.
-    [[gnu::always_inline]] Real time(Real x, Real v, Real tau, Real m) const {
+    [[gnu::always_inline]] CARROM_DEVICE Real time(Real x, Real v, Real tau, Real m) const {
         const Real at_end = x + v * ((m + 1) - tau);
         if (v < 0 && at_end < low_ + band_)
             return std::clamp((tau - m) + (low_ - x) / v, Real{0}, Real{1});
@@ -35,12 +37,12 @@ public:
     }
 
     /// Whether the disc is at the wall that it flies towards.
-    bool touches(Real x, Real v) const {
+    CARROM_DEVICE bool touches(Real x, Real v) const {
         return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
     }
 
     /// The time into the `rest` of a micro-step at which the disc would leave the box, or `never`.
-    [[gnu::always_inline]] Real stop(Real x, Real v, Real rest) const {
+    [[gnu::always_inline]] CARROM_DEVICE Real stop(Real x, Real v, Real rest) const {
         const Real at_end = x + v * rest;
         if (v < 0 && at_end < low_) return std::max((low_ - x) / v, Real{0});
         if (v > 0 && at_end > high_) return std::max((high_ - x) / v, Real{0});
@@ -48,7 +50,7 @@ public:
     }
 
     /// Event-driven method: the time that the disc takes to the wall ahead, or `never`.
-    Real delay(Real x, Real v) const {
+    CARROM_DEVICE Real delay(Real x, Real v) const {
         if (v == 0) return never;
         const Real delay = ((v < 0 ? low_ : high_) - x) / v;
         return delay > 0 ? delay : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a wall or an obstacle does to a disc along its surface: restitution and Coulomb's friction
-// of the surfaces that touch, as between rough discs (contacts.hpp), with a body that nothing
+// of the surfaces that touch, as between rough discs (law.hpp), with a body that nothing
 // moves.
 //
 // With the outward normal n of the body and t = (-n_y, n_x), the surface of a disc with the spin W

@@ -26,7 +26,11 @@ void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_disc
     }
 }
 
-SpeciesTable::SpeciesTable(std::span<const Species> species, double radius) {
+SpeciesTable::SpeciesTable(std::span<const Species> species, double radius)
+    : table_(table_of(species, radius)), view_(view_of(*table_)) {}
+
+std::shared_ptr<const SpeciesTable::Table> SpeciesTable::table_of(std::span<const Species> species,
+                                                                  double radius) {
     auto table = std::make_shared<Table>();
     DiscId end = 0;
     for (const Species& one : species) {
@@ -38,10 +42,12 @@ SpeciesTable::SpeciesTable(std::span<const Species> species, double radius) {
          species.empty() ? SizeAndMass{radius, 1} : table->ranges.back().values});
     if (!species.empty()) table->ranges.erase(table->ranges.end() - 2); // the last one has no end
     if (species.size() > few_species) table->spread(species, end);
-    table_ = table;
-    ranges_ = table_->ranges.data();
-    sizes_ = table_->sizes.empty() ? nullptr : table_->sizes.data();
-    species_of_id_ = table_->species_of_id.empty() ? nullptr : table_->species_of_id.data();
+    return table;
+}
+
+SpeciesView SpeciesTable::view_of(const Table& table) {
+    return {table.ranges.data(), table.sizes.empty() ? nullptr : table.sizes.data(),
+            table.species_of_id.empty() ? nullptr : table.species_of_id.data()};
 }
 
 } // namespace carrom

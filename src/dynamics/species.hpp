@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "core/device.hpp"
 #include "core/disc_state.hpp"
 
 namespace carrom {
@@ -31,14 +32,19 @@ struct SizeAndMass {
     double mass = 1;
 };
 
-/// Copies share their memory. A run makes one table: its dynamics has it, and all others get a copy
-/// (Engine::species_table).
-class SpeciesTable {
+/// Looks up radius and mass in a table that something else owns; plain data.
+class SpeciesView {
 public:
-    /// Without species all discs have this radius and mass 1.
-    SpeciesTable(std::span<const Species> species, double radius);
+    struct Range {
+        DiscId end = std::numeric_limits<DiscId>::max();
+        SizeAndMass values;
+    };
 
-    const SizeAndMass& of(DiscId id) const {
+    /// `sizes` is null if there are few species; `species_of_id` if it has each disc's values.
+    SpeciesView(const Range* ranges, const SizeAndMass* sizes, const std::uint16_t* species_of_id)
+        : ranges_(ranges), sizes_(sizes), species_of_id_(species_of_id) {}
+
+    CARROM_DEVICE const SizeAndMass& of(DiscId id) const {
         if (sizes_) return sizes_[species_of_id_ ? species_of_id_[id] : id];
         const Range* range = ranges_;
         while (id >= range->end) ++range;
@@ -46,22 +52,35 @@ public:
     }
 
 private:
-    struct Range {
-        DiscId end = std::numeric_limits<DiscId>::max();
-        SizeAndMass values;
-    };
+    const Range* ranges_;
+    const SizeAndMass* sizes_;
+    const std::uint16_t* species_of_id_;
+};
+
+/// Copies share their memory. A run makes one table: its dynamics has it, and all others get a copy
+/// (Engine::species_table).
+class SpeciesTable {
+public:
+    /// Without species all discs have this radius and mass 1.
+    SpeciesTable(std::span<const Species> species, double radius);
+
+    const SizeAndMass& of(DiscId id) const { return view_.of(id); }
+    SpeciesView view() const { return view_; }
+
+private:
     struct Table {
-        std::vector<Range> ranges;
+        std::vector<SpeciesView::Range> ranges;
         std::vector<SizeAndMass> sizes;           ///< of each species, or of each disc; or empty
         std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
 
         void spread(std::span<const Species> species, DiscId n_discs);
     };
 
+    static std::shared_ptr<const Table> table_of(std::span<const Species> species, double radius);
+    static SpeciesView view_of(const Table& table);
+
     std::shared_ptr<const Table> table_;
-    const Range* ranges_ = nullptr;
-    const SizeAndMass* sizes_ = nullptr; ///< null if there are few species
-    const std::uint16_t* species_of_id_ = nullptr;
+    SpeciesView view_;
 };
 
 } // namespace carrom

@@ -3,8 +3,6 @@
 // place makes this choice.
 #pragma once
 
-#include <type_traits>
-
 #include "dynamics/all_dynamics.hpp"
 #include "scene/scene_parameters.hpp"
 
@@ -15,23 +13,14 @@ namespace carrom {
 /// precision and arithmetic, because the reader of scenes refuses others.
 template <class Make> auto with_dynamics_of(const SceneParameters& scene, const Make& make) {
     const Effects& effects = scene.effects;
-    const bool is_periodic = effects.are_periodic();
+    const bool has_species = !effects.species.empty();
     if (effects.growth != 0) return make.template operator()<GrowingDynamics>();
-    if (effects.are_sheared())
-        return effects.contact.kind == ContactKind::rough
-                   ? make.template operator()<ShearedRoughDynamics>()
-                   : make.template operator()<ShearedMixedDynamics>();
-    if (effects.contact.kind == ContactKind::rough)
-        return is_periodic ? make.template operator()<PeriodicRoughDynamics>()
-                           : make.template operator()<RoughDynamics>();
-    if (!effects.species.empty())
-        return is_periodic ? make.template operator()<PeriodicMixedDynamics>()
-                           : make.template operator()<MixedDynamics>();
-    if (is_periodic)
-        return effects.contact.kind == ContactKind::elastic
-                   ? make.template operator()<PeriodicElasticDynamics>()
-                   : make.template operator()<PeriodicInelasticDynamics>();
-    if (effects.are_any()) return make.template operator()<InelasticDynamics>();
+    if (effects.are_sheared()) return make.template operator()<ShearedDynamics>();
+    if (effects.are_periodic())
+        return has_species ? make.template operator()<PeriodicMixedDynamics>()
+                           : make.template operator()<PeriodicDynamics>();
+    if (has_species) return make.template operator()<WalledMixedDynamics>();
+    if (effects.are_any()) return make.template operator()<WalledDynamics>();
     if (scene.precision == Precision::single)
         return make.template operator()<StudyDynamics<float>>();
     return scene.arithmetic == Arithmetic::stable
@@ -46,13 +35,9 @@ inline ContactFormula contact_formula_of(const SceneParameters& scene) {
 
 /// The dynamics with the scene's numbers.
 template <class D> D dynamics_of(const SceneParameters& scene) {
-    if constexpr (D::is_for_study)
-        return D(scene.box, scene.radius, contact_formula_of(scene));
-    else if constexpr (std::is_constructible_v<D, const Box&, double, const Effects&>)
-        return D(scene.box, scene.radius,
-                 per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)));
-    else
-        return D(scene.box, scene.radius);
+    return D(scene.box, scene.radius,
+             per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)),
+             contact_formula_of(scene));
 }
 
 } // namespace carrom

@@ -35,8 +35,9 @@ GroupChoice group_choice(Method method, const Tuning& tuning) {
 
 /// Includes columns of the scene that no collision changes, because they go where the discs go.
 template <class Dynamics>
-SideColumns stored_columns(const SceneParameters& scene, StoredState& state) {
-    SideColumnSet wanted = side_columns_of<Dynamics>().present();
+SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scene,
+                           StoredState& state) {
+    SideColumnSet wanted = side_columns_of(dynamics).present();
     side_columns_of(scene).for_each([&](SideColumn column) {
         if (!info_of(column).is_of_dynamics) wanted.add(column);
     });
@@ -44,14 +45,6 @@ SideColumns stored_columns(const SceneParameters& scene, StoredState& state) {
     wanted.for_each(
         [&](SideColumn column) { columns.add(column, std::move(state.columns[column])); });
     return columns;
-}
-
-/// The dynamics' own table, or one of equal discs.
-template <class Dynamics> SpeciesTable species_of(const Dynamics& dynamics) {
-    if constexpr (Dynamics::has_species)
-        return dynamics.species_table();
-    else
-        return SpeciesTable({}, dynamics.radius());
 }
 
 } // namespace
@@ -62,9 +55,9 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
-             stored_columns<Dynamics>(scene, state), tuning.threads,
+             stored_columns(dynamics_, scene, state), tuning.threads,
              group_choice(scene.method, tuning)),
-      n_micro_done_(state.micro_steps_done), species_(species_of(dynamics_)),
+      n_micro_done_(state.micro_steps_done), species_(dynamics_.species_table()),
       sync_action_(scene, species_, communicator, tuning.threads), flight_length_(flight_length()),
       last_micro_step_(scene.steps * scene.micro_steps) {
     sync_action_.go_on(state.kept_by_effects);

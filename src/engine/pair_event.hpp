@@ -12,7 +12,7 @@
 
 #include "core/disc_state.hpp"
 #include "core/frame.hpp"
-#include "dynamics/plain_dynamics.hpp"
+#include "dynamics/encounter.hpp"
 #include "engine/followers.hpp"
 
 namespace carrom {

@@ -19,7 +19,7 @@
 #include "core/disc_state.hpp"
 #include "core/exact_sum.hpp"
 #include "core/flight_integral.hpp"
-#include "dynamics/plain_dynamics.hpp"
+#include "dynamics/encounter.hpp"
 
 namespace carrom {
 
@@ -105,8 +105,7 @@ public:
                      weight = dynamics.pair_weight_at(time) + flown, twice = weight + weight;
         const double ix = mass * gained_x, iy = mass * gained_y;
         terms.add(ix, iy, {to.x - twice * half_ux, to.y - twice * half_uy}, sum);
-        if constexpr (!Dynamics::has_elastic_pairs)
-            sum.energy.add(twice * (ix * half_ux + iy * half_uy));
+        if (!dynamics.has_elastic_pairs()) sum.energy.add(twice * (ix * half_ux + iy * half_uy));
         return ix;
     }
 

@@ -148,7 +148,7 @@ template <class Dynamics>
     std::uint32_t a, std::uint32_t b, const Image* image) {
     if (image) [[unlikely]]
         move_image(discs[b], *image);
-    const auto contact = dynamics.event_contact(discs[a], discs[b]);
+    const auto contact = dynamics.contact(discs[a], discs[b], Dynamics::never);
     if (image) [[unlikely]]
         move_image(discs[b], -*image);
     if (!contact.exists()) return;
@@ -182,8 +182,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
         return;
     const DiscState& disc = discs[slot];
     if (!dynamics.may_meet_wall(disc, ground.window.end)) return;
-    push(dynamics.x_wall_time(disc), slot, x_wall);
-    push(dynamics.y_wall_time(disc), slot, y_wall);
+    push(dynamics.wall_time(disc, Axis::x), slot, x_wall);
+    push(dynamics.wall_time(disc, Axis::y), slot, y_wall);
 }
 
 /// Predicts the first obstacle that the disc meets. At the time of its last collision the obstacle
@@ -237,7 +237,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     }
     ++outcome->n_carried;
     if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
-    const bool is_corner = event.q == x_wall && dynamics.y_wall_time(discs[event.p]) == event.time;
+    const bool is_corner = event.q == x_wall &&
+                           dynamics.wall_time(discs[event.p], Axis::y) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy
     carry_out(event);
     const bool has_left = Dynamics::may_lose_discs &&
@@ -269,13 +270,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     const WallStress<Dynamics> before(p);
     Loss loss;
     if (event.q == x_wall) {
-        loss = dynamics.bounce_x_at(p, event.time, spin_of(event.p));
+        loss = dynamics.bounce(p, Axis::x, event.time, spin_of(event.p));
     } else if (event.q == y_wall) {
-        loss = dynamics.bounce_y_at(p, event.time, spin_of(event.p));
+        loss = dynamics.bounce(p, Axis::y, event.time, spin_of(event.p));
     } else if (Dynamics::may_have_obstacles && is_wall(event.q)) {
         if constexpr (Dynamics::may_have_obstacles)
-            loss = dynamics.bounce_off_at(p, event.q - first_obstacle, event.time,
-                                          spin_of(event.p));
+            loss = dynamics.bounce_off(p, event.q - first_obstacle, event.time,
+                                       since_collision(p, event.time), spin_of(event.p));
     } else {
         if (is_own[event.p] != is_own[event.q] && !is_whole)
             check_partner(is_own[event.p] != 0 ? event.q : event.p);
@@ -304,12 +305,9 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
     const double last = std::max(p.tau, q.tau);
     const bool is_simultaneous = last > 0 && event.time - last <= 0x1p-48 * event.time;
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
-    Loss loss;
-    if constexpr (Dynamics::has_spin)
-        loss = dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
-                                   columns[SideColumn::spin][event.q]);
-    else
-        loss = dynamics.collide_at(p, q, event.time);
+    const Loss loss = dynamics.collide(p, q, event.time,
+                                       Dynamics::since_collision_of(p, q, event.time),
+                                       {spin_of(event.p), spin_of(event.q)});
     if (is_own[event.p] != 0) {
         outcome->n_simultaneous += is_simultaneous;
         const Separation to = dynamics.separation(p, q);
@@ -342,14 +340,12 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     past_events.generation = event.generation;
     past_events.partner = partner;
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
-    double spin = 0;
-    if constexpr (Dynamics::has_spin) spin = columns[SideColumn::spin][slot];
     n_hit += past_events.history == 0 && is_own[slot] != 0;
     const double now = dynamics.squared_speed(disc);
     if (ground.is_alone)
         past_events.history = 1;
     else
-        past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin, speed_class(now));
+        past_events.add(event.time, disc, partner_id, spin_of(slot), speed_class(now));
     if (is_own[slot] != 0) {
         largest_squared = std::max(largest_squared, now);
         const float before = lane_speed_squared(slot);

@@ -26,8 +26,7 @@ struct EventHistory {
 
     /// Adds a collision: its time, the other's id and the velocities after it. The
     /// place follows from these and the state before.
-    template <bool has_spin>
-    void add(double time, const DiscState& disc, std::uint64_t partner_id, double spin,
+    void add(double time, const DiscState& disc, std::uint64_t partner_id, const double* spin,
              SpeedClass speed) {
         const auto mixed = [](double value, std::uint64_t factor) {
             return std::rotl(std::bit_cast<std::uint64_t>(value) * factor, 31);
@@ -36,8 +35,9 @@ struct EventHistory {
                                   mixed(disc.vx, 0xbf58476d1ce4e5b9u) +
                                   mixed(disc.vy, 0x94d049bb133111ebu) + partner_id;
         std::uint64_t hash = (std::rotl(history, 17) ^ sum) * 0xff51afd7ed558ccdu;
-        if constexpr (has_spin)
-            hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(spin)) * 0xc4ceb9fe1a85ec53u;
+        if (spin)
+            hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(*spin)) *
+                   0xc4ceb9fe1a85ec53u;
         const std::uint64_t fastest = std::max<std::uint64_t>(speed, speed_class_of(history));
         history = ((hash ^ (hash >> 32)) & ~largest_speed_class) | fastest;
     }
@@ -213,9 +213,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         return static_cast<SpeedClass>(std::min(1 + squared_speed * classes_per_squared, largest));
     }
     /// Null where discs do not turn.
-    double* spin_of([[maybe_unused]] std::uint32_t slot) {
-        if constexpr (Dynamics::has_spin) return &columns[SideColumn::spin][slot];
-        return nullptr;
+    double* spin_of(std::uint32_t slot) {
+        return dynamics.has_spin() ? &columns[SideColumn::spin][slot] : nullptr;
     }
     std::uint32_t versions_of(const Event& event) const {
         return discs[event.p].version() + (is_wall(event.q) ? 0 : discs[event.q].version());
@@ -339,7 +338,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
     DiscStates discs;
-    SideColumns columns = side_columns_of<Dynamics>();
+    SideColumns columns = side_columns_of(dynamics);
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::size_t n_hit = 0; ///< own discs that have collided

@@ -223,7 +223,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     // window is validated.
     outcome->hit.resize(n_hit);
     outcome->states.reserve(n_hit);
-    outcome->columns = side_columns_of<Dynamics>();
+    outcome->columns = side_columns_of(dynamics);
     outcome->columns.resize(n_hit);
     double end_squared = 0;
     std::size_t next = 0;

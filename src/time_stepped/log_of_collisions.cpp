@@ -2,6 +2,7 @@
 // The time-stepped engine's log of collisions, for runs whose collisions are followed.
 #include <cmath>
 
+#include "time_stepped/step_walls.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
 
 namespace carrom {
@@ -29,7 +30,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
         if (this->wall_followers_.are_any() && c.is_wall()) {
-            const auto met = dynamics_.met_walls(unhit_[i], m, c.time);
+            const auto met = StepWalls(dynamics_).met(unhit_[i], m, c.time);
             for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
                 if (axis == 0 ? met.at_x : met.at_y)
                     this->wall_followers_.note() = wall_event(

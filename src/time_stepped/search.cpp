@@ -9,6 +9,7 @@
 #include "cell_list/shared_work.hpp"
 #include "core/stop_request.hpp"
 #include "time_stepped/contact_filter.hpp"
+#include "time_stepped/step_walls.hpp"
 
 namespace carrom {
 
@@ -328,7 +329,7 @@ void Search<Dynamics>::predict_pair(const Population& population, const Window& 
     if (a >= population.n_own && b >= population.n_own) return;
     const DiscState& first = population.discs[a];
     const DiscState& second = population.discs[b];
-    const auto contact = dynamics_.contact(first, second);
+    const auto contact = dynamics_.contact(first, second, dynamics_.tolerance());
     if (!contact.exists()) return;
     const int m = first_micro_step(contact, from, window.end_micro());
     if (m == window.end_micro()) return;
@@ -345,8 +346,8 @@ void Search<Dynamics>::predict_wall(const Population& population, const Window& 
     if (index >= population.n_own) return;
     const DiscState& disc = population.discs[index];
     for (int m = from; m < window.end_micro(); ++m) {
-        const double t = dynamics_.wall_time(disc, m);
-        if (t == Dynamics::never) continue;
+        const double t = StepWalls(dynamics_).time(disc, m);
+        if (t == never) continue;
         if (window.holds(t)) add(lists, window, from, m, {t, index, wall_index});
         return;
     }

@@ -9,6 +9,7 @@
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/speed_survey.hpp"
 #include "engine/state_sums.hpp"
+#include "time_stepped/step_walls.hpp"
 
 namespace carrom {
 
@@ -284,7 +285,7 @@ template <class Dynamics>
     const bool is_summed = this->stress_ && c.p < discs_.n_own();
     if (c.is_wall()) {
         const WallStress<Dynamics> before(p);
-        dynamics_.bounce(p, m, c.time, spin_of(c.p));
+        StepWalls(dynamics_).bounce(p, m, c.time, spin_of(c.p));
         if (is_summed) before.add_to(terms, stress, dynamics_, p, m + c.time, this->flown_before_);
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
@@ -292,12 +293,9 @@ template <class Dynamics>
     const PairStress<Dynamics> before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
     // A spin does not affect the search, so it need not wait for the end of a cut micro-step.
-    if constexpr (Dynamics::has_spin) {
-        std::vector<double>& spins = discs_.columns()[SideColumn::spin];
-        dynamics_.collide(p, q, m, c.time, spins[c.p], spins[c.q]);
-    } else {
-        dynamics_.collide(p, q, m, c.time);
-    }
+    dynamics_.collide(p, q, m + c.time, Dynamics::never, {spin_of(c.p), spin_of(c.q)});
+    StepWalls(dynamics_).stop(p, m, c.time);
+    StepWalls(dynamics_).stop(q, m, c.time);
     if (is_summed) {
         [[maybe_unused]] const double impulse = before.add_to(terms, stress, dynamics_, p, q, to,
                                                               m + c.time, this->flown_before_);

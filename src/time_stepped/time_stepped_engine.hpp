@@ -71,9 +71,8 @@ private:
             discs_.grid().update_flight(index, disc);
     }
     /// Null where discs do not turn.
-    double* spin_of([[maybe_unused]] LocalIndex index) {
-        if constexpr (Dynamics::has_spin) return &discs_.columns()[SideColumn::spin][index];
-        return nullptr;
+    double* spin_of(LocalIndex index) {
+        return dynamics_.has_spin() ? &discs_.columns()[SideColumn::spin][index] : nullptr;
     }
     void update_halo(const Window& window, int m);
     void note_velocities(std::span<const DiscState> results);

@@ -47,7 +47,9 @@ template <class Real> Real in_step_time(const PairContact<Real>& contact, int m)
 }
 
 /// The first micro-step of [from, to) that has this contact as a candidate (0 <= t <= 1), or `to`.
-template <class Real> int first_micro_step(const PairContact<Real>& contact, int from, int to) {
+template <class Real>
+[[gnu::always_inline]] inline int first_micro_step(const PairContact<Real>& contact, int from,
+                                                   int to) {
     const double time = contact.base + contact.delay;
     if (!(time < to + 1.0)) return to;
     const int guess = static_cast<int>(time);

@@ -18,8 +18,8 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "core/state_hash.hpp"
+#include "dynamics/all_dynamics.hpp"
 #include "dynamics/pair_contact.hpp"
-#include "dynamics/plain_dynamics.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
 #include "parallel/received.hpp"

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "approach.hpp"
-#include "dynamics/plain_dynamics.hpp"
+#include "dynamics/all_dynamics.hpp"
 #include "hold.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
@@ -127,10 +127,10 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches", 
         p.vy = some.uniform(-1, 1);
         q.vx = p.vx + c.wx;
         q.vy = p.vy + c.wy;
-        const PairContact<double> contact = dynamics.event_contact(p, q);
+        const PairContact<double> contact = dynamics.contact(p, q, never);
         if (!contact.exists()) continue;
-        PlainDynamics::collide_at(p, q, contact.base + contact.delay);
-        const PairContact<double> next = dynamics.event_contact(p, q);
+        dynamics.collide(p, q, contact.base + contact.delay, never);
+        const PairContact<double> next = dynamics.contact(p, q, never);
         n_again += next.exists() && next.delay < 1e-12;
     }
     hold("contact", "1e6 random collisions: pairs due to collide again at once", "both", n_again,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two discs that touch do to each other (dynamics/contacts.hpp).
+// What two discs that touch do to each other (dynamics/law.hpp).
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that grow (dynamics/growing_dynamics.hpp).
+// Discs that grow (dynamics/bodies.hpp).
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform shear between sheared sides (dynamics/sheared_dynamics.hpp).
+// Uniform shear between sheared sides (dynamics/space.hpp).
 #include <cmath>
 
 #include <fmt/format.h>

@@ -47,8 +47,8 @@ TestScene hot_floor(std::uint64_t seed) {
 
 StateHash hash_by_engine(const TestScene& scene, const Communicator& world) {
     const Shape shape = small_blocks(1.5, 2, 3);
-    EventDrivenEngine<InelasticDynamics> engine(scene_of(scene), {dealt_discs(scene, world, 7), 0},
-                                                world, shape.tuning, shape.exact);
+    EventDrivenEngine<WalledDynamics> engine(scene_of(scene), {dealt_discs(scene, world, 7), 0},
+                                             world, shape.tuning, shape.exact);
     while (engine.micro_steps_done() < scene.steps) engine.advance_towards(scene.steps);
     const StateHash hash = hash_of(engine.own());
     std::uint64_t sums[] = {hash.low, hash.high};

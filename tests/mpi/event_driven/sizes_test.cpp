@@ -82,7 +82,8 @@ template <class Dynamics> void check_levels(TestScene scene, const Communicator&
 
 TEST_CASE("event-driven: discs in levels of sizes have the reference's bits between walls") {
     const Communicator world = Communicator::world();
-    for (const TestScene& scene : mixtures(false, false)) check_levels<MixedDynamics>(scene, world);
+    for (const TestScene& scene : mixtures(false, false))
+        check_levels<WalledMixedDynamics>(scene, world);
 }
 
 TEST_CASE("event-driven: discs in levels of sizes have the reference's bits in periodic boxes") {

@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 
-#include "dynamics/effect_dynamics.hpp"
+#include "dynamics/all_dynamics.hpp"
 #include "numbers_of_any_size.hpp"
 
 using namespace carrom;
@@ -83,7 +83,7 @@ TEST_CASE("oscillation: a disc that bounces is never beyond the wall") {
     for (int k = 0; k < 150; ++k) {
         Bouncer bouncer = random_bouncer(random);
         DiscState& disc = bouncer.disc;
-        InelasticDynamics dynamics(40, 1, bouncer.effects);
+        WalledDynamics dynamics(40, 1, bouncer.effects);
         Long deepest = 0;
         double begin = 0, fastest = 0;
         std::uint64_t n = 0, most = 0;
@@ -92,8 +92,8 @@ TEST_CASE("oscillation: a disc that bounces is never beyond the wall") {
             most += 5000 + static_cast<std::uint64_t>(4 * bouncer.sync /
                                                       bouncer.effects.contact.contact_time);
             for (double last = 0; last < bouncer.sync && n < most;) {
-                const double time = bouncer.is_x() ? dynamics.x_wall_time(disc)
-                                                   : dynamics.y_wall_time(disc);
+                const Axis axis = bouncer.is_x() ? Axis::x : Axis::y;
+                const double time = dynamics.wall_time(disc, axis);
                 REQUIRE(time >= last);
                 const double end = std::min(time, bouncer.sync);
                 for (int i = 0; i <= 50; ++i)
@@ -102,8 +102,7 @@ TEST_CASE("oscillation: a disc that bounces is never beyond the wall") {
                 last = end;
                 if (!(time <= bouncer.sync)) break;
                 CHECK(dynamics.may_meet_wall(disc, bouncer.sync));
-                bouncer.is_x() ? dynamics.bounce_x_at(disc, time)
-                               : dynamics.bounce_y_at(disc, time);
+                dynamics.bounce(disc, axis, time);
                 ++n;
             }
             PlainDynamics::advance(disc, bouncer.sync);

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 
 #include "dynamics/all_dynamics.hpp"
+#include "time_stepped/step_walls.hpp"
 
 using namespace carrom;
 
@@ -17,12 +18,10 @@ constexpr double box_size = 64, radius = 0.5;
 
 /// Answers nothing but its size.
 struct Silent {
-    const Box& box() const {
-        static const Box unit = 1;
-        return unit;
-    }
+    double largest() const { return 1; }
+    static constexpr double slack() { return 0; }
 };
-static_assert(!Dynamics<Silent> && !Dynamics<double>);
+static_assert(!Bodies<Silent> && !Space<Silent> && !Bodies<WalledSpace> && !Space<EqualBodies>);
 
 class Discs {
 public:
@@ -83,25 +82,28 @@ template <class A, class B> Counts compare(const A& a, const B& b, bool with_con
     Counts counts;
     for (int k = 0; k < 20000; ++k) {
         const DiscState p = discs.anywhere(), q = discs.near(p);
-        const auto found = a.contact(p, q), event = a.event_contact(p, q);
+        const auto found = a.contact(p, q, a.tolerance()), event = a.contact(p, q, never);
         bool same = true;
         if (with_contact_times)
-            same = are_same(found, b.contact(p, q)) && are_same(event, b.event_contact(p, q));
+            same = are_same(found, b.contact(p, q, b.tolerance())) &&
+                   are_same(event, b.contact(p, q, never));
         if (event.exists()) {
             DiscState p1 = p, q1 = q, p2 = p, q2 = q;
-            a.collide_at(p1, q1, event.base + event.delay);
-            b.collide_at(p2, q2, event.base + event.delay);
+            a.collide(p1, q1, event.base + event.delay, never);
+            b.collide(p2, q2, event.base + event.delay, never);
             same = same && are_same(p1, p2) && are_same(q1, q2);
             ++counts.contacts;
         }
-        const double t = a.wall_time(p, 0);
-        same = same && are_same(t, b.wall_time(p, 0)) &&
-               are_same(a.x_wall_time(p), b.x_wall_time(p)) &&
-               are_same(a.y_wall_time(p), b.y_wall_time(p));
+        const StepWalls a_walls(a);
+        const StepWalls b_walls(b);
+        const double t = a_walls.time(p, 0);
+        same = same && are_same(t, b_walls.time(p, 0)) &&
+               are_same(a.wall_time(p, Axis::x), b.wall_time(p, Axis::x)) &&
+               are_same(a.wall_time(p, Axis::y), b.wall_time(p, Axis::y));
         if (t <= 1) {
             DiscState p1 = p, p2 = p;
-            a.bounce(p1, 0, t);
-            b.bounce(p2, 0, t);
+            a_walls.bounce(p1, 0, t, nullptr);
+            b_walls.bounce(p2, 0, t, nullptr);
             same = same && are_same(p1, p2);
             ++counts.bounces;
         }
@@ -121,18 +123,49 @@ void check_alike(const Counts& counts) {
 TEST_CASE("Effects that change nothing give the plain bits") {
     const PlainDynamics plain(box_size, radius);
     Effects effects;
-    check_alike(compare(plain, InelasticDynamics(box_size, radius, effects)));
+    check_alike(compare(plain, WalledDynamics(box_size, radius, effects)));
     effects.contact = {ContactKind::restitution, 1};
-    check_alike(compare(plain, InelasticDynamics(box_size, radius, effects)));
+    check_alike(compare(plain, WalledDynamics(box_size, radius, effects)));
     effects.species = {{1000, radius, 3}, {1000, radius, 3}};
-    check_alike(compare(plain, MixedDynamics(box_size, radius, effects)));
+    check_alike(compare(plain, WalledMixedDynamics(box_size, radius, effects)));
+}
+
+TEST_CASE("Parts that change nothing give the plain bits") {
+    const PlainDynamics plain(box_size, radius);
+    check_alike(compare(plain, PeriodicDynamics(box_size, radius, Effects{})));
+    check_alike(compare(plain, PeriodicMixedDynamics(box_size, radius, Effects{})));
+    check_alike(compare(plain, GrowingDynamics(box_size, radius, Effects{})));
+    check_alike(compare(plain, Dynamics<WalledSpace, GrowingBodies>(box_size, radius, Effects{})));
+}
+
+// Nor do parts that change something: each combination differs where its part acts.
+TEST_CASE("Discs that grow touch earlier, and part faster") {
+    Effects effects;
+    effects.growth = 1e-3;
+    const PlainDynamics plain(box_size, radius);
+    const GrowingDynamics growing(box_size, radius, effects);
+    Discs discs;
+    int n_contacts = 0;
+    for (int k = 0; k < 2000; ++k) {
+        DiscState p = discs.anywhere(), q = discs.near(p);
+        const auto then = plain.contact(p, q, never), now = growing.contact(p, q, never);
+        if (!then.exists() || !now.exists() || then.delay == 0) continue;
+        CHECK(now.delay < then.delay);
+        growing.collide(p, q, now.base + now.delay, never);
+        const double dx = q.x - p.x, dy = q.y - p.y, distance = std::hypot(dx, dy);
+        // Surfaces part at the least: centres do so by what both radii grow.
+        CHECK(((q.vx - p.vx) * dx + (q.vy - p.vy) * dy) / distance >=
+              2 * radius * effects.growth * (1 - 1e-12));
+        ++n_contacts;
+    }
+    CHECK(n_contacts > 300);
 }
 
 TEST_CASE("An effect that loses energy does not give the plain bits") {
     Effects effects;
     effects.contact = {ContactKind::restitution, 0.9};
     const Counts counts = compare(PlainDynamics(box_size, radius),
-                                  InelasticDynamics(box_size, radius, effects));
+                                  WalledDynamics(box_size, radius, effects));
     CHECK(counts.differences > 1000);
 }
 
@@ -142,24 +175,25 @@ TEST_CASE("In double precision the study's walls and collisions have the plain b
     for (const ContactFormula formula :
          {ContactFormula::stable, ContactFormula::naive, ContactFormula::naive_contracted})
         check_alike(compare(PlainDynamics(box_size, radius),
-                            StudyDynamics<double>(box_size, radius, formula), with_contact_times));
+                            StudyDynamics<double>(box_size, radius, {}, formula),
+                            with_contact_times));
 }
 
 TEST_CASE("The study's states in single precision are floats near the plain ones") {
     const PlainDynamics plain(box_size, radius);
-    const StudyDynamics<float> single(box_size, radius, ContactFormula::stable);
+    const StudyDynamics<float> single(box_size, radius, {}, ContactFormula::stable);
     Discs discs;
     int n_contacts = 0;
     for (int k = 0; k < 20000; ++k) {
         DiscState p = discs.anywhere(), q = discs.near(p);
         StudyDynamics<float>::round(p);
         StudyDynamics<float>::round(q);
-        const auto found = single.event_contact(p, q);
-        const auto expected = plain.event_contact(p, q);
+        const auto found = single.contact(p, q, never);
+        const auto expected = plain.contact(p, q, never);
         if (!found.exists() || !expected.exists() || expected.delay > 1) continue;
         DiscState p1 = p, q1 = q;
-        single.collide_at(p1, q1, static_cast<double>(found.base + found.delay));
-        PlainDynamics::collide_at(p, q, expected.base + expected.delay);
+        single.collide(p1, q1, static_cast<double>(found.base + found.delay), never);
+        plain.collide(p, q, expected.base + expected.delay, never);
         for (const double number : {p1.x, p1.y, p1.vx, p1.vy, p1.tau, q1.x, q1.vx})
             REQUIRE(static_cast<double>(static_cast<float>(number)) == number);
         // A graze amplifies the rounding of places, 2^-18, by up to its inverse root.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arithmetic of flights and contacts: double precision and the stable formula of the time of
+// contact (pair_contact.hpp). One part of a dynamics (dynamics.hpp). The accuracy study has others
+// (studied_arithmetic.hpp).
+#pragma once
+
+#include <algorithm>
+
+#include <carrom/box.hpp>
+
+#include "core/device.hpp"
+#include "core/disc_state.hpp"
+#include "dynamics/encounter.hpp"
+#include "dynamics/pair_contact.hpp"
+
+namespace carrom {
+
+enum class ContactFormula { stable, naive, naive_contracted };
+
+class StableArithmetic {
+public:
+    using Real = double;
+    using State = const DiscState&;
+    static constexpr bool is_for_study = false; // states are rounded, contacts missed
+    static constexpr double cascade_interval = 0, time_rounding = 0x1p-50;
+
+    StableArithmetic() = default;
+    StableArithmetic(const Box& /*box*/, double /*radius*/, ContactFormula /*formula*/) {}
+
+    static Box rounded(const Box& box) { return box; }
+    static constexpr double rounded(double number) { return number; }
+    /// Rounding makes no deeper overlap than this.
+    static double tolerance(const Box& box, double diameter) {
+        return std::max(1e-12 * diameter, 16 * 0x1p-52 * box.longest());
+    }
+    /// The largest gap between discs in a contact, and the rounding of places.
+    static constexpr double slack() { return 0; }
+    static constexpr double place_rounding() { return 0; }
+    /// Overlapping discs collide if they approach.
+    static constexpr bool parts_overlaps() { return true; }
+
+    CARROM_DEVICE static void advance(DiscState& disc, double time) {
+        const double x = disc.x_at(time), y = disc.y_at(time);
+        disc.x = x;
+        disc.y = y;
+        disc.tau = time;
+    }
+    [[gnu::always_inline]] CARROM_DEVICE static double delay(const Encounter<double>& met,
+                                                             double sigma, double deepest_overlap) {
+        return contact_delay(met.ex, met.ey, met.wx, met.wy, sigma, deepest_overlap);
+    }
+    /// Whether a contact that the formula finds counts.
+    CARROM_DEVICE static constexpr bool counts(const DiscState& /*p*/, const DiscState& /*q*/,
+                                               const PairContact<double>& /*found*/) {
+        return true;
+    }
+};
+
+} // namespace carrom

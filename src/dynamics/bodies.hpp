@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bodies of discs: radius, mass, and how fast the surface moves out. One part of a dynamics
+// (dynamics.hpp); bodies are plain data.
+//
+//   EqualBodies     one radius, the mass 1
+//   SpeciesBodies   a radius and a mass for each species (species.hpp)
+//   GrowingBodies   one species or several, whose radii grow at a constant rate, r(t) = r(0)
+//                   (1 + rate t), as Lubachevsky and Stillinger (J. Stat. Phys. 60, 561 (1990))
+//                   compress them; event-driven method only. Radii follow from the time since the
+//                   scene's start, so no state has them. Surfaces that meet part as those of other
+//                   discs do, seen from the moving surfaces.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/device.hpp"
+#include "core/disc_state.hpp"
+#include "dynamics/arithmetic.hpp"
+#include "dynamics/effects.hpp"
+#include "dynamics/encounter.hpp"
+#include "dynamics/growing_contact.hpp"
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+/// A disc as sides of the box see it at a time.
+struct Body {
+    double radius = 0, mass = 1;
+    double growth = 0; ///< how fast the surface moves out
+};
+
+template <class B>
+concept Bodies = std::is_trivially_copyable_v<B> &&
+                 requires(B changing, const B bodies, const DiscState& p, std::int64_t n,
+                          double time, const Encounter<double>& met, StableArithmetic by) {
+                     { B::have_species } -> std::convertible_to<bool>; // radii and masses differ
+                     { B::grow } -> std::convertible_to<bool>;
+                     // Thousands of collisions of a disc within so many micro-steps do not end.
+                     { B::cascade_interval } -> std::convertible_to<double>;
+                     changing.begin_interval(n); // times now count from micro-step n
+                     { bodies.largest() } -> std::same_as<double>; // radius, before it has grown
+                     { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
+                     { bodies.at(p, time) } -> std::same_as<Body>;
+                     // Radii have grown by this factor.
+                     { bodies.growth_at(time) } -> std::convertible_to<double>;
+                     // The delay from the time on until discs touch (pair_contact.hpp).
+                     { bodies.delay(by, p, p, met, time, time) } -> std::same_as<double>;
+                     // The encounter of the surfaces of discs that touch.
+                     { bodies.surfaces(met, time) } -> std::same_as<Encounter<double>>;
+                 };
+
+class EqualBodies {
+public:
+    static constexpr bool have_species = false, grow = false;
+    static constexpr double cascade_interval = 0x1p-40;
+
+    EqualBodies(double radius, const Effects& /*effects*/, SpeciesView /*species*/)
+        : radius_(radius), diameter_(2 * radius) {}
+
+    CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
+    CARROM_DEVICE double largest() const { return radius_; }
+    CARROM_DEVICE SizeAndMass of(const DiscState& /*disc*/) const { return {radius_, 1}; }
+    CARROM_DEVICE Body at(const DiscState& /*disc*/, double /*time*/) const {
+        return {radius_, 1, 0};
+    }
+    CARROM_DEVICE static constexpr double growth_at(double /*time*/) { return 1; }
+    template <class Arithmetic, class State, class Real>
+    [[gnu::always_inline]] CARROM_DEVICE Real delay(const Arithmetic& arithmetic,
+                                                    const State& /*p*/, const State& /*q*/,
+                                                    const Encounter<Real>& met, Real /*time*/,
+                                                    Real deepest_overlap) const {
+        return arithmetic.delay(met, static_cast<Real>(diameter_), deepest_overlap);
+    }
+    template <class Real>
+    CARROM_DEVICE static Encounter<Real> surfaces(const Encounter<Real>& met, Real /*time*/) {
+        return met;
+    }
+
+private:
+    double radius_, diameter_;
+};
+
+class SpeciesBodies {
+public:
+    static constexpr bool have_species = true, grow = false;
+    static constexpr double cascade_interval = 0x1p-40;
+
+    /// `radius` is the largest one.
+    SpeciesBodies(double radius, const Effects& /*effects*/, SpeciesView species)
+        : radius_(radius), species_(species) {}
+
+    CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
+    CARROM_DEVICE double largest() const { return radius_; }
+    CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
+        return species_.of(disc.id);
+    }
+    CARROM_DEVICE Body at(const DiscState& disc, double /*time*/) const {
+        const SizeAndMass& it = species_.of(disc.id);
+        return {it.radius, it.mass, 0};
+    }
+    CARROM_DEVICE static constexpr double growth_at(double /*time*/) { return 1; }
+    /// Sums of two numbers are the same in any order.
+    [[gnu::always_inline]] CARROM_DEVICE double delay(const StableArithmetic& arithmetic,
+                                                      const DiscState& p, const DiscState& q,
+                                                      const Encounter<double>& met, double /*time*/,
+                                                      double deepest_overlap) const {
+        return arithmetic.delay(met, of(p).radius + of(q).radius, deepest_overlap);
+    }
+    CARROM_DEVICE static Encounter<double> surfaces(const Encounter<double>& met, double /*time*/) {
+        return met;
+    }
+
+private:
+    double radius_;
+    SpeciesView species_;
+};
+
+class GrowingBodies {
+public:
+    static constexpr bool have_species = true, grow = true;
+    /// Discs that jam collide ever faster as long as they grow, so a run should end
+    /// before it takes hours.
+    static constexpr double cascade_interval = 0x1p-10;
+
+    /// `effects` per micro-step.
+    GrowingBodies(double radius, const Effects& effects, SpeciesView species)
+        : radius_(radius), rate_(effects.growth), species_(species) {}
+
+    CARROM_DEVICE void begin_interval(std::int64_t n) {
+        at_sync_ = 1 + rate_ * static_cast<double>(n);
+    }
+    CARROM_DEVICE double largest() const { return radius_; }
+    CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
+        return species_.of(disc.id);
+    }
+    CARROM_DEVICE Body at(const DiscState& disc, double time) const {
+        const SizeAndMass& it = species_.of(disc.id);
+        return {it.radius * growth_at(time), it.mass, it.radius * rate_};
+    }
+    CARROM_DEVICE double growth_at(double time) const { return at_sync_ + rate_ * time; }
+    [[gnu::always_inline]] CARROM_DEVICE double delay(const StableArithmetic& /*arithmetic*/,
+                                                      const DiscState& p, const DiscState& q,
+                                                      const Encounter<double>& met, double time,
+                                                      double deepest_overlap) const {
+        const double size = growth_at(time);
+        return growing_contact_delay(met.ex, met.ey, met.wx, met.wy,
+                                     (of(p).radius + of(q).radius) * size, rate_ / size,
+                                     deepest_overlap);
+    }
+    CARROM_DEVICE Encounter<double> surfaces(const Encounter<double>& met, double time) const {
+        const double growth = rate_ / growth_at(time);
+        return {met.ex, met.ey, std::fma(-growth, met.ex, met.wx),
+                std::fma(-growth, met.ey, met.wy)};
+    }
+
+private:
+    double radius_, rate_;
+    SpeciesView species_;
+    double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
+};
+
+} // namespace carrom

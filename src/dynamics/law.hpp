@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a meeting does to the velocities and spins of two discs that touch. One part of a dynamics
+// (dynamics.hpp); a law is plain data.
+//
+//   elastic       the relative velocity along the line of centres is reversed
+//   restitution   the share `restitution` of it is left: 1 gives the elastic bits
+//   rough         discs with spin: normal and tangential restitution and Coulomb's friction (Walton
+//                 and Braun, J. Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442 (1995)). Where
+//                 the surfaces stick their relative velocity along them is multiplied by minus
+//                 `tangential_restitution`; where that takes more than `friction` times the normal
+//                 impulse, they slide. A guarded contact is smooth.
+//
+// Which law is asked at run time: a collision takes some 2,900 instructions with all that follows
+// from it, so a branch in it costs nothing.
+//
+// A law is told the time `since` the last collision of either disc: then its guard
+// (contact_guard.hpp) may make the contact elastic. The time-stepped method has no guard, because a
+// disc collides once in a micro-step at most there, so it passes `never`.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#include "core/device.hpp"
+#include "core/disc_state.hpp"
+#include "dynamics/contact_guard.hpp"
+#include "dynamics/effects.hpp"
+#include "dynamics/encounter.hpp"
+#include "dynamics/loss.hpp"
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+/// The spins of two discs that meet; null where discs do not turn.
+struct Spins {
+    double *p = nullptr, *q = nullptr;
+};
+
+class Law {
+public:
+    /// `effects` per micro-step; for discs of at most `radius`.
+    Law(const Effects& effects, double radius) : Law(effects.contact, {effects, radius}) {}
+
+    /// False in an ideal gas: discs pass through each other.
+    CARROM_DEVICE bool has_pairs() const { return kind_ != ContactKind::none; }
+    CARROM_DEVICE bool has_spin() const { return kind_ == ContactKind::rough; }
+    CARROM_DEVICE bool is_elastic() const { return kind_ == ContactKind::elastic; }
+
+    /// Gives new velocities and spins to discs whose surfaces meet like that.
+    template <class Real>
+    [[gnu::always_inline]] CARROM_DEVICE Loss meet(DiscState& p, DiscState& q,
+                                                   const Encounter<Real>& met,
+                                                   const SizeAndMass& p_has,
+                                                   const SizeAndMass& q_has, double since,
+                                                   const Spins& spins) const {
+        Loss loss;
+        if (is_elastic()) {
+            const double half = (p_has.mass + q_has.mass) / 2;
+            push_apart(p, q, met, Real{1}, static_cast<Real>(q_has.mass / half),
+                       static_cast<Real>(p_has.mass / half));
+        } else if (!has_spin()) {
+            loss = meet_smooth(p, q, {met.ex, met.ey, met.wx, met.wy}, p_has, q_has, since);
+        } else {
+            loss = meet_rough(p, q, {met.ex, met.ey, met.wx, met.wy}, p_has, q_has, since, spins);
+        }
+        p.pair_collisions += 1;
+        q.pair_collisions += 1;
+        return loss;
+    }
+
+private:
+    Law(const ContactEffect& effect, const ContactGuard& guard)
+        : kind_(effect.kind), normal_((1 + effect.restitution) / 2),
+          tangential_((1 + effect.tangential_restitution) / 2 *
+                      (effect.inertia / (1 + effect.inertia))),
+          friction_(effect.friction), inertia_(effect.inertia), guard_(guard) {}
+
+    /// `impulse` is in units of that of an elastic contact of equal masses, of which p and q take
+    /// their shares: 2 m' / (m + m') for each disc's velocity, m' being the other's mass.
+    /// Multiplying by 1 changes no bit.
+    template <class Real>
+    [[gnu::always_inline]] CARROM_DEVICE static void push_apart(DiscState& p, DiscState& q,
+                                                                const Encounter<Real>& met,
+                                                                Real impulse, Real p_share,
+                                                                Real q_share) {
+        const Real k = impulse * met.rate();
+        p.vx = static_cast<Real>(p.vx) + k * p_share * met.ex;
+        p.vy = static_cast<Real>(p.vy) + k * p_share * met.ey;
+        q.vx = static_cast<Real>(q.vx) - k * q_share * met.ex;
+        q.vy = static_cast<Real>(q.vy) - k * q_share * met.ey;
+    }
+
+    [[gnu::always_inline]] CARROM_DEVICE Loss meet_smooth(DiscState& p, DiscState& q,
+                                                          const Encounter<double>& met,
+                                                          const SizeAndMass& p_has,
+                                                          const SizeAndMass& q_has,
+                                                          double since) const {
+        const double square = met.square(), k = met.rate();
+        const bool is_guarded = guard_.holds(since, k);
+        const double half = (p_has.mass + q_has.mass) / 2,
+                     reduced_mass = p_has.mass * q_has.mass / (2 * half);
+        push_apart(p, q, met, is_guarded ? 1 : normal_, q_has.mass / half, p_has.mass / half);
+        return guard_.loss(reduced_mass * normal_loss(k) * square, k * k * square, is_guarded);
+    }
+
+    /// Also adds an impulse s along the surfaces, which acts on both spins alike, in units of
+    /// the distance of centres, like k. With s = 0 the bits are those of meet_smooth. Spins are
+    /// angles per micro-step, counterclockwise.
+    CARROM_DEVICE Loss meet_rough(DiscState& p, DiscState& q, const Encounter<double>& met,
+                                  const SizeAndMass& p_has, const SizeAndMass& q_has, double since,
+                                  const Spins& spins) const {
+        const auto [ex, ey, wx, wy] = met;
+        const double square = met.square(), distance = std::sqrt(square), rate = met.rate();
+        const bool is_guarded = guard_.holds(since, rate);
+        const double lossy = normal_ * rate, k = is_guarded ? rate : lossy;
+        const double slip = (wy * ex - wx * ey) / square -
+                            (*spins.p * p_has.radius + *spins.q * q_has.radius) / distance;
+        const double rubbed = tangential(slip, lossy), s = is_guarded ? 0 : rubbed;
+        const double half = (p_has.mass + q_has.mass) / 2, p_share = q_has.mass / half,
+                     q_share = p_has.mass / half;
+        p.vx = p.vx + (k * p_share * ex - s * p_share * ey);
+        p.vy = p.vy + (k * p_share * ey + s * p_share * ex);
+        q.vx = q.vx - (k * q_share * ex - s * q_share * ey);
+        q.vy = q.vy - (k * q_share * ey + s * q_share * ex);
+        const double turn = s * distance / inertia_;
+        *spins.p = *spins.p + turn * p_share / p_has.radius;
+        *spins.q = *spins.q + turn * q_share / q_has.radius;
+        // An impulse s changes the slip by 2 s (1 + 1 / inertia).
+        const double along = 2 * rubbed * (slip - rubbed * (1 + 1 / inertia_));
+        return guard_.loss(p_has.mass * q_has.mass / (2 * half) * square *
+                               (normal_loss(rate) + along),
+                           rate * rate * square, is_guarded);
+    }
+
+    /// The energy that restitution takes, for a reduced mass of 1 and a distance of 1: half of the
+    /// squared rate of approach, times 1 - e^2.
+    CARROM_DEVICE double normal_loss(double k) const { return 2 * normal_ * (1 - normal_) * k * k; }
+    /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
+    /// `k`, all in one unit.
+    CARROM_DEVICE double tangential(double slip, double k) const {
+        const double sticking = tangential_ * slip, most = friction_ * std::fabs(k);
+        return std::fabs(sticking) > most ? std::copysign(most, sticking) : sticking;
+    }
+
+    ContactKind kind_;
+    double normal_, tangential_, friction_, inertia_;
+    ContactGuard guard_;
+};
+static_assert(std::is_trivially_copyable_v<Law>);
+
+} // namespace carrom

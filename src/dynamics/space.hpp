@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The space that discs fly in: which image of another disc a disc meets, where that image is and
+// how fast. One part of a dynamics (dynamics.hpp); a space is plain data.
+//
+//   WalledSpace     what is stored is what there is
+//   PeriodicSpace   the box repeats itself at rest, along one axis or both (core/image.hpp)
+//   ShearedSpace    the rows of boxes above and below move along x (A. W. Lees and S. F. Edwards,
+//                   J. Phys. C 5, 1921 (1972)), so that the gas flows with vx = rate (y - const)
+//                   without any wall
+//
+// The separation of two discs is that of their stored places and a whole number of box lengths,
+// added in one fixed association, so that all ranks find the same bits. Under shear the image has a
+// velocity of its own, too. A disc that leaves through the seam keeps its stored state until the
+// next sync, which brings it back with the velocity of the image in the box. Price: images near the
+// seam are faster than discs in the box by rate times the box's height, and searches have to allow
+// for that.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/axis.hpp"
+#include "core/device.hpp"
+#include "core/disc_state.hpp"
+#include "core/image.hpp"
+#include "dynamics/effects.hpp"
+#include "dynamics/encounter.hpp"
+
+namespace carrom {
+
+template <class S>
+concept Space = std::is_trivially_copyable_v<S> &&
+                requires(S changing, const S space, const DiscState& p, DiscState& q,
+                         std::int64_t n, double d, Axis axis) {
+                    { S::is_periodic } -> std::convertible_to<bool>;       // discs have images
+                    { S::has_moving_images } -> std::convertible_to<bool>; // which have velocities
+                    changing.begin_interval(n); // times now count from micro-step n
+                    // q as p sees it; d, d is the difference of stored places at the time d.
+                    { space.see(p, p, d, d, d) } -> std::same_as<Encounter<double>>;
+                    { space.is_periodic_along(axis) } -> std::same_as<bool>;
+                    { space.has_sides() } -> std::same_as<bool>;
+                    // Rounding of places far from the box.
+                    { space.slack() } -> std::convertible_to<double>;
+                    // Speeds that searches allow for: the disc's own, or that of its image in the
+                    // box at a time.
+                    { space.squared_speed(p) } -> std::same_as<double>;
+                    { space.squared_speed_at(p, d) } -> std::same_as<double>;
+                    requires !S::is_periodic || requires {
+                        { space.periods() } -> std::same_as<const Periods&>;
+                        space.wrap(q); // into the box, after a sync
+                    };
+                };
+
+class WalledSpace {
+public:
+    static constexpr bool is_periodic = false, has_moving_images = false;
+
+    WalledSpace(const Box& /*box*/, const Effects& /*effects*/) {}
+
+    CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
+    template <class State, class Real>
+    [[gnu::always_inline]] CARROM_DEVICE static Encounter<Real> see(const State& p, const State& q,
+                                                                    Real dx, Real dy,
+                                                                    Real /*time*/) {
+        return {dx, dy, q.vx - p.vx, q.vy - p.vy};
+    }
+    static constexpr bool is_periodic_along(Axis /*axis*/) { return false; }
+    static constexpr bool has_sides() { return true; }
+    static constexpr double slack() { return 0; }
+    CARROM_DEVICE static double squared_speed(const DiscState& disc) {
+        return squared_speed_of(disc);
+    }
+    CARROM_DEVICE static double squared_speed_at(const DiscState& disc, double /*time*/) {
+        return squared_speed_of(disc);
+    }
+};
+
+/// An axis has walls or is periodic.
+class PeriodicSpace {
+public:
+    static constexpr bool is_periodic = true, has_moving_images = false;
+
+    /// `effects` per micro-step.
+    PeriodicSpace(const Box& box, const Effects& effects)
+        : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
+
+    CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
+    [[gnu::always_inline]] CARROM_DEVICE Encounter<double> see(const DiscState& p,
+                                                               const DiscState& q, double dx,
+                                                               double dy, double /*time*/) const {
+        return {dx + periods_.x_between(p, q), dy + periods_.y_between(p, q), q.vx - p.vx,
+                q.vy - p.vy};
+    }
+    CARROM_DEVICE bool is_periodic_along(Axis axis) const { return periods_.along(axis) != 0; }
+    CARROM_DEVICE bool has_sides() const { return periods_.x == 0 || periods_.y == 0; }
+    CARROM_DEVICE double slack() const { return slack_; }
+    CARROM_DEVICE static double squared_speed(const DiscState& disc) {
+        return squared_speed_of(disc);
+    }
+    CARROM_DEVICE static double squared_speed_at(const DiscState& disc, double /*time*/) {
+        return squared_speed_of(disc);
+    }
+    const Periods& periods() const { return periods_; }
+    void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
+
+private:
+    Periods periods_;
+    double slack_;
+};
+
+class ShearedSpace {
+public:
+    static constexpr bool is_periodic = true, has_moving_images = true;
+
+    /// `effects` per micro-step.
+    ShearedSpace(const Box& box, const Effects& effects)
+        : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
+
+    CARROM_DEVICE void begin_interval(std::int64_t n) { periods_.begin_interval(n); }
+    [[gnu::always_inline]] CARROM_DEVICE Encounter<double> see(const DiscState& p,
+                                                               const DiscState& q, double dx,
+                                                               double dy, double time) const {
+        const Shift shift = periods_.between(p, q, time);
+        return {dx + shift.x, dy + shift.y, (q.vx - p.vx) + shift.vx, q.vy - p.vy};
+    }
+    static constexpr bool is_periodic_along(Axis /*axis*/) { return true; }
+    static constexpr bool has_sides() { return false; }
+    CARROM_DEVICE double slack() const { return slack_; }
+    /// The squared speed of the fastest image next to the disc's own one.
+    CARROM_DEVICE double squared_speed(const DiscState& disc) const {
+        const double vx = std::fabs(periods_.vx_of(disc)) + std::fabs(periods_.speed);
+        return vx * vx + disc.vy * disc.vy;
+    }
+    CARROM_DEVICE double squared_speed_at(const DiscState& disc, double time) const {
+        DiscState at_home = disc;
+        set_image(at_home, periods_.home(disc, time));
+        return squared_speed(at_home);
+    }
+    const Periods& periods() const { return periods_; }
+    void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
+
+private:
+    Periods periods_;
+    double slack_;
+};
+
+} // namespace carrom

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Less accurate arithmetic, for the accuracy study (docs/understanding/accuracy.md): single
+// precision, the naive contact formula, or both. It takes the place of StableArithmetic in the
+// plain dynamics where a scene asks for it.
+//
+// `Number` is the precision of states and of computation. A float's state is stored in doubles of
+// the same value, so the rest of the program need not know. The formula is chosen when the program
+// runs.
+//
+// Such arithmetic finds contacts where discs do not touch, and misses some. The search goes only
+// where discs touch, within a margin, and how far depends on ranks and threads. So a contact counts
+// only within a fixed margin, `slack`: then all distributions find the same.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+
+#include "dynamics/arithmetic.hpp"
+#include "dynamics/naive_contact.hpp"
+
+namespace carrom {
+
+/// A disc's numbers in the precision of the computation.
+template <class Real> struct RoundedState {
+    Real x, y, vx, vy, tau;
+
+    explicit RoundedState(const DiscState& disc)
+        : x(static_cast<Real>(disc.x)), y(static_cast<Real>(disc.y)),
+          vx(static_cast<Real>(disc.vx)), vy(static_cast<Real>(disc.vy)),
+          tau(static_cast<Real>(disc.tau)) {}
+    CARROM_DEVICE Real x_at(Real time) const { return x + vx * (time - tau); }
+    CARROM_DEVICE Real y_at(Real time) const { return y + vy * (time - tau); }
+};
+
+template <class Number> class StudiedArithmetic {
+    static constexpr bool is_single = std::is_same_v<Number, float>;
+
+public:
+    using Real = Number;
+    using State = RoundedState<Number>;
+    static constexpr bool is_for_study = true;
+    /// If discs have no room, rounding moves them on in time now and then, so an
+    /// endless cascade is not at a single time.
+    static constexpr double cascade_interval = 0x1p-3;
+    static constexpr double time_rounding = is_single ? 0x1p-21 : 0x1p-50;
+
+    StudiedArithmetic(const Box& box, double radius, ContactFormula formula)
+        : formula_(formula), place_rounding_(is_single ? 0x1p-18 * rounded(box).longest() : 0),
+          slack_(place_rounding_ + (formula == ContactFormula::stable
+                                        ? 0
+                                        : misplacement(box, radius) * rounded(radius))),
+          farthest_(2 * rounded(radius) + 2 * slack_ - place_rounding_) {}
+
+    static double rounded(double number) { return static_cast<Real>(number); }
+    static Box rounded(const Box& box) { return {rounded(box.x), rounded(box.y)}; }
+    /// Rounds a state to its precision.
+    static void round(DiscState& disc) {
+        for (double* number : {&disc.x, &disc.y, &disc.vx, &disc.vy, &disc.tau})
+            *number = rounded(*number);
+    }
+    static double tolerance(const Box& box, double diameter) {
+        return std::max(static_cast<Real>(1e-12) * static_cast<Real>(diameter),
+                        16 * std::numeric_limits<Real>::epsilon() *
+                            static_cast<Real>(box.longest()));
+    }
+    double slack() const { return slack_; }
+    double place_rounding() const { return place_rounding_; }
+    bool parts_overlaps() const { return formula_ == ContactFormula::stable; }
+
+    CARROM_DEVICE static void advance(DiscState& disc, double time) {
+        const State flight(disc);
+        disc.x = flight.x_at(static_cast<Real>(time));
+        disc.y = flight.y_at(static_cast<Real>(time));
+        disc.tau = static_cast<Real>(time);
+    }
+    CARROM_DEVICE Real delay(const Encounter<Real>& met, Real sigma, Real deepest_overlap) const {
+        if (formula_ == ContactFormula::stable)
+            return contact_delay(met.ex, met.ey, met.wx, met.wy, sigma, deepest_overlap);
+        return naive_contact_delay(met.ex, met.ey, met.wx, met.wy, sigma,
+                                   formula_ == ContactFormula::naive_contracted);
+    }
+    /// Whether the discs, advanced to that time in double precision, are within the margin.
+    CARROM_DEVICE bool counts(const DiscState& p, const DiscState& q,
+                              const PairContact<Real>& found) const {
+        const double time = static_cast<double>(found.base) + static_cast<double>(found.delay);
+        const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
+        return dx * dx + dy * dy <= farthest_ * farthest_;
+    }
+
+private:
+    /// How far from touching, in diameters, a formula that loses digits finds contacts. At a
+    /// distance of d diameters rounding u moves B^2 - 4 A C by some u (2 d v)^2. So a grazing
+    /// contact moves along the flight by the root of that over 2 v, and its distance by the square.
+    /// Where that is half a diameter and more the contact counts as lost.
+    static double misplacement(const Box& box, double radius) {
+        const double longest = std::numbers::sqrt2 * rounded(box).longest() / (2 * rounded(radius));
+        return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);
+    }
+
+    ContactFormula formula_;
+    double place_rounding_, slack_;
+    double farthest_; ///< that centres are apart in a contact
+};
+
+} // namespace carrom

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What discs meet besides each other, and the frame in which they fly straight: values that stand
+// beside space, bodies and law in a dynamics (dynamics.hpp).
+//
+//   PlainSurroundings        four elastic walls at rest, in the box's own frame
+//   SurroundingsOfEffects    sides of any kind (boundaries.hpp), obstacles (obstacles.hpp), a frame
+//                            that falls (gravity.hpp)
+//
+// Sides answer the event-driven method. What walls do within a micro-step of the time-stepped one
+// is in time_stepped/step_walls.hpp.
+#pragma once
+
+#include "dynamics/arithmetic.hpp"
+#include "dynamics/boundaries.hpp"
+#include "dynamics/gravity.hpp"
+#include "dynamics/mirror_sides.hpp"
+
+namespace carrom {
+
+/// The box's own clock and frame.
+class RestingFrame {
+public:
+    RestingFrame(const Gravity& /*gravity*/, double /*drag*/) {}
+
+    static constexpr double clock_at(double micro_steps) { return micro_steps; }
+    static constexpr double micro_steps_at(double clock) { return clock; }
+    static constexpr bool is_any() { return false; }
+    static Frame at(double /*time*/) { return {}; }
+    static void restart(DiscState& /*disc*/, double /*time*/) {}
+    static constexpr double slowing_at(double /*time*/) { return 1; }
+    static FlightIntegral flight_integral_at(double time) { return {time, 0, 0, 0, 0}; }
+    static constexpr double pair_weight_at(double time) { return time; }
+    static constexpr double jump_at(Axis /*axis*/, double /*time*/) { return 0; }
+    static constexpr double speed_gained_at(double /*time*/) { return 0; }
+};
+
+template <class WhichArithmetic = StableArithmetic> struct PlainSurroundings {
+    static constexpr bool have_effects = false;
+    using Arithmetic = WhichArithmetic;
+    using Sides = MirrorSides<Arithmetic>;
+    using Flight = RestingFrame;
+};
+
+struct SurroundingsOfEffects {
+    static constexpr bool have_effects = true;
+    using Arithmetic = StableArithmetic;
+    using Sides = Boundaries;
+    using Flight = FallingFrame;
+};
+
+} // namespace carrom

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What walls, open sides and obstacles do to a disc within a micro-step m of the time-stepped
+// method (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
+//
+// A disc takes part in one collision of a micro-step. So a disc that would leave the box, or run
+// into an obstacle, before the micro-step ends stops there and bounces in the next one. Walls are
+// at rest in this method; the sides decide what a bounce does (dynamics/boundaries.hpp).
+#pragma once
+
+#include <algorithm>
+
+#include "core/axis.hpp"
+#include "core/disc_state.hpp"
+#include "dynamics/all_dynamics.hpp"
+
+namespace carrom {
+
+/// The walls of a bounce.
+struct MetWalls {
+    bool at_x = false, at_y = false;
+};
+
+/// A view of the dynamics, which must stay.
+template <class Dynamics> class StepWalls {
+    using Real = typename Dynamics::Real;
+    using State = typename Dynamics::Arithmetic::State;
+
+public:
+    explicit StepWalls(const Dynamics& dynamics) : dynamics_(dynamics) {}
+
+    /// The time of the disc's first bounce in m, or `never`.
+    double time(const DiscState& disc, double m) const {
+        const double at_side = side_time(disc, m);
+        if (!dynamics_.has_obstacles()) return at_side;
+        return std::min(at_side, obstacle(disc, m).time - m);
+    }
+
+    /// Carries out the bounce at t = time(disc, m). A corner reverses both velocities and counts
+    /// once. `spin` is null where discs do not turn.
+    void bounce(DiscState& disc, double m, double t, double* spin) const {
+        if (dynamics_.has_obstacles() && t != side_time(disc, m)) {
+            const ObstacleContact contact = obstacle(disc, m);
+            dynamics_.bounce_off(disc, contact.body, contact.time, never, spin);
+            return stop(disc, m, t, contact.body);
+        }
+        const double x_time = side_time(disc, Axis::x, m), y_time = side_time(disc, Axis::y, m);
+        advance(disc, m, t);
+        if (x_time == t && is_open(disc, Axis::x)) return depart(disc, Axis::x, m + t, spin);
+        if (y_time == t && is_open(disc, Axis::y)) return depart(disc, Axis::y, m + t, spin);
+        const bool x_reverses = x_time == t || is_at_wall(disc, Axis::x);
+        const bool y_reverses = y_time == t || is_at_wall(disc, Axis::y);
+        const bool goes_down = disc.vy < 0;
+        if (x_reverses) reverse(disc, Axis::x, spin);
+        // A thermal wall may have turned the disc away from the other one.
+        if (y_reverses && (goes_down ? disc.vy < 0 : disc.vy > 0)) reverse(disc, Axis::y, spin);
+        disc.wall_collisions += 1;
+        stop(disc, m, t);
+    }
+
+    /// The walls that the disc bounces off at t; none if it is an obstacle.
+    MetWalls met(const DiscState& before, double m, double t) const {
+        if (dynamics_.has_obstacles() && t != side_time(before, m)) return {};
+        DiscState disc = before;
+        const double x_time = wall_time(disc, Axis::x, m), y_time = wall_time(disc, Axis::y, m);
+        advance(disc, m, t);
+        return {x_time == t || touches(disc, Axis::x), y_time == t || touches(disc, Axis::y)};
+    }
+
+    /// Stops a disc that has just collided at t, if something is in its way before the micro-step
+    /// ends. `left` is the obstacle that it has just left.
+    [[gnu::always_inline]] void stop(DiscState& disc, double m, double t,
+                                     std::uint32_t left = ObstacleContact::no_body) const {
+        const Real rest = 1 - static_cast<Real>(t);
+        const Real at_side = std::min(side_stop(disc, Axis::x, rest),
+                                      side_stop(disc, Axis::y, rest));
+        if (dynamics_.has_obstacles() && stops_at_obstacle(disc, m, at_side, left)) return;
+        if (at_side == RestingWalls<Real>::never) return;
+        const State d(disc);
+        const Real x = d.x + d.vx * at_side, y = d.y + d.vy * at_side;
+        disc.x = x;
+        disc.y = y;
+        disc.tau = m + 1;
+    }
+
+private:
+    static void advance(DiscState& disc, double m, double t) {
+        Dynamics::advance(disc, static_cast<Real>(m) + static_cast<Real>(t));
+    }
+
+    [[gnu::always_inline]] double wall_time(const DiscState& disc, Axis axis, double m) const {
+        if (dynamics_.is_periodic_along(axis)) return never;
+        const State d(disc);
+        return dynamics_.resting_walls(axis, disc)
+            .time(along(axis, d.x, d.y), along(axis, d.vx, d.vy), d.tau, static_cast<Real>(m));
+    }
+    bool touches(const DiscState& disc, Axis axis) const {
+        if (dynamics_.is_periodic_along(axis)) return false;
+        const State d(disc);
+        return dynamics_.resting_walls(axis, disc)
+            .touches(along(axis, d.x, d.y), along(axis, d.vx, d.vy));
+    }
+    bool is_at_wall(const DiscState& disc, Axis axis) const {
+        return touches(disc, axis) && !is_open(disc, axis);
+    }
+
+    /// Whether the disc flies towards an open side.
+    bool is_open(const DiscState& disc, Axis axis) const {
+        return Dynamics::may_lose_discs && along(axis, disc.vx, disc.vy) != 0 &&
+               dynamics_.sides().is_open_ahead(disc, axis);
+    }
+    /// Through an open side a disc leaves when its centre is a radius beyond it.
+    [[gnu::always_inline]] double side_time(const DiscState& disc, Axis axis, double m) const {
+        if constexpr (Dynamics::may_lose_discs) {
+            if (is_open(disc, axis)) return departure_time(disc, axis, m);
+        }
+        return wall_time(disc, axis, m);
+    }
+    [[gnu::always_inline]] double side_time(const DiscState& disc, double m) const {
+        return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m));
+    }
+    double departure_time(const DiscState& disc, Axis axis, double m) const {
+        const auto& sides = dynamics_.sides();
+        const double x = along(axis, disc.x, disc.y), v = along(axis, disc.vx, disc.vy);
+        const double line = sides.departure(sides.side_ahead(disc, axis), dynamics_.body_of(disc)),
+                     at_end = x + v * ((m + 1) - disc.tau);
+        if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
+        return std::clamp((disc.tau - m) + (line - x) / v, 0.0, 1.0);
+    }
+    void depart(DiscState& disc, Axis axis, double time, double* spin) const {
+        if constexpr (Dynamics::may_lose_discs)
+            dynamics_.sides().depart(disc, Boundaries::side_ahead(disc, axis), time,
+                                     dynamics_.body_of(disc), spin);
+    }
+    void reverse(DiscState& disc, Axis axis, double* spin) const {
+        dynamics_.sides().reverse(disc, axis, dynamics_.body_of(disc), spin);
+    }
+
+    [[gnu::always_inline]] Real side_stop(const DiscState& disc, Axis axis, Real rest) const {
+        if (dynamics_.is_periodic_along(axis) || is_open(disc, axis))
+            return RestingWalls<Real>::never;
+        const State d(disc);
+        return dynamics_.resting_walls(axis, disc)
+            .stop(along(axis, d.x, d.y), along(axis, d.vx, d.vy), rest);
+    }
+    ObstacleContact obstacle(const DiscState& disc, double m) const {
+        return dynamics_.first_obstacle(disc, {m, m + 1});
+    }
+    /// Unless a side stops the disc before.
+    bool stops_at_obstacle(DiscState& disc, double m, double at_side, std::uint32_t left) const {
+        const ObstacleContact contact = dynamics_.first_obstacle(disc,
+                                                                 {disc.tau, m + 1, true, left});
+        if (!(contact.time < m + 1 && contact.time - disc.tau < at_side)) return false;
+        Dynamics::advance(disc, contact.time);
+        disc.tau = m + 1;
+        return true;
+    }
+
+    const Dynamics& dynamics_;
+};
+
+} // namespace carrom
