@@ -44,10 +44,10 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
                                                const Tuning& tuning,
                                                const BlockTuning& block_tuning)
     : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
-      policy_(window_setting(tuning_, block_tuning, communicator_)),
       levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
                                  static_cast<double>(scene.n_discs), scene.box.area(),
                                  block_tuning.parts_sizes)),
+      policy_(window_setting(tuning_, block_tuning, communicator_)),
       first_packing_(scene.packing()),
       jam_watch_({scene.effects.growth / static_cast<double>(scene.micro_steps),
                   static_cast<double>(scene.sync_every),

@@ -40,7 +40,7 @@ void reduce(JointReduction<Counts>& values, const Communicator& communicator) {
     std::memcpy(words.counts.data(), &values.counts, sizeof values.counts);
     words.largest = values.largest;
     reduce(words, communicator);
-    std::memcpy(&values.counts, words.counts.data(), sizeof values.counts);
+    std::memcpy(static_cast<void*>(&values.counts), words.counts.data(), sizeof values.counts);
     values.largest = words.largest;
 }
 
