@@ -17,9 +17,14 @@ constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc,
 constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
 constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tries
+/// For each of them that the two would come to in the window. Where discs crowd, the costs above
+/// have them; in a thin gas a long window takes them from the whole box.
+constexpr double cost_per_candidate = 6;
+constexpr double usual_speed = 0.3; ///< of a disc, over the bound of speeds
 /// Discs in a block with its halo. They need not all stay in the cache, because most of them are
 /// compared only once.
 constexpr double discs_in_cache = 24000;
+constexpr double cost_per_choice = 5000; ///< for each window, whatever the number of discs
 /// For each thread and window: what it waits at barriers and for messages (an estimate).
 constexpr double cost_per_window = 50000;
 constexpr int most_blocks_per_thread = 8;
@@ -114,16 +119,33 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     return choice;
 }
 
+/// Bounces at walls per disc and time. A bounce is followed by a prediction, as a collision is.
+double bounce_rate(const BlockNeeds& needs) {
+    const double speed = 2 / std::numbers::pi * usual_speed * needs.speed_bound;
+    return (needs.goes_round_x ? 0 : speed / needs.box.x) +
+           (needs.goes_round_y ? 0 : speed / needs.box.y);
+}
+
+/// The share of all discs that a disc comes to in a window, if no other one stops it.
+double share_met(const BlockNeeds& needs, double duration) {
+    const double edge = 2 * needs.radius + 2 * usual_speed * needs.speed_bound * duration;
+    return std::min(edge / needs.box.x, 1.0) * std::min(edge / needs.box.y, 1.0);
+}
+
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double share = share_seen(needs, choice) * share_waited(needs, choice);
     const double around = 1.6 * (choice.reach - 2 * (needs.radius - needs.equivalent_radius));
     const double partners = needs.n_discs * needs.crowding *
                             (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);
-    const double events = needs.collision_rate * choice.duration;
-    const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 +
-                              events * (cost_per_event + 2 * cost_per_partner * partners);
-    const double wait = cost_per_window * needs.n_threads / (needs.n_discs + 1);
+    const double collisions = needs.collision_rate * choice.duration,
+                 bounces = bounce_rate(needs) * choice.duration;
+    const double tries = partners * (cost_per_partner +
+                                     cost_per_candidate * share_met(needs, choice.duration));
+    const double run_blocks = cost_per_copy + tries / 2 + collisions * (cost_per_event + 2 * tries) +
+                              bounces * (cost_per_event + tries);
+    const double wait = (cost_per_choice + cost_per_window * needs.n_threads) /
+                        (needs.n_discs + 1);
     return (cost_per_disc + wait + share * run_blocks) / choice.duration;
 }
 
