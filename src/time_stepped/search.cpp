@@ -154,9 +154,10 @@ void Search<Dynamics>::predict_all(const Population& population, const CellGrid&
 
 /// Inlined into the loops over pairs, because it is the innermost work of a search.
 template <class Dynamics>
-[[gnu::always_inline]] inline void
-Search<Dynamics>::predict_pair(const Population& population, const Window& window, int from,
-                               LocalIndex a, LocalIndex b, SearchLists& lists) const {
+[[gnu::always_inline]] inline void Search<Dynamics>::predict_pair(const Population& population,
+                                                                  const Window& window, int from,
+                                                                  LocalIndex a, LocalIndex b,
+                                                                  SearchLists& lists) const {
     if (a >= population.n_own && b >= population.n_own) return;
     const DiscState& first = population.discs[a];
     const DiscState& second = population.discs[b];
