@@ -53,7 +53,8 @@ TEST_CASE("Oscillating walls are read, and refused where they leave no room") {
               "cannot have an oscillating wall together with drag"));
     CHECK(has(problems({"effects.obstacles.discs=[[10, 20, 1]]"}),
               "cannot have obstacles together with walls that move"));
-    CHECK(has(problems({"box.left.kind=open"}), "cannot have an open side together with walls that"));
+    CHECK(
+        has(problems({"box.left.kind=open"}), "cannot have an open side together with walls that"));
     CHECK(has(problems({"box.bottom.kind=periodic"}), "no meaning without box.bottom.kind"));
 }
 
