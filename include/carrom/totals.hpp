@@ -44,11 +44,15 @@ struct Totals {
     std::uint64_t chained_discs = 0;      ///< discs that touch two others or more
     double kinetic_energy = 0;            ///< of motion, not of spin
     double rotational_energy = 0;         ///< of rough discs
-    double potential_energy = 0; ///< under gravity, above the walls that it pulls to at the start
+    double potential_energy = 0; ///< of places; under gravity above the walls that it pulls to at
+                                 ///< the start
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> departed{}; ///< discs that left through an open side: left, right,
                                              ///< bottom, top
     StateHash hash;
+
+    double other_energy() const { return rotational_energy + potential_energy; }
+    double energy() const { return kinetic_energy + rotational_energy + potential_energy; }
 };
 
 } // namespace carrom

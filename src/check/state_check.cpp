@@ -51,15 +51,25 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
                        std::span<const DiscState> own, std::int64_t micro_steps_done,
                        const Communicator& communicator, const Frame& frame, double time,
                        std::span<const double> spins, double energy_given)
-    : scene_(scene),
-      effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))),
-      species_(species), communicator_(communicator),
+    : scene_(scene), effects_(per_micro_step(scene)), species_(species),
+      communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(StableArithmetic::tolerance(scene.box, 2 * scene.radius)) {
     const CheckAllowance allowance = allowance_of(scene.effects);
     may_lose_energy_ = allowance.collisions_take_energy;
     walls_give_energy_ = allowance.walls_give_energy;
+    surfaces_give_energy_ = allowance.surfaces_give_energy;
+    for (const OtherEnergy& energy : other_energies_of(effects_))
+        if (!energy.is_of_syncs) energies_.push_back(energy);
+    const auto depends = [&](double x, double y) {
+        DiscState at_corner, away;
+        away.x = x, away.y = y;
+        return other_energy(away, 0) != other_energy(at_corner, 0) ||
+               work_on_way(effects_, {x, y, {}}) != 0;
+    };
+    depends_on_x_ = depends(scene.box.x, 0);
+    depends_on_y_ = depends(0, scene.box.y);
     acts_at_syncs_ = allowance.acts_at_syncs;
     energy_given_ = energy_given;
     wall_speed_ = largest_wall_speed(effects_);

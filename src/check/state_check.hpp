@@ -34,6 +34,7 @@
 #include "engine/engine.hpp"
 #include "engine/totals.hpp"
 #include "parallel/communicator.hpp"
+#include "scene/effects/effect.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
@@ -105,12 +106,13 @@ private:
     }
     double work_of(const Collision& collision) const;
     double resting_gain(const Known& known) const;
-    double energy_of_rounds(std::size_t i) const;
+    double largest_energy_of_place() const;
+    double other_energy(const DiscState& seen, double spin) const;
+    double energy_of_way(std::size_t i) const;
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// The factor of velocities since the last check, and how long ago that was.
-    double slowing() const;
+    /// The share of energy that is left since the last check, and how long ago that was.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const;
@@ -132,7 +134,10 @@ private:
                                             ///< largest acceleration with which one presses a disc
     double work_of_images_ = 0;             ///< on this rank, since the last inspection
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last inspection
-    bool may_lose_energy_ = false, walls_give_energy_ = false;
+    /// Beside that of motion, without those that change at syncs alone.
+    std::vector<OtherEnergy> energies_;
+    bool depends_on_x_ = false, depends_on_y_ = false; ///< they do, or what discs get on their way
+    bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
     bool surfaces_rub_ = false;  ///< walls or obstacles rub: spins change there
     bool acts_at_syncs_ = false; ///< an effect does so: see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs

@@ -10,7 +10,7 @@
 #include "check/shared_energy.hpp"
 #include "check/state_check.hpp"
 #include "dynamics/contact_guard.hpp"
-#include "dynamics/drag.hpp"
+#include "dynamics/gravity.hpp"
 #include "engine/state_sums.hpp"
 #include "parallel/exchange.hpp"
 
@@ -27,11 +27,11 @@ constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 Finding StateCheck::first_other_motion() const {
     if (were_rewritten()) return {};
-    const bool is_free = !effects_.gravity.is_any() &&
-                         effects_.drag == 0; // nothing rewrites velocities then
-    const double left = slowing(),
-                 time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
-    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) *
+    const bool is_free = effects_.are_flights_free(); // nothing rewrites velocities then
+    const FallingFrame flight(effects_);
+    const double time = flight.clock_at(stretch()), left = flight.slowing_at(time);
+    const Gravity& pull = flight.acceleration();
+    const double gained = std::hypot(pull.x, pull.y) *
                           (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
@@ -46,8 +46,8 @@ Finding StateCheck::first_other_motion() const {
                     1};
         if (now.walls + now.pairs > 0) continue;
         const double seam = effects_.periods(scene_.box).speed;
-        double wx = disc.vx - (then.vx * left + effects_.gravity.x * time);
-        const double wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
+        double wx = disc.vx - (then.vx * left + pull.x * time);
+        const double wy = disc.vy - (then.vy * left + pull.y * time);
         if (seam != 0) // a disc is shown with the velocity of its image in the box
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
@@ -97,7 +97,7 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
 /// take or give energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
-    if (walls_give_energy_ || effects_.growth != 0) return {};
+    if (walls_give_energy_ || surfaces_give_energy_) return {};
     const double n = static_cast<double>(scene_.n_discs);
     const double bound = energy_bound + energy_bound_per_collision *
                                             (2 * static_cast<double>(n_pair_collisions_) / n);
@@ -107,10 +107,9 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
         double gain = 0; // few discs add to it, so rounding does not matter
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
-        const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
         expected = energy_ * energy_left();
         double of_rounds = 0;
-        for (std::size_t i = 0; i < known_.size(); ++i) of_rounds += energy_of_rounds(i);
+        for (std::size_t i = 0; i < known_.size(); ++i) of_rounds += energy_of_way(i);
         for (const double part : communicator_.all_gather(of_rounds)) expected += k * k * part;
         if (effects_.are_sheared())
             for (const double work : communicator_.all_gather(work_of_images_))
@@ -122,7 +121,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
             expected += k * k * given;
         }
         scale = (were_rewritten() ? std::max(energy_, energy) : energy_) +
-                total_mass_ * k * k * fall * scene_.box.longest();
+                total_mass_ * k * k * largest_energy_of_place();
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = energy;
     }
@@ -139,13 +138,13 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
                            twice_energy(known)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
-    energy.before += 2 * energy_of_rounds(i);
-    if (effects_.growth != 0) { // surfaces are where they should be but for rounding
+    energy.before += 2 * energy_of_way(i);
+    if (surfaces_give_energy_) { // surfaces are where they should be but for rounding
         energy.before += 2 * known.work;
         energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
     }
     if (obstacles_ || surfaces_rub_) energy.n_reflections = static_cast<double>(known.walls);
-    if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
+    if (FallingFrame(effects_).slows()) energy.allowance += energy_bound * energy.before;
     if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i) || were_rewritten())
         energy.allowance = std::numeric_limits<double>::infinity();
     return energy;
@@ -162,12 +161,12 @@ bool StateCheck::may_have_met_seam(std::size_t i) const {
     return is_near(before_[i].disc.y) || is_near(known_[i].disc.y);
 }
 
-/// Distances of surfaces grow at a constant rate.
 double StateCheck::work_of(const Collision& collision) const {
-    if (effects_.growth == 0) return 0;
+    if (!surfaces_give_energy_) return 0;
     const double radii = species_.of(collision.p).radius +
                          (collision.q == Collision::wall ? 0 : species_.of(collision.q).radius);
-    return collision.impulse / static_cast<double>(scene_.micro_steps) * (effects_.growth * radii);
+    return work_in_collision(effects_, collision.impulse / static_cast<double>(scene_.micro_steps),
+                             radii);
 }
 
 /// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
@@ -184,47 +183,56 @@ void StateCheck::note_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
-/// With potential energy under gravity, counted from far enough below that the
-/// rounding of places is small against it.
-double StateCheck::twice_energy(const Known& known) const {
-    const DiscState& seen = known.disc;
-    const SizeAndMass& body = species_.of(seen.id);
-    const double turning = body.radius * known.spin,
-                 square = squared_speed_of(seen) + effects_.contact.inertia * turning * turning;
-    if (!effects_.gravity.is_any()) return body.mass * square;
-    const double clock = seen.tau; // the disc's own time
-    const auto height = [this](double place, double pull) {
-        return (pull < 0 ? place : -place) + 2 * scene_.box.longest();
-    };
-    return body.mass *
-           (square +
-            2 * (std::fabs(effects_.gravity.x) * height(seen.x_at(clock), effects_.gravity.x) +
-                 std::fabs(effects_.gravity.y) * height(seen.y_at(clock), effects_.gravity.y)));
+/// Of what changes with the place all the time, for a mass of 1.
+double StateCheck::largest_energy_of_place() const {
+    double sum = 0;
+    for (const OtherEnergy& energy : energies_)
+        if (energy.largest) sum += energy.largest(effects_, scene_.box);
+    return sum;
 }
 
-/// Under gravity along periodic sides: what a disc's height, counted in the box, has gained where
-/// it went round. That a disc flies less than a quarter of the box between two inspections tells
-/// how often it did; otherwise nothing is known, and the number is infinite.
-double StateCheck::energy_of_rounds(std::size_t i) const {
+double StateCheck::other_energy(const DiscState& seen, double spin) const {
+    double sum = 0;
+    for (const OtherEnergy& energy : energies_)
+        sum += energy.of_disc({seen.x, seen.y, seen.vx, seen.vy, spin, species_.of(seen.id)},
+                              effects_, scene_.box);
+    return sum;
+}
+
+/// Energies of places are counted from far enough below that the rounding of places is small
+/// against them.
+double StateCheck::twice_energy(const Known& known) const {
+    const double mass = mass_of(known.disc.id);
+    return mass * squared_speed_of(known.disc) +
+           2 * (other_energy(known.disc, known.spin) + 2 * mass * largest_energy_of_place());
+}
+
+/// What effects have given to a disc on its way beside the change of such an energy, and what that
+/// energy, counted in the box, has gained where the disc went round a periodic side. That it flies
+/// less than a quarter of the box between two inspections tells how often it went round; otherwise
+/// nothing is known, and the number is infinite.
+double StateCheck::energy_of_way(std::size_t i) const {
+    if (!depends_on_x_ && !depends_on_y_) return 0;
     const DiscState &then = before_[i].disc, &now = known_[i].disc;
     const Periods periods = effects_.periods(scene_.box);
-    double energy = 0;
-    const auto add = [&](double g, double period, double from, double to, double v, double w) {
-        if (g == 0 || period == 0) return;
-        const double gone = (v + w) / 2 * stretch();
-        if (std::max(std::fabs(v), std::fabs(w)) * stretch() > period / 4)
-            energy = std::numeric_limits<double>::infinity();
-        else
-            energy += g * period * std::round((from + gone - to) / period);
+    DiscState unwrapped = now;
+    bool is_known = true;
+    const auto unwrap = [&](double period, double from, double& to, double v, double w) {
+        if (period == 0) return;
+        is_known = is_known && std::max(std::fabs(v), std::fabs(w)) * stretch() <= period / 4;
+        to += period * std::round((from + (v + w) / 2 * stretch() - to) / period);
     };
-    add(effects_.gravity.x, periods.x, then.x, now.x, then.vx, now.vx);
-    add(effects_.gravity.y, periods.y, then.y, now.y, then.vy, now.vy);
-    return mass_of(now.id) * energy;
+    if (depends_on_x_) unwrap(periods.x, then.x, unwrapped.x, then.vx, now.vx);
+    if (depends_on_y_) unwrap(periods.y, then.y, unwrapped.y, then.vy, now.vy);
+    if (!is_known) return std::numeric_limits<double>::infinity();
+    return other_energy(now, 0) - other_energy(unwrapped, 0) +
+           work_on_way(effects_, {unwrapped.x - then.x, unwrapped.y - then.y, species_.of(now.id)});
 }
 
 /// A disc that is pulled to a wall leaves it with a least speed (ContactGuard::least_departure).
 double StateCheck::resting_gain(const Known& known) const {
-    const double pull = std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y));
+    const Gravity g = effects_.acceleration();
+    const double pull = std::max(std::fabs(g.x), std::fabs(g.y));
     const SizeAndMass& body = species_.of(known.disc.id);
     const double leaving =
         ContactGuard(effects_, body.radius).least_departure(pull + wall_pull_, body.radius);
@@ -249,17 +257,9 @@ double StateCheck::work_of_walls() const {
     return sum;
 }
 
-double StateCheck::slowing() const {
-    return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch());
-}
+double StateCheck::energy_left() const { return energy_left_by(effects_, stretch()); }
 
-/// The share of energy that drag leaves. Under gravity the loss depends on the flight,
-/// and this is the most that is left.
-double StateCheck::energy_left() const {
-    return effects_.gravity.is_any() ? 1 : slowing() * slowing();
-}
-
-/// In the scene's units. With effects the discs are as the box sees them, with potential energy.
+/// In the scene's units. With effects the discs are as the box sees them.
 double StateCheck::energy_of(std::span<const DiscState> own) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
@@ -276,13 +276,9 @@ double StateCheck::energy_of(std::span<const DiscState> own) const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;
     const auto unit = static_cast<double>(scene_.micro_steps);
     measure_motion(own, species_table, unit, communicator_, totals);
-    if (effects_.have_spins())
-        measure_rotation(seen, spins, species_, effects_.contact.inertia, unit, communicator_,
-                         totals);
-    if (effects_.gravity.is_any())
-        measure_height(own, species_table, scene_.effects.gravity, scene_.box, communicator_,
-                       totals);
-    return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy;
+    measure_other_energies(energies_, seen, spins, species_, {scene_.effects, scene_.box, unit},
+                           communicator_, totals);
+    return totals.energy();
 }
 
 } // namespace carrom

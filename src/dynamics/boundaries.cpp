@@ -24,7 +24,7 @@ double rest_time_at(const Boundary& side, const ContactGuard& guard, double grav
 Boundaries::Boundaries(const Box& box, double radius, const Effects& effects)
     : sides_(effects.boundaries), guard_(effects, radius), drag_(effects.drag),
       thermal_seed_(effects.thermal_seed), box_(box), radius_(radius),
-      gravity_{effects.gravity.x, effects.gravity.y}, fall_(effects.gravity, effects.drag) {
+      gravity_{effects.acceleration().x, effects.acceleration().y}, fall_(effects) {
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
         if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;

@@ -21,25 +21,6 @@ bool Effects::have_open_boundaries() const {
                        [](const Boundary& side) { return side.kind == BoundaryKind::open; });
 }
 
-Effects per_micro_step(const Effects& effects, double micro_steps) {
-    Effects scaled = effects;
-    scaled.contact.contact_time *= micro_steps;
-    for (Boundary& side : scaled.boundaries) {
-        side.temperature /= micro_steps * micro_steps;
-        side.speed /= micro_steps;
-        side.period *= micro_steps;
-        side.surface.velocity /= micro_steps;
-    }
-    scaled.obstacles.surface.velocity /= micro_steps;
-    scaled.drag /= micro_steps;
-    scaled.growth /= micro_steps;
-    scaled.shear /= micro_steps;
-    scaled.lasting_speed /= micro_steps;
-    scaled.gravity.x /= micro_steps * micro_steps;
-    scaled.gravity.y /= micro_steps * micro_steps;
-    return scaled;
-}
-
 SideColumnSet side_columns_of(const Effects& effects) {
     SideColumnSet columns;
     if (effects.have_spins()) columns.add(SideColumn::spin);

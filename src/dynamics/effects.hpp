@@ -3,10 +3,13 @@
 // law.hpp, bodies.hpp, boundaries.hpp, gravity.hpp, drag.hpp and obstacles.hpp say what they do.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -133,7 +136,27 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
-/// Times in steps in a scene, in micro-steps in a dynamics.
+/// Numbers of effects that act at syncs alone: the file of such an effect declares them by their
+/// keys (`own_key` in scene/key_members.hpp) and reads them, and nothing else has to know them.
+class OwnNumbers {
+public:
+    /// 0 where the scene does not say.
+    double of(std::string_view key) const {
+        const auto found = numbers_.find(key);
+        return found == numbers_.end() ? 0 : found->second;
+    }
+    void set(std::string_view key, double number) { numbers_[std::string(key)] = number; }
+    bool are_any() const {
+        return std::any_of(numbers_.begin(), numbers_.end(),
+                           [](const auto& one) { return one.second != 0; });
+    }
+    friend bool operator==(const OwnNumbers&, const OwnNumbers&) = default;
+
+private:
+    std::map<std::string, double, std::less<>> numbers_;
+};
+
+/// Times in steps in a scene, in micro-steps in a dynamics (per_micro_step in scene/key.hpp).
 struct Effects {
     ContactEffect contact;
     std::array<Boundary, 4> boundaries;
@@ -148,7 +171,12 @@ struct Effects {
     /// Slower pairs press each other from sync to sync (contact_impulses.hpp); 0 is none.
     double lasting_speed = 0;
     Thermostat thermostat{};
+    OwnNumbers own{};
 
+    /// Of discs in free flight, beside drag: what all fields together give them.
+    Gravity acceleration() const { return gravity; }
+    /// Whether nothing changes velocities between collisions and syncs.
+    bool are_flights_free() const { return !acceleration().is_any() && drag == 0; }
     bool have_spins() const { return contact.kind == ContactKind::rough; }
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
@@ -171,13 +199,10 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any();
+               growth != 0 || thermostat.is_any() || own.are_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };
-
-/// The same effects with the micro-step, 1/K of a step, as the unit of time.
-Effects per_micro_step(const Effects& effects, double micro_steps);
 
 /// The numbers that discs have beside their states under these effects.
 SideColumnSet side_columns_of(const Effects& effects);

@@ -53,12 +53,15 @@ double dragged_fall_delay(double distance, double velocity, double pull, double 
 /// The frame that falls with the discs, and its clock. Times are on the clock, since the last sync.
 class FallingFrame {
 public:
-    /// The arguments are per micro-step.
-    FallingFrame(const Gravity& gravity, double drag) : gravity_(gravity), drag_(drag) {}
+    /// `effects` per micro-step.
+    explicit FallingFrame(const Effects& effects)
+        : gravity_(effects.acceleration()), drag_(effects.drag) {}
 
     double clock_at(double micro_steps) const;
     double micro_steps_at(double clock) const;
 
+    const Gravity& acceleration() const { return gravity_; }
+    bool slows() const { return drag_ != 0; }
     bool is_any() const { return gravity_.is_any() || drag_ != 0; }
 
     /// How far a disc that is pulled with `g` has fallen, and its speed of falling per g.

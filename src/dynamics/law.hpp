@@ -39,7 +39,12 @@ struct Spins {
 class Law {
 public:
     /// `effects` per micro-step; for discs of at most `radius`.
-    Law(const Effects& effects, double radius) : Law(effects.contact, {effects, radius}) {}
+    Law(const Effects& effects, double radius)
+        : kind_(effects.contact.kind), normal_((1 + effects.contact.restitution) / 2),
+          tangential_((1 + effects.contact.tangential_restitution) / 2 *
+                      (effects.contact.inertia / (1 + effects.contact.inertia))),
+          friction_(effects.contact.friction), inertia_(effects.contact.inertia),
+          guard_(effects, radius) {}
 
     /// False in an ideal gas: discs pass through each other.
     CARROM_DEVICE bool has_pairs() const { return kind_ != ContactKind::none; }
@@ -69,11 +74,9 @@ public:
     }
 
 private:
-    Law(const ContactEffect& effect, const ContactGuard& guard)
-        : kind_(effect.kind), normal_((1 + effect.restitution) / 2),
-          tangential_((1 + effect.tangential_restitution) / 2 *
-                      (effect.inertia / (1 + effect.inertia))),
-          friction_(effect.friction), inertia_(effect.inertia), guard_(guard) {}
+    /// The normal impulse in units of that of an elastic contact, (1 + e) / 2, for discs that
+    /// approach at this speed.
+    CARROM_DEVICE double normal_at(double /*speed*/) const { return normal_; }
 
     /// `impulse` is in units of that of an elastic contact of equal masses, of which p and q take
     /// their shares: 2 m' / (m + m') for each disc's velocity, m' being the other's mass.
@@ -95,12 +98,14 @@ private:
                                                           const SizeAndMass& p_has,
                                                           const SizeAndMass& q_has,
                                                           double since) const {
-        const double square = met.square(), k = met.rate();
+        const double square = met.square(), k = met.rate(),
+                     normal = normal_at(-k * std::sqrt(square));
         const bool is_guarded = guard_.holds(since, k);
         const double half = (p_has.mass + q_has.mass) / 2,
                      reduced_mass = p_has.mass * q_has.mass / (2 * half);
-        push_apart(p, q, met, is_guarded ? 1 : normal_, q_has.mass / half, p_has.mass / half);
-        return guard_.loss(reduced_mass * normal_loss(k) * square, k * k * square, is_guarded);
+        push_apart(p, q, met, is_guarded ? 1 : normal, q_has.mass / half, p_has.mass / half);
+        return guard_.loss(reduced_mass * normal_loss(normal, k) * square, k * k * square,
+                           is_guarded);
     }
 
     /// Also adds an impulse s along the surfaces, which acts on both spins alike, in units of
@@ -112,7 +117,8 @@ private:
         const auto [ex, ey, wx, wy] = met;
         const double square = met.square(), distance = std::sqrt(square), rate = met.rate();
         const bool is_guarded = guard_.holds(since, rate);
-        const double lossy = normal_ * rate, k = is_guarded ? rate : lossy;
+        const double normal = normal_at(-rate * distance), lossy = normal * rate,
+                     k = is_guarded ? rate : lossy;
         const double slip = (wy * ex - wx * ey) / square -
                             (*spins.p * p_has.radius + *spins.q * q_has.radius) / distance;
         const double rubbed = tangential(slip, lossy), s = is_guarded ? 0 : rubbed;
@@ -128,13 +134,15 @@ private:
         // An impulse s changes the slip by 2 s (1 + 1 / inertia).
         const double along = 2 * rubbed * (slip - rubbed * (1 + 1 / inertia_));
         return guard_.loss(p_has.mass * q_has.mass / (2 * half) * square *
-                               (normal_loss(rate) + along),
+                               (normal_loss(normal, rate) + along),
                            rate * rate * square, is_guarded);
     }
 
     /// The energy that restitution takes, for a reduced mass of 1 and a distance of 1: half of the
     /// squared rate of approach, times 1 - e^2.
-    CARROM_DEVICE double normal_loss(double k) const { return 2 * normal_ * (1 - normal_) * k * k; }
+    CARROM_DEVICE static double normal_loss(double normal, double k) {
+        return 2 * normal * (1 - normal) * k * k;
+    }
     /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
     /// `k`, all in one unit.
     CARROM_DEVICE double tangential(double slip, double k) const {

@@ -38,7 +38,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effects)
     : restitution_(effects.obstacles.restitution), guard_(effects, largest_radius),
       rubbing_(effects.obstacles.surface, effects.contact),
-      gravity_{effects.gravity.x, effects.gravity.y},
+      gravity_{effects.acceleration().x, effects.acceleration().y},
       n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box)),
       largest_radius_(largest_radius) {
     for (const FixedDisc& disc : effects.obstacles.discs)

@@ -20,7 +20,7 @@ namespace carrom {
 /// The box's own clock and frame.
 class RestingFrame {
 public:
-    RestingFrame(const Gravity& /*gravity*/, double /*drag*/) {}
+    explicit RestingFrame(const Effects& /*effects*/) {}
 
     static constexpr double clock_at(double micro_steps) { return micro_steps; }
     static constexpr double micro_steps_at(double clock) { return clock; }

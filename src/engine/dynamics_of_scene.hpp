@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dynamics/all_dynamics.hpp"
-#include "scene/scene_parameters.hpp"
+#include "scene/key.hpp"
 
 namespace carrom {
 
@@ -35,9 +35,7 @@ inline ContactFormula contact_formula_of(const SceneParameters& scene) {
 
 /// The dynamics with the scene's numbers.
 template <class D> D dynamics_of(const SceneParameters& scene) {
-    return D(scene.box, scene.radius,
-             per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)),
-             contact_formula_of(scene));
+    return D(scene.box, scene.radius, per_micro_step(scene), contact_formula_of(scene));
 }
 
 } // namespace carrom

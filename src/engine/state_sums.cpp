@@ -94,37 +94,28 @@ void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_
     totals.momentum_y = momentum_y.value();
 }
 
-void measure_rotation(std::span<const DiscState> own, std::span<const double> spins,
-                      const SpeciesTable& species_table, double inertia, double velocity_unit,
-                      const Communicator& communicator, Totals& totals) {
-    const auto energy_of = [&](std::size_t i) {
-        const SizeAndMass& body = species_table.of(own[i].id);
-        const double speed = spins[i] * velocity_unit * body.radius;
-        return 0.5 * inertia * body.mass * speed * speed;
-    };
-    double largest = 0;
-    for (std::size_t i = 0; i < spins.size(); ++i) largest = std::max(largest, energy_of(i));
-    ExactSum energy(static_cast<double>(totals.n_discs) * communicator.max(largest));
-    for (std::size_t i = 0; i < spins.size(); ++i) energy.add(energy_of(i));
-    communicator.sum(energy);
-    totals.rotational_energy = energy.value();
-}
-
-void measure_height(std::span<const DiscState> own, const SpeciesTable* species_table,
-                    const Gravity& gravity, const Box& box, const Communicator& communicator,
-                    Totals& totals) {
-    const auto height = [](double place, double pull, double length) {
-        return pull < 0 ? place : length - place;
-    };
-    const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
-    ExactSum energy(2 * static_cast<double>(totals.n_discs) *
-                    largest_mass(own, species_table, communicator) * (gx + gy) * box.longest());
-    for (const DiscState& disc : own)
-        if (!disc.has_departed())
-            energy.add(mass_of(disc, species_table) * (gx * height(disc.x, gravity.x, box.x) +
-                                                       gy * height(disc.y, gravity.y, box.y)));
-    communicator.sum(energy);
-    totals.potential_energy = energy.value();
+void measure_other_energies(std::span<const OtherEnergy> energies, std::span<const DiscState> shown,
+                            std::span<const double> spins, const SpeciesTable& species_table,
+                            const EnergySetting& setting, const Communicator& communicator,
+                            Totals& totals) {
+    const double unit = setting.velocity_unit;
+    for (const OtherEnergy& energy : energies) {
+        const auto energy_of = [&](std::size_t i) -> double {
+            const DiscState& disc = shown[i];
+            if (disc.has_departed()) return 0;
+            return energy.of_disc({disc.x, disc.y, disc.vx * unit, disc.vy * unit,
+                                   spins.empty() ? 0 : spins[i] * unit, species_table.of(disc.id),
+                                   setting.sync_interval / unit},
+                                  setting.effects, setting.box);
+        };
+        double largest = 0;
+        for (std::size_t i = 0; i < shown.size(); ++i)
+            largest = std::max(largest, std::fabs(energy_of(i)));
+        ExactSum sum(static_cast<double>(totals.n_discs) * communicator.max(largest));
+        for (std::size_t i = 0; i < shown.size(); ++i) sum.add(energy_of(i));
+        communicator.sum(sum);
+        totals.*energy.value += sum.value();
+    }
 }
 
 namespace {

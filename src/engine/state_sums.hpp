@@ -12,6 +12,7 @@
 #include "engine/stored_state.hpp"
 #include "engine/totals.hpp"
 #include "parallel/communicator.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -34,15 +35,20 @@ void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_
 std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
                                         const Extent& box, double time, DiscStates& kept);
 
-/// Fills in the energy of spins; moments of inertia are `inertia` m r^2. **Collective.**
-void measure_rotation(std::span<const DiscState> own, std::span<const double> spins,
-                      const SpeciesTable& species_table, double inertia, double velocity_unit,
-                      const Communicator& communicator, Totals& totals);
+/// What energies of discs depend on beside the discs.
+struct EnergySetting {
+    const Effects& effects;
+    const Box& box;
+    double velocity_unit = 1; ///< turns stored velocities into those in the effects' unit of time
+    double sync_interval = 0; ///< in micro-steps
+};
 
-/// Fills in the potential energy of discs as the box sees them. **Collective.**
-void measure_height(std::span<const DiscState> own, const SpeciesTable* species_table,
-                    const Gravity& gravity, const Box& box, const Communicator& communicator,
-                    Totals& totals);
+/// Fills in energies beside that of motion. `shown` are discs as the box sees them; `spins` run
+/// along them, or there are none. **Collective.**
+void measure_other_energies(std::span<const OtherEnergy> energies, std::span<const DiscState> shown,
+                            std::span<const double> spins, const SpeciesTable& species_table,
+                            const EnergySetting& setting, const Communicator& communicator,
+                            Totals& totals);
 
 /// Two discs overlap if they are closer than the diameter by more than the tolerance.
 struct Touching {

@@ -91,7 +91,7 @@ OrderWatch::Sample OrderWatch::sampled() const {
     Sample sample;
     if (has_energy_) {
         const Totals now = run_.system.energies();
-        sample.energy = now.kinetic_energy + now.rotational_energy + now.potential_energy;
+        sample.energy = now.energy();
     }
     if (!has_order_) return sample;
     const HexaticSums sums = run_.system.sampled_order(most_discs);

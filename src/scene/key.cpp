@@ -2,6 +2,8 @@
 #include "scene/key.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 #include "scene/boundaries/boundary.hpp"
 
@@ -16,6 +18,40 @@ template <class T> const T* find(const std::vector<T>& all, std::string_view nam
 }
 
 } // namespace
+
+Dimension dimension_of(std::string_view unit) {
+    Dimension all;
+    int sign = 1;
+    while (!unit.empty()) {
+        const std::size_t end = std::min(unit.find_first_of(" /"), unit.size());
+        const std::string_view factor = unit.substr(0, end),
+                               word = factor.substr(0, factor.find('^'));
+        const int power = sign * (word.size() < factor.size() ? factor.back() - '0' : 1);
+        if (word == "length") all.length += power;
+        if (word == "step" || word == "steps") all.time += power;
+        if (word == "mass") all.mass += power;
+        if (end < unit.size() && unit[end] == '/') sign = -1;
+        unit.remove_prefix(std::min(end + 1, unit.size()));
+    }
+    return all;
+}
+
+Effects per_micro_step(const SceneParameters& scene) {
+    static const std::vector<Key> of_effects = keys_of_effects();
+    const auto k = static_cast<double>(scene.micro_steps);
+    SceneParameters scaled;
+    scaled.effects = scene.effects;
+    for (const Key& key : of_effects) {
+        const int time = key.dimension().time;
+        if (key.kind != Kind::number || time == 0) continue;
+        double unit = 1;
+        for (int i = 0; i < std::abs(time); ++i) unit *= k;
+        const Value value = key.get(scaled);
+        const double* const number = std::get_if<double>(&value.data);
+        if (number) key.set(scaled, {time > 0 ? *number * unit : *number / unit});
+    }
+    return std::move(scaled.effects);
+}
 
 const std::vector<Key>& keys() {
     static const std::vector<Key> all = [] {

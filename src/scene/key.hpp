@@ -31,6 +31,15 @@ enum class Kind {
     tables  ///< an array of tables of numbers
 };
 
+/// How a number scales: its exponents of the units of length, time and mass.
+struct Dimension {
+    int length = 0, time = 0, mass = 0;
+
+    friend bool operator==(const Dimension&, const Dimension&) = default;
+};
+/// Of a unit such as "mass length^2/step^2". Other words count nothing.
+Dimension dimension_of(std::string_view unit);
+
 /// What a number may be, ends included.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
@@ -100,6 +109,7 @@ struct Key {
         return fields = of, std::move(*this);
     }
 
+    Dimension dimension() const { return dimension_of(unit); }
     std::string_view table() const { return std::string_view(name).substr(0, name.rfind('.')); }
     bool has_rows() const { return kind == Kind::rows || kind == Kind::tables; }
     bool is_same(const SceneParameters& a, const SceneParameters& b) const {
@@ -135,6 +145,10 @@ const std::vector<Rule>& rules();
 
 const Key* find_key(std::string_view name);
 const Table* find_table(std::string_view name);
+
+/// The scene's effects with the micro-step as the unit of time, as a dynamics counts it. Units of
+/// keys say which numbers that changes.
+Effects per_micro_step(const SceneParameters& scene);
 
 std::vector<Key> keys_of_discs();
 std::vector<Key> keys_of_sizes(); ///< discs.radius as a table

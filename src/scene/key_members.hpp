@@ -188,6 +188,19 @@ Key key(std::string name, std::string_view unit, std::string_view help, const Ge
     return declared;
 }
 
+/// The key of a number that its effect alone knows (OwnNumbers).
+inline Key own_key(const std::string& name, std::string_view unit, std::string_view help) {
+    Key declared = named_key(name, unit, help);
+    declared.kind = Kind::number;
+    declared.get = [name](const SceneParameters& scene) {
+        return Value{scene.effects.own.of(name)};
+    };
+    declared.set = [name](SceneParameters& scene, const Value& value) {
+        scene.effects.own.set(name, std::get<double>(value.data));
+    };
+    return declared;
+}
+
 /// A word, and the flag that it stands for.
 template <class Object> struct Flag {
     std::string_view word;

@@ -134,8 +134,9 @@ DiscSystem::DiscSystem(const SceneParameters& scene, std::vector<InputDisc> disc
 DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
                        const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
-      effects_(scene.effects), columns_(side_columns_of(scene)), box_(scene.box),
-      n_threads_(tuning.threads), heaviest_(heaviest_of(scene)),
+      sync_interval_(static_cast<double>(scene.sync_every)), effects_(scene.effects),
+      columns_(side_columns_of(scene)), box_(scene.box), n_threads_(tuning.threads),
+      heaviest_(heaviest_of(scene)),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averaged_system_(
           std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
@@ -367,11 +368,10 @@ Totals DiscSystem::energies() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
     measure_motion(in_motion(), table_if_mixed(), velocity_unit_, communicator_, totals);
-    if (effects_.have_spins())
-        measure_rotation(discs(), spins(), species_table(), effects_.contact.inertia,
-                         velocity_unit_, communicator_, totals);
-    if (effects_.gravity.is_any())
-        measure_height(shown(), table_if_mixed(), effects_.gravity, box_, communicator_, totals);
+    if (const std::vector<OtherEnergy> others = other_energies_of(effects_); !others.empty())
+        measure_other_energies(others, shown(), spins(), species_table(),
+                               {effects_, box_, velocity_unit_, sync_interval_}, communicator_,
+                               totals);
     return totals;
 }
 

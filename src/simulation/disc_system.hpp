@@ -156,7 +156,7 @@ private:
     std::span<const DiscState> in_flow() const;
 
     Communicator communicator_;
-    double velocity_unit_;
+    double velocity_unit_, sync_interval_;
     Effects effects_; ///< times in steps
     SideColumnSet columns_;
     Box box_;

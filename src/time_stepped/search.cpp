@@ -152,6 +152,26 @@ void Search<Dynamics>::predict_all(const Population& population, const CellGrid&
     }
 }
 
+/// Inlined into the loops over pairs, because it is the innermost work of a search.
+template <class Dynamics>
+[[gnu::always_inline]] inline void Search<Dynamics>::predict_pair(const Population& population,
+                                                                  const Window& window, int from,
+                                                                  LocalIndex a, LocalIndex b,
+                                                                  SearchLists& lists) const {
+    if (a >= population.n_own && b >= population.n_own) return;
+    const DiscState& first = population.discs[a];
+    const DiscState& second = population.discs[b];
+    const auto contact = dynamics_.contact(first, second, dynamics_.tolerance());
+    if (!contact.exists()) return;
+    const int m = first_micro_step(contact, from, window.end_micro());
+    if (m == window.end_micro()) return;
+    const double t = in_step_time(contact, m);
+    if (!window.holds(t)) return;
+    Candidate candidate{t, a, b};
+    if (second.id < first.id) std::swap(candidate.p, candidate.q);
+    add(lists, window, from, m, candidate);
+}
+
 template <class Dynamics>
 void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
                                       const Window& window, const Bounds& bounds, int column,
@@ -321,23 +341,6 @@ void Search<Dynamics>::find_pairs_with_large(const Population& population, const
             continue;
         if (other != index) lists.pairs[lists.n_pairs++] = {index, other};
     }
-}
-
-template <class Dynamics>
-void Search<Dynamics>::predict_pair(const Population& population, const Window& window, int from,
-                                    LocalIndex a, LocalIndex b, SearchLists& lists) const {
-    if (a >= population.n_own && b >= population.n_own) return;
-    const DiscState& first = population.discs[a];
-    const DiscState& second = population.discs[b];
-    const auto contact = dynamics_.contact(first, second, dynamics_.tolerance());
-    if (!contact.exists()) return;
-    const int m = first_micro_step(contact, from, window.end_micro());
-    if (m == window.end_micro()) return;
-    const double t = in_step_time(contact, m);
-    if (!window.holds(t)) return;
-    Candidate candidate{t, a, b};
-    if (second.id < first.id) std::swap(candidate.p, candidate.q);
-    add(lists, window, from, m, candidate);
 }
 
 template <class Dynamics>

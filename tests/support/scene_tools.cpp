@@ -300,8 +300,10 @@ void set_oscillation(reference::Setting& setting) {
     setting.oscillation = {};
     setting.oscillating_delay = {};
     if (!(largest_wall_speed(setting.effects) > 0)) return;
-    const Effects effects = per_micro_step(setting.effects,
-                                           static_cast<double>(setting.micro_steps));
+    SceneParameters scene;
+    scene.effects = setting.effects;
+    scene.micro_steps = setting.micro_steps;
+    const Effects effects = per_micro_step(scene);
     std::array<double, 4> rest_times{};
     for (std::size_t side = 0; side < 4; ++side) {
         const Boundary& wall = effects.boundaries[side];

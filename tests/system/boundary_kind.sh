@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # docs/examples/boundary_kind.patch adds a kind of side, a wall that runs along itself like a belt,
-# in at most eight files.
+# in at most six files.
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
 . "$CARROM_SOURCE_DIR/tests/system/feature_patch.sh"
-begin_patch $# boundary_kind 8 keys conflicts
+begin_patch $# boundary_kind 6 keys conflicts
 build_copy_with "$change" "$@"
 expect_pages belt
 

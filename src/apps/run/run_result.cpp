@@ -96,10 +96,7 @@ double busy_seconds(const PhaseSeconds& phases) {
 }
 
 double energy_drift(const RunResult& result) {
-    const auto all = [](const Totals& totals) {
-        return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy;
-    };
-    return ratio(all(result.end) - all(result.start), all(result.start));
+    return ratio(result.end.energy() - result.start.energy(), result.start.energy());
 }
 
 double collisions_per_disc(const SceneParameters& scene, const RunResult& result) {

@@ -93,7 +93,7 @@ private:
     };
     Energies energies_now() const {
         const Totals totals = run_.system.energies();
-        return {totals.kinetic_energy, totals.rotational_energy + totals.potential_energy};
+        return {totals.kinetic_energy, totals.other_energy()};
     }
 
     const Measurements& others_;

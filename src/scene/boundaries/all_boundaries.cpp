@@ -94,6 +94,18 @@ CheckAllowance allowance_of_boundaries(const Effects& effects) {
     return all;
 }
 
+bool do_sides_take_growing_discs(const Effects& effects) {
+    return std::ranges::all_of(effects.boundaries, [](const Boundary& side) {
+        return declaration_of(side.kind).takes_growing_discs && !side.surface.rubs();
+    });
+}
+
+bool are_walls_at_rest(const Effects& effects) {
+    return std::ranges::all_of(effects.boundaries, [](const Boundary& side) {
+        return declaration_of(side.kind).is_at_rest;
+    });
+}
+
 std::string side_key(std::size_t side, std::string_view name) {
     return fmt::format("box.{}.{}", boundary_names[side], name);
 }

@@ -24,6 +24,10 @@ struct BoundaryDeclaration {
     std::string_view help; ///< what a side of this kind is, for the page of keys
     /// Whether discs bounce off it, so that `restitution` has a meaning.
     bool has_restitution = false;
+    // What other features ask of a side: a kind that does not say that it can, does not go with
+    // them.
+    bool is_at_rest = true;           ///< its line stays where it is
+    bool takes_growing_discs = false; ///< a disc may grow towards it
     /// Keys of one side, such as box.left.speed.
     std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
     /// Tables and keys that all sides of this kind share.
@@ -46,6 +50,9 @@ std::vector<Key> keys_of_boundaries();
 /// "left wall of restitution 0.9; top side open"; empty if all sides are elastic walls.
 std::string summary_of_boundaries(const Effects& effects);
 CheckAllowance allowance_of_boundaries(const Effects& effects);
+/// Whether all sides have what growing discs need: see BoundaryDeclaration.
+bool do_sides_take_growing_discs(const Effects& effects);
+bool are_walls_at_rest(const Effects& effects);
 
 /// "box.left.speed" for side 0 and "speed".
 std::string side_key(std::size_t side, std::string_view name);

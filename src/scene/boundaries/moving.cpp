@@ -27,10 +27,6 @@ std::vector<Rule> rules_of_moving_sides() {
         rule("a moving wall", "time.method = \"time-stepped\"",
              "walls are at rest there; take time.method = \"event-driven\"", BoundaryKind::moving,
              [](const SceneParameters& s) { return has_moving(s) && is_time_stepped(s); }),
-        rule("a moving wall", "obstacles", "this version does not have both", BoundaryKind::moving,
-             [](const SceneParameters& s) { return has_moving(s) && has_obstacles(s); }),
-        rule("an open side", "a moving wall", "this version does not have both", BoundaryKind::open,
-             [](const SceneParameters& s) { return has_moving(s) && has_open(s); }),
     };
 }
 
@@ -65,6 +61,7 @@ BoundaryDeclaration moving() {
     return {.kind = BoundaryKind::moving,
             .help = "a piston",
             .has_restitution = true,
+            .is_at_rest = false,
             .keys_of_side = keys_of_moving_side,
             .rules = rules_of_moving_sides(),
             .check_room = check_moving_walls,

@@ -40,15 +40,9 @@ std::vector<Rule> rules_of_oscillating_sides() {
              "walls are at rest there; take time.method = \"event-driven\"",
              BoundaryKind::oscillating,
              [](const SceneParameters& s) { return has_oscillating(s) && is_time_stepped(s); }),
-        rule("an oscillating wall", "obstacles", "this version does not have both",
-             BoundaryKind::oscillating,
-             [](const SceneParameters& s) { return has_oscillating(s) && has_obstacles(s); }),
         rule("an oscillating wall", "drag", "contacts are found on straight lines and parabolas",
              BoundaryKind::oscillating,
              [](const SceneParameters& s) { return has_oscillating(s) && s.effects.drag != 0; }),
-        rule("an open side", "an oscillating wall", "this version does not have both",
-             BoundaryKind::open,
-             [](const SceneParameters& s) { return has_oscillating(s) && has_open(s); }),
     };
 }
 
@@ -109,6 +103,7 @@ BoundaryDeclaration oscillating() {
     return {.kind = BoundaryKind::oscillating,
             .help = "a shaker",
             .has_restitution = true,
+            .is_at_rest = false,
             .keys_of_side = keys_of_oscillating_side,
             .rules = rules_of_oscillating_sides(),
             .check_times = check_contact_at_oscillating_walls,

@@ -51,6 +51,7 @@ namespace boundaries {
 BoundaryDeclaration periodic() {
     return {.kind = BoundaryKind::periodic,
             .help = "in pairs, the box repeats itself",
+            .takes_growing_discs = true,
             .rules = rules_of_periodic_sides(),
             .check_room = check_periodic_box,
             .summary = [](const Boundary&, std::string_view name) {

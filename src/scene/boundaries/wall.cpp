@@ -8,6 +8,7 @@ BoundaryDeclaration wall() {
     return {.kind = BoundaryKind::wall,
             .help = "at rest",
             .has_restitution = true,
+            .takes_growing_discs = true,
             .summary = [](const Boundary& side, std::string_view name) {
                 return fmt::format("{} wall{}", name, loss_text(side));
             }};

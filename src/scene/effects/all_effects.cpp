@@ -34,6 +34,7 @@ CheckAllowance allowance_of(const Effects& effects) {
         all.collisions_take_energy |= one.collisions_take_energy;
         all.walls_give_energy |= one.walls_give_energy;
         all.acts_at_syncs |= one.acts_at_syncs;
+        all.surfaces_give_energy |= one.surfaces_give_energy;
     }
     return all;
 }
@@ -44,6 +45,27 @@ std::vector<OtherEnergy> other_energies_of(const Effects& effects) {
         if (effect.energy)
             if (const auto one = effect.energy(effects)) all.push_back(*one);
     return all;
+}
+
+double energy_left_by(const Effects& effects, double time) {
+    double left = 1;
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.energy_left) left *= effect.energy_left(effects, time);
+    return left;
+}
+
+double work_on_way(const Effects& effects, const Way& way) {
+    double work = 0;
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.work) work += effect.work(effects, way);
+    return work;
+}
+
+double work_in_collision(const Effects& effects, double impulse, double radii) {
+    double work = 0;
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.work_in_collision) work += effect.work_in_collision(effects, impulse, radii);
+    return work;
 }
 
 double usual_speed_of_effects(const SceneParameters& scene) {

@@ -134,7 +134,14 @@ EffectDeclaration contact() {
                 },
             .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
                 if (!e.have_spins()) return std::nullopt;
-                return OtherEnergy{"rotational_energy", "of spin", &Totals::rotational_energy};
+                return OtherEnergy{
+                    .name = "rotational_energy",
+                    .words = "of spin",
+                    .value = &Totals::rotational_energy,
+                    .of_disc = [](const ShownDisc& disc, const Effects& at, const Box&) {
+                        const double speed = disc.spin * disc.has.radius;
+                        return 0.5 * at.contact.inertia * disc.has.mass * speed * speed;
+                    }};
             },
             .lets_discs_rest = are_pairs_lossy};
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Linear drag (dynamics/drag.hpp).
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "scene/effects/effect.hpp"
@@ -47,12 +49,17 @@ void check_times_of_drag(const SceneDraft& draft) {
 namespace effects {
 
 EffectDeclaration drag() {
-    return {.tables = {{"effects.drag", "Air at rest that slows discs down."}},
-            .keys = keys_of_drag(),
-            .rules = rules_of_drag(),
-            .check_times = check_times_of_drag,
-            .summary = [](const Effects& e) {
-                return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : "";
+    return {
+        .tables = {{"effects.drag", "Air at rest that slows discs down."}},
+        .keys = keys_of_drag(),
+        .rules = rules_of_drag(),
+        .check_times = check_times_of_drag,
+        .summary =
+            [](const Effects& e) { return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : ""; },
+        // Where discs are pulled the loss depends on the flight, and all may be left.
+        .energy_left =
+            [](const Effects& e, double time) {
+                return e.acceleration().is_any() ? 1 : std::exp(-2 * e.drag * time);
             }};
 }
 

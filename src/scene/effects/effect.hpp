@@ -36,13 +36,34 @@ struct CheckAllowance {
     bool collisions_take_energy = false;
     bool walls_give_energy = false; ///< an amount that only the run knows
     bool acts_at_syncs = false; ///< velocities change there, by an energy that the engine adds up
+    bool surfaces_give_energy = false; ///< in collisions: see EffectDeclaration::work_in_collision
 };
 
-/// An energy that discs have beside that of their motion.
+/// A disc as the box sees it. The unit of time is that of the effects beside it.
+struct ShownDisc {
+    double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
+    SizeAndMass has;
+    double sync_interval = 0; ///< the time between syncs
+};
+
+/// An energy that discs have beside that of their motion. Totals, reports and the self-check add it
+/// up for all discs in the box.
 struct OtherEnergy {
-    const char* name;  ///< in the report
-    const char* words; ///< in the summary, after its value
-    double Totals::* value;
+    const char* name;       ///< in the report
+    const char* words;      ///< in the summary, after its value
+    double Totals::* value; ///< features of one name share it
+    double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
+    /// Of an energy of places: what it can be for a mass of 1, to hold rounding against.
+    double (*largest)(const Effects&, const Box&) = nullptr;
+    /// It turns into energy of motion at syncs alone, where the engine adds up what discs get; so
+    /// the self-check leaves it out.
+    bool is_of_syncs = false;
+};
+
+/// The way of a disc between two inspections of the self-check, round periodic sides, too.
+struct Way {
+    double x = 0, y = 0;
+    SizeAndMass has;
 };
 
 /// A number of the state at the end of a run.
@@ -80,6 +101,14 @@ struct EffectDeclaration {
     CheckAllowance (*allowance)(const Effects&) = nullptr;
     /// Nothing in a scene whose discs do not have it.
     std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
+    // For the self-check, per micro-step: what the effect gives to discs that is no change of such
+    // an energy.
+    /// The share of the energy of motion that is left after a time.
+    double (*energy_left)(const Effects&, double time) = nullptr;
+    /// The energy that a disc gets on its way.
+    double (*work)(const Effects&, const Way&) = nullptr;
+    /// The energy that surfaces give in a collision of this impulse, with the sum of the radii.
+    double (*work_in_collision)(const Effects&, double impulse, double radii) = nullptr;
     /// Whether discs may come to rest on each other, or on a wall, so that they need a contact
     /// time.
     bool (*lets_discs_rest)(const Effects&) = nullptr;
@@ -108,6 +137,10 @@ std::string summary_of(const Effects& effects);
 CheckAllowance allowance_of(const Effects& effects);
 /// In the order of the effects.
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
+// Of all effects together: see EffectDeclaration.
+double energy_left_by(const Effects& effects, double time);
+double work_on_way(const Effects& effects, const Way& way);
+double work_in_collision(const Effects& effects, double impulse, double radii);
 /// The largest of all effects'.
 double usual_speed_of_effects(const SceneParameters& scene);
 /// `kept` is DiscSystem::kept_by_effects.

@@ -79,6 +79,16 @@ std::vector<Rule> rules_of_gravity() {
     };
 }
 
+/// Above the walls that gravity pulls to at the start.
+double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box& box) {
+    const auto height = [](double place, double pull, double length) {
+        return pull < 0 ? place : length - place;
+    };
+    const Gravity& g = effects.gravity;
+    return disc.has.mass * (std::fabs(g.x) * height(disc.x, g.x, box.x) +
+                            std::fabs(g.y) * height(disc.y, g.y, box.y));
+}
+
 /// Whether what is pulled with `g` falls by more than half the box from sync to sync.
 bool falls_too_far(const SceneParameters& scene, double g) {
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
@@ -142,7 +152,14 @@ EffectDeclaration gravity() {
                 },
             .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
                 if (!e.gravity.is_any()) return std::nullopt;
-                return OtherEnergy{"potential_energy", "of height", &Totals::potential_energy};
+                return OtherEnergy{.name = "potential_energy",
+                                   .words = "of height",
+                                   .value = &Totals::potential_energy,
+                                   .of_disc = energy_of_height,
+                                   .largest = [](const Effects& at, const Box& box) {
+                                       return (std::fabs(at.gravity.x) + std::fabs(at.gravity.y)) *
+                                              box.longest();
+                                   }};
             },
             .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
             .usual_speed =

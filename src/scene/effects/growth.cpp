@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/effects/effect.hpp"
+#include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -28,22 +28,23 @@ std::vector<Rule> rules_of_growth() {
              "radii stay there; take time.method = \"event-driven\"", {"effects.growth.rate"},
              [](const SceneParameters& s) { return has_growth(s) && is_time_stepped(s); }),
         rule("growing discs", "rough discs, or effects.contact.kind = \"none\"",
-             "this version does not have both", {"effects.growth.rate"},
+             "growing discs need smooth discs that collide, because surfaces push each other apart",
+             {"effects.growth.rate"},
              [](const SceneParameters& s) {
                  return has_growth(s) &&
                         (is_rough(s) || s.effects.contact.kind == ContactKind::none);
              }),
-        rule("growing discs", "gravity, drag or obstacles", "this version does not have both",
+        rule("growing discs", "gravity, drag or obstacles",
+             "growing discs need straight flights in an empty box, on which contacts are found",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growth(s) &&
-                        (s.effects.gravity.is_any() || s.effects.drag != 0 || has_obstacles(s));
+                 return has_growth(s) && (!s.effects.are_flights_free() || has_obstacles(s));
              }),
-        rule("growing discs", "a thermal, a moving, an oscillating or an open side",
-             "this version does not have both", {"effects.growth.rate"},
+        rule("growing discs", "sides that are no smooth walls at rest, and not periodic",
+             "growing discs need sides that stay where they are, do not rub and let nothing out",
+             {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growth(s) && (has_moving(s) || has_oscillating(s) || has_open(s) ||
-                                          has_boundary(s.effects, BoundaryKind::thermal));
+                 return has_growth(s) && !do_sides_take_growing_discs(s.effects);
              }),
     };
 }
@@ -73,16 +74,21 @@ void check_growth(const SceneDraft& draft) {
 namespace effects {
 
 EffectDeclaration growth() {
-    return {.tables = {{"effects.growth", "Discs that grow."}},
-            .keys = keys_of_growth(),
-            .rules = rules_of_growth(),
-            .check_room = check_growth,
-            .summary =
-                [](const Effects& e) {
-                    return e.growth != 0 ? fmt::format("radii growing by {:g} a step", e.growth)
-                                         : "";
-                },
-            .usual_speed = [](const SceneParameters& s) { return s.radius * s.effects.growth; }};
+    return {
+        .tables = {{"effects.growth", "Discs that grow."}},
+        .keys = keys_of_growth(),
+        .rules = rules_of_growth(),
+        .check_room = check_growth,
+        .summary =
+            [](const Effects& e) {
+                return e.growth != 0 ? fmt::format("radii growing by {:g} a step", e.growth) : "";
+            },
+        .allowance =
+            [](const Effects& e) { return CheckAllowance{.surfaces_give_energy = e.growth != 0}; },
+        // Distances of surfaces grow at a constant rate.
+        .work_in_collision = [](const Effects& e, double impulse,
+                                double radii) { return impulse * (e.growth * radii); },
+        .usual_speed = [](const SceneParameters& s) { return s.radius * s.effects.growth; }};
 }
 
 } // namespace effects

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/contact_impulses.hpp"
-#include "scene/effects/effect.hpp"
+#include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -28,8 +28,7 @@ constexpr std::size_t numbers_of_contact = 4; ///< in a checkpoint
 class LastingContacts final : public SyncEffect {
 public:
     explicit LastingContacts(const SceneParameters& scene)
-        : impulses_(scene.box,
-                    per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)),
+        : impulses_(scene.box, per_micro_step(scene),
                     SpeciesTable(scene.effects.species, scene.radius),
                     static_cast<double>(scene.sync_every)) {}
 
@@ -144,16 +143,17 @@ std::vector<Rule> rules_of_lasting_contacts() {
                  return has_lasting(s) &&
                         (kind == ContactKind::elastic || kind == ContactKind::none);
              }),
-        rule(lasting, "drag or a thermostat", "this version does not have both", keys,
+        rule(lasting, "drag or a thermostat",
+             "contacts that last need discs that gravity alone presses until the next sync", keys,
              [](const SceneParameters& s) {
                  return has_lasting(s) && (s.effects.drag != 0 || s.effects.thermostat.is_any());
              }),
-        rule(lasting, "growing discs, or sheared, moving, oscillating or thermal sides",
-             "this version does not have both", keys,
+        rule(lasting, "growing discs, walls that move, or sheared or thermal sides",
+             "contacts that last need discs and sides that can lie still", keys,
              [](const SceneParameters& s) {
-                 return has_lasting(s) &&
-                        (has_growth(s) || s.effects.are_sheared() || has_moving(s) ||
-                         has_oscillating(s) || has_boundary(s.effects, BoundaryKind::thermal));
+                 return has_lasting(s) && (has_growth(s) || s.effects.are_sheared() ||
+                                           !are_walls_at_rest(s.effects) ||
+                                           has_boundary(s.effects, BoundaryKind::thermal));
              }),
     };
 }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/effects/effect.hpp"
+#include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -43,6 +43,12 @@ std::vector<Rule> rules_of_obstacles() {
              {"effects.drag.rate"},
              [](const SceneParameters& s) {
                  return has_obstacles(s) && s.effects.drag > 0 && s.effects.gravity.is_any();
+             }),
+        rule("obstacles", "walls that move",
+             "obstacles need walls at rest: a disc between the two would have no way out",
+             {"effects.obstacles.discs", "effects.obstacles.segments"},
+             [](const SceneParameters& s) {
+                 return has_obstacles(s) && !are_walls_at_rest(s.effects);
              }),
         rule("obstacles",
              "discs.generator = \"lattice\", \"triangular\", \"compressed\" or \"legacy\"",

@@ -22,11 +22,6 @@ bool slides(const Boundary& side) {
     return side.kind == BoundaryKind::thermal || side.surface.rubs();
 }
 
-bool do_sides_rub(const Effects& effects) {
-    return std::any_of(effects.boundaries.begin(), effects.boundaries.end(),
-                       [](const Boundary& side) { return side.surface.rubs(); });
-}
-
 template <class SurfaceOf>
 void add_surface(std::vector<Key>& all, const std::string& table, const SurfaceOf& surface_of,
                  const Need& body, const Need& rubbing, const Need& sliding,
@@ -78,14 +73,6 @@ std::vector<Key> keys_of_rubbing() {
          [](const SceneParameters& s) { return s.effects.obstacles.surface.rubs(); }},
         "Velocity of the surface, counterclockwise around the body, which stays where it is.");
     return all;
-}
-
-std::vector<Rule> rules_of_rubbing() {
-    return {
-        rule("walls that rub", "growing discs", "this version does not have both",
-             {"effects.growth.rate"},
-             [](const SceneParameters& s) { return has_growth(s) && do_sides_rub(s.effects); }),
-    };
 }
 
 /// A body's velocity along itself must be one that discs may have.
@@ -163,7 +150,6 @@ namespace effects {
 
 EffectDeclaration rubbing() {
     return {.keys = keys_of_rubbing(),
-            .rules = rules_of_rubbing(),
             .check_room = check_room_of_rubbing,
             .summary = summary_of_rubbing,
             .allowance = allowance_of_rubbing,

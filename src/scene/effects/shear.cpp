@@ -57,9 +57,6 @@ std::vector<Rule> rules_of_shear() {
              [](const SceneParameters& s) {
                  return s.effects.are_sheared() && (s.effects.drag != 0 || has_obstacles(s));
              }),
-        rule("sheared sides", "growing discs", "this version does not have both",
-             {"effects.growth.rate"},
-             [](const SceneParameters& s) { return s.effects.are_sheared() && has_growth(s); }),
         rule("sheared sides", "\"image\"", "images move: whole numbers do not say where they are",
              {"output.trajectory.fields"},
              [](const SceneParameters& s) {

@@ -41,13 +41,9 @@ namespace {
 class ThermostatEffect : public SyncEffect {
 public:
     explicit ThermostatEffect(const SceneParameters& scene)
-        : setting_(scene.effects.thermostat), inertia_(scene.effects.contact.inertia),
+        : setting_(per_micro_step(scene).thermostat), inertia_(scene.effects.contact.inertia),
           interval_(static_cast<double>(scene.sync_every)),
           n_discs_(static_cast<double>(scene.n_discs)) {
-        const auto k = static_cast<double>(scene.micro_steps);
-        setting_.strength /= k * k * k;
-        setting_.rate /= k;
-        setting_.temperature /= k * k;
         heaviest_ = scene.effects.species.empty() ? 1 : 0;
         for (const Species& one : scene.effects.species) heaviest_ = std::max(heaviest_, one.mass);
     }

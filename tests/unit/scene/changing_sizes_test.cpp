@@ -52,8 +52,9 @@ TEST_CASE("Oscillating walls are read, and refused where they leave no room") {
     CHECK(has(problems({"effects.drag.rate=0.01"}),
               "cannot have an oscillating wall together with drag"));
     CHECK(has(problems({"effects.obstacles.discs=[[10, 20, 1]]"}),
-              "cannot have an oscillating wall together with obstacles"));
-    CHECK(has(problems({"box.left.kind=open"}), "cannot have an open side together with an osc"));
+              "cannot have obstacles together with walls that move"));
+    CHECK(
+        has(problems({"box.left.kind=open"}), "cannot have an open side together with walls that"));
     CHECK(has(problems({"box.bottom.kind=periodic"}), "no meaning without box.bottom.kind"));
 }
 

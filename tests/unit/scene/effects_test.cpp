@@ -94,7 +94,7 @@ TEST_CASE("Sides are read, and contradictions explained") {
     CHECK(has(problems_with({"box.left.kind=open", "box.left.restitution=0.5"}),
               "no meaning without box.left.kind = \"wall\", \"moving\" or \"oscillating\""));
     CHECK(has(problems_with({"box.left.kind=open", "box.top.kind=moving", "box.top.speed=1", all}),
-              "cannot have an open side together with a moving wall"));
+              "cannot have an open side together with walls that move"));
 }
 
 TEST_CASE("Obstacles are read, each wrong one is named") {
@@ -121,7 +121,7 @@ TEST_CASE("Obstacles are read, each wrong one is named") {
               "know nothing of obstacles"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving",
                              "box.top.speed=1", "time.method=event-driven"}),
-              "together with obstacles"));
+              "cannot have obstacles together with walls that move"));
     const SceneParameters other = read_scene(good, "s.toml",
                                              {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]",
                                               "effects.obstacles.segments=[[0, 0, 30, 40]]"});

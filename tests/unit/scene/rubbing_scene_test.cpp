@@ -50,5 +50,5 @@ TEST_CASE("Walls that rub and slide are read, and keys without a meaning named")
                    "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
     CHECK(mentions(rubbing_problems({"box.top.tangential_restitution=0.5",
                                      "effects.growth.rate=0.01", "time.method=event-driven"}),
-                   "cannot have walls that rub together with growing discs"));
+                   "cannot have growing discs together with sides that are no"));
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers of effects in micro-steps against formulas written out here, and energies of discs
+// against those of mechanics.
+#include <cmath>
+
+#include "catch.hpp"
+
+#include "scene/effects/effect.hpp"
+#include "scene/key.hpp"
+
+using namespace carrom;
+
+TEST_CASE("A unit says how a number scales") {
+    CHECK(dimension_of("length") == Dimension{1, 0, 0});
+    CHECK(dimension_of("steps") == Dimension{0, 1, 0});
+    CHECK(dimension_of("1/step") == Dimension{0, -1, 0});
+    CHECK(dimension_of("length/step^2") == Dimension{1, -2, 0});
+    CHECK(dimension_of("mass length^2/step^2") == Dimension{2, -2, 1});
+    CHECK(dimension_of("length^2/step^3") == Dimension{2, -3, 0});
+    CHECK(dimension_of("step/length") == Dimension{-1, 1, 0});
+    CHECK(dimension_of("") == Dimension{});
+    CHECK(dimension_of("1") == Dimension{});
+    CHECK(dimension_of("radians") == Dimension{});
+    CHECK(dimension_of("micro-steps") == Dimension{});
+}
+
+TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
+    SceneParameters scene;
+    scene.micro_steps = 5;
+    Effects& e = scene.effects;
+    e.contact = {ContactKind::rough, 0.9, 0.25, 0.3, 0.5, 0.4};
+    for (Boundary& side : e.boundaries)
+        side = {BoundaryKind::thermal, 0.8, 3, 0.7, 0.1, 11, 0.6, {0.2, 0.3, 0.9}};
+    e.gravity = {0.01, -0.02};
+    e.drag = 0.03;
+    e.growth = 0.04;
+    e.shear = 0.05;
+    e.lasting_speed = 0.06;
+    e.obstacles.discs = {{1, 2, 3}};
+    e.obstacles.surface = {0.4, 0.5, 0.7};
+    e.obstacles.restitution = 0.6;
+    e.species = {{3, 0.5, 2}};
+    e.thermostat = {ThermostatKind::langevin, 0.07, 0.08, 0.09, 11};
+    e.thermal_seed = 17;
+
+    Effects expected = e;
+    expected.contact.contact_time = 0.25 * 5;
+    for (Boundary& side : expected.boundaries) {
+        side.temperature = 3.0 / 25;
+        side.speed = 0.7 / 5;
+        side.period = 11 * 5;
+        side.surface.velocity = 0.9 / 5;
+    }
+    expected.gravity = {0.01 / 25, -0.02 / 25};
+    expected.drag = 0.03 / 5;
+    expected.growth = 0.04 / 5;
+    expected.shear = 0.05 / 5;
+    expected.lasting_speed = 0.06 / 5;
+    expected.obstacles.surface.velocity = 0.7 / 5;
+    expected.thermostat.strength = 0.07 / 125;
+    expected.thermostat.rate = 0.08 / 5;
+    expected.thermostat.temperature = 0.09 / 25;
+    CHECK(per_micro_step(scene) == expected);
+    scene.micro_steps = 1;
+    CHECK(per_micro_step(scene) == e);
+}
+
+TEST_CASE("Effects know the energy of a disc") {
+    Effects effects;
+    CHECK(other_energies_of(effects).empty());
+    const Box box(30, 20);
+    const ShownDisc disc{4, 7, 0.1, 0.2, 0.5, {1.5, 3}};
+    const auto energy = [&] {
+        double sum = 0;
+        for (const OtherEnergy& one : other_energies_of(effects))
+            sum += one.of_disc(disc, effects, box);
+        return sum;
+    };
+    effects.gravity = {0, -0.25}; // down: m g h above the bottom
+    CHECK(energy() == Approx(3 * 0.25 * 7).epsilon(1e-15));
+    effects.gravity = {0.5, 0}; // to the right: above the right side
+    CHECK(energy() == Approx(3 * 0.5 * (30 - 4)).epsilon(1e-15));
+    effects.gravity = {};
+    effects.contact.kind = ContactKind::rough;
+    effects.contact.inertia = 0.4; // of m r^2
+    CHECK(energy() == Approx(0.5 * 0.4 * 3 * 1.5 * 1.5 * 0.5 * 0.5).epsilon(1e-15));
+    // What drag and growth do to energies.
+    effects.drag = 0.1;
+    CHECK(energy_left_by(effects, 7) == Approx(std::exp(-1.4)).epsilon(1e-15));
+    effects.gravity = {0, 1}; // then the loss depends on the flight
+    CHECK(energy_left_by(effects, 7) == 1);
+    effects.growth = 0.01;
+    CHECK(work_in_collision(effects, 2, 3) == Approx(2 * 0.01 * 3).epsilon(1e-15));
+    CHECK(work_on_way(effects, {1, 2, {1, 1}}) == 0);
+}
