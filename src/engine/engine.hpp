@@ -100,7 +100,8 @@ public:
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
     /// The integrals over flights that no sum has yet.
     virtual FlightIntegral flight_integral() const { return {}; }
-    /// See DiscSystem::note_crossings_in.
+    /// From now on the box lengths by which syncs in a periodic box bring own discs back are
+    /// appended to `crossings`, until it is forgotten.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/errors.hpp"
+#include "engine/engine.hpp"
 #include "parallel/exchange.hpp"
 
 namespace carrom {
@@ -25,8 +26,10 @@ ImageCounts::ImageCounts(const Box& box, DiscSystem& system, const Communicator&
     const std::uint64_t end = pieces_.begin(pieces_.first_of(ranks_.rank() + 1));
     for (DiscId id = pieces_.begin(pieces_.first_of(ranks_.rank())); id < end; ++id)
         counts_.push_back({id, 0, 0});
-    system_.note_crossings_in(crossings_);
+    system_.engine().note_crossings_in(crossings_);
 }
+
+ImageCounts::~ImageCounts() { system_.engine().forget_crossings_in(crossings_); }
 
 void ImageCounts::go_on(std::span<const FirstPlace> stored, double FirstPlace::* x,
                         double FirstPlace::* y) {

@@ -24,7 +24,7 @@ class ImageCounts {
 public:
     /// Counts from 0 at the present step on. Both arguments must outlive this.
     ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks);
-    ~ImageCounts() { system_.forget_crossings_in(crossings_); }
+    ~ImageCounts();
     ImageCounts(const ImageCounts&) = delete;
     ImageCounts& operator=(const ImageCounts&) = delete;
 

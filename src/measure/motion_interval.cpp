@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measure/motion_interval.hpp"
+#include "simulation/disc_statistics.hpp"
 
 namespace carrom {
 
@@ -15,7 +16,7 @@ DiscSystem& in_unit(DiscSystem& system, double bound) {
 
 MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks)
     : system_(&system), ranks_(&ranks), last_sums_(system.stress_sums()) {
-    begin(system.motion_sample());
+    begin(motion_sample(system));
 }
 
 MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks,
@@ -40,8 +41,8 @@ StressSums MotionInterval::since_last() const {
 }
 
 MotionSample MotionInterval::now() const {
-    MotionSample now = system_->motion_sample();
-    system_->integrate(since_last(), now);
+    MotionSample now = motion_sample(*system_);
+    integrate(*system_, since_last(), now);
     return now;
 }
 
@@ -50,7 +51,7 @@ void MotionInterval::begin(const MotionSample& now) {
     last_ = now;
     last_.stress = {};
     last_.energy = 0;
-    system_->integrate_flights(last_);
+    integrate_flights(*system_, last_);
 }
 
 MotionInterval::Pending MotionInterval::pending() const {

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "measure/speeds.hpp"
-#include "statistics/hexatic_order.hpp"
-#include "statistics/motion.hpp"
+#include "simulation/disc_statistics.hpp"
 
 namespace carrom {
 
@@ -94,7 +93,7 @@ OrderWatch::Sample OrderWatch::sampled() const {
         sample.energy = now.energy();
     }
     if (!has_order_) return sample;
-    const HexaticSums sums = run_.system.sampled_order(most_discs);
+    const HexaticSums sums = sampled_order(run_.system, most_discs);
     const auto n = static_cast<double>(
         std::accumulate(sums.neighbours.begin(), sums.neighbours.end(), std::uint64_t{0}));
     if (!(n > 0)) return sample;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/engine.hpp"
 #include "engine/state_sums.hpp"
 #include "scene/effects/effect.hpp"
 
@@ -30,11 +31,11 @@ Sampler::Sampler(const SceneParameters& scene, DiscSystem& system, const Communi
         names_.emplace_back(quantity.declared.name);
     }
     if (does_energy_jump(scene.effects))
-        system.call_before_effects([this] { sample_before_effects(); });
+        system.engine().call_before_effects([this] { sample_before_effects(); });
 }
 
 Sampler::~Sampler() {
-    if (does_energy_jump(run_.scene.effects)) run_.system.call_before_effects({});
+    if (does_energy_jump(run_.scene.effects)) run_.system.engine().call_before_effects({});
 }
 
 /// Sums with other settings are useless. Each measurement compares its own settings, too.

@@ -17,8 +17,8 @@ void WallMeasurement::begin() {
 
 void WallMeasurement::follow() {
     clear();
-    run_.system.forget(*this);
-    run_.system.follow_walls(*this);
+    run_.system.engine().followers_of_walls().forget(*this);
+    run_.system.engine().followers_of_walls().add(*this);
 }
 
 std::vector<MeasuredTable> WallMeasurement::tables() const {

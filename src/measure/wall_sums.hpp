@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/exact_sum.hpp"
-#include "engine/wall_event.hpp"
+#include "engine/engine.hpp"
 #include "measure/measurement.hpp"
 
 namespace carrom {
@@ -62,7 +62,7 @@ private:
 class WallMeasurement : public Measurement, public WallFollower {
 public:
     using Measurement::Measurement;
-    ~WallMeasurement() override { run_.system.forget(*this); }
+    ~WallMeasurement() override { run_.system.engine().followers_of_walls().forget(*this); }
 
     void begin() override;
     std::vector<MeasuredTable> tables() const override;

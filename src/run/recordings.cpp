@@ -10,6 +10,7 @@
 #include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
 #include "scene/frame_times.hpp"
+#include "simulation/disc_statistics.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -109,7 +110,7 @@ std::int64_t Recordings::next_due(std::int64_t step) const {
 }
 
 bool Recordings::act() {
-    const DiscSystem& system = run_.system();
+    DiscSystem& system = run_.system();
     const std::int64_t step = system.step();
     if (log_) record_collisions(step);
     add_rows();
@@ -118,7 +119,7 @@ bool Recordings::act() {
     if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
         std::vector<BondOrder> orders; // first, because finding them moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
-            orders = system.bond_orders();
+            orders = bond_orders(system);
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};
         trajectory_->append(step, system.shown(), system.clock(), system.side_columns(), orders,
                             images);

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "engine/engine.hpp"
 #include "io/checkpoint.hpp"
 #include "run/failure_scene.hpp"
 #include "run/hard_cases.hpp"
@@ -36,7 +37,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
       system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_),
       watch_(scene_, system_, ranks_), heap_warning_(scene_, system_, ranks_, messages) {
-    if (const double more = system_.bytes_for_crowds(); more > 0 && !is_restart_)
+    if (const double more = system_.engine().bytes_for_crowds(); more > 0 && !is_restart_)
         check_memory(scene_, ranks_, more); // now that places are known
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (start.counts_images || (scene_.trajectory && scene_.trajectory->has_image)) {
@@ -65,7 +66,7 @@ void Run::commit() {
 StoredSamples Run::stored_samples() {
     StoredSamples samples = sampler_.stored();
     samples.watched = watch_.stored();
-    samples.effects = system_.kept_by_effects();
+    samples.effects = system_.engine().kept_by_effects();
     samples.have_images = images_.has_value();
     if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
     return samples;

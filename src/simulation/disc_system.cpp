@@ -11,9 +11,7 @@
 #include "engine/state_sums.hpp"
 #include "event_driven/event_driven_engine.hpp"
 #include "scene/effects/effect.hpp"
-#include "statistics/hexatic_order.hpp"
 #include "statistics/motion.hpp"
-#include "statistics/pair_distances.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
 
 namespace carrom {
@@ -166,23 +164,6 @@ void DiscSystem::begin_stress_sums(double bound) {
 
 const StressSums& DiscSystem::stress_sums() const { return *stress_; }
 
-MotionSample DiscSystem::motion_sample() const {
-    MotionSample sample = sample_motion(in_flow(), table_if_mixed(), heaviest_, engine_->n_discs(),
-                                        n_threads_, communicator_);
-    const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
-    sample.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
-    return sample;
-}
-
-void DiscSystem::integrate(const StressSums& mine, MotionSample& sample) const {
-    add_integrals(mine, communicator_, sample);
-    integrate_flights(sample);
-}
-
-void DiscSystem::integrate_flights(MotionSample& sample) const {
-    add_flights(engine_->flight_integral(), frame(), sample);
-}
-
 void DiscSystem::check_every_step(const SceneParameters& scene) {
     check_ = std::make_unique<StateCheck>(scene, species_table(), discs(), micro_steps_done(),
                                           communicator_, frame(), clock(), spins(),
@@ -216,8 +197,6 @@ std::span<const DiscState> DiscSystem::discs() const {
     stored_.insert(stored_.end(), engine_->departed().begin(), engine_->departed().end());
     return stored_;
 }
-
-std::vector<std::int64_t> DiscSystem::kept_by_effects() const { return engine_->kept_by_effects(); }
 
 SideSpans DiscSystem::side_columns() const {
     if (engine_->departed().empty()) return engine_->side_columns();
@@ -255,99 +234,13 @@ std::span<const DiscState> DiscSystem::in_flow() const {
 
 double DiscSystem::clock() const { return engine_->clock(); }
 
+std::uint64_t DiscSystem::n_discs() const { return engine_->n_discs(); }
+
+Extent DiscSystem::box() const { return extent_at(effects_, box_, static_cast<double>(step())); }
+
 void DiscSystem::log_to(std::vector<Collision>* log) {
     log_ = log;
     engine_->log_to(log);
-}
-
-void DiscSystem::follow_pairs(PairFollower& follower) {
-    engine_->followers_of_pairs().add(follower);
-}
-
-void DiscSystem::forget(PairFollower& follower) { engine_->followers_of_pairs().forget(follower); }
-
-void DiscSystem::follow_walls(WallFollower& follower) {
-    engine_->followers_of_walls().add(follower);
-}
-
-void DiscSystem::forget(WallFollower& follower) { engine_->followers_of_walls().forget(follower); }
-
-void DiscSystem::note_crossings_in(std::vector<Crossing>& crossings) {
-    engine_->note_crossings_in(crossings);
-}
-
-void DiscSystem::forget_crossings_in(std::vector<Crossing>& crossings) {
-    engine_->forget_crossings_in(crossings);
-}
-
-void DiscSystem::call_before_effects(std::function<void()> act) {
-    engine_->call_before_effects(std::move(act));
-}
-
-void DiscSystem::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
-                                      std::span<std::uint64_t> counts) const {
-    const std::size_t n_bins = counts.size() / n_pair_kinds(species_ends.size());
-    const LocalView now = engine_->local_view(bin_width * static_cast<double>(n_bins));
-    carrom::count_pair_distances(now, bin_width, species_ends, n_threads_, counts);
-    engine_->forget_images();
-}
-
-/// The orders of all discs of the view that are at most `reach_beyond` from the own
-/// ones. The view is good until images are forgotten. **Collective.**
-/// The orders of all discs of the view, or of own discs whose id is a multiple of `ids_apart`.
-LocalView DiscSystem::find_orders(double reach_beyond, std::uint64_t ids_apart,
-                                  std::vector<BondOrder>& orders) const {
-    const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
-    const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
-    CellSizes sizes;
-    sizes.species = table_if_mixed();
-    for (const Species& one : effects_.species)
-        sizes.largest_radius = std::max(sizes.largest_radius, one.radius);
-    sizes.growth = effects_.growth_at(static_cast<double>(step()));
-    // Voronoi cells of a fluid are whole within three times the mean distance of neighbours.
-    for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs()));;
-         reach *= 2) {
-        const LocalView now = engine_->local_view(reach_beyond + reach);
-        const bool are_whole = ids_apart == 0
-                                   ? find_bond_orders(now, box, sizes, reach, n_threads_, orders)
-                                   : find_bond_orders(now, box, sizes, reach, ids_apart, orders);
-        if (communicator_.all(are_whole)) return now;
-        engine_->forget_images();
-    }
-}
-
-HexaticSums DiscSystem::hexatic_order(double largest_distance, std::size_t n_bins) const {
-    HexaticSums sums(engine_->n_discs(), n_bins);
-    std::vector<BondOrder> orders;
-    const LocalView now = find_orders(largest_distance, 0, orders);
-    add_order(now, orders, largest_distance / static_cast<double>(n_bins), n_threads_, sums);
-    engine_->forget_images();
-    for (auto* counts : {&sums.neighbours, &sums.moduli, &sums.pairs})
-        communicator_.sum(std::span(*counts));
-    for (ExactSum* sum : {&sums.real, &sums.imaginary, &sums.modulus}) communicator_.sum(*sum);
-    for (ExactSum& product : sums.products) communicator_.sum(product);
-    return sums;
-}
-
-HexaticSums DiscSystem::sampled_order(std::uint64_t most_discs) const {
-    const std::uint64_t n = engine_->n_discs(), ids_apart = (n + most_discs - 1) / most_discs;
-    HexaticSums sums(n, 1);
-    std::vector<BondOrder> orders;
-    static_cast<void>(find_orders(0, std::max<std::uint64_t>(ids_apart, 1), orders));
-    engine_->forget_images();
-    add_discs(orders, sums);
-    communicator_.sum(std::span(sums.neighbours));
-    for (ExactSum* sum : {&sums.real, &sums.imaginary, &sums.modulus}) communicator_.sum(*sum);
-    return sums;
-}
-
-std::vector<BondOrder> DiscSystem::bond_orders() const {
-    std::vector<BondOrder> orders;
-    const LocalView now = find_orders(0, 0, orders);
-    orders.resize(now.population.n_own);
-    engine_->forget_images();
-    orders.resize(discs().size()); // departed discs come last, and have no order
-    return orders;
 }
 
 Totals DiscSystem::totals() const {
@@ -360,27 +253,19 @@ Totals DiscSystem::totals() const {
 
 const SpeciesTable& DiscSystem::species_table() const { return engine_->species_table(); }
 
-const SpeciesTable* DiscSystem::table_if_mixed() const {
+const SpeciesTable* DiscSystem::species_if_mixed() const {
     return effects_.species.empty() ? nullptr : &species_table();
 }
 
 Totals DiscSystem::energies() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    measure_motion(in_motion(), table_if_mixed(), velocity_unit_, communicator_, totals);
+    measure_motion(in_motion(), species_if_mixed(), velocity_unit_, communicator_, totals);
     if (const std::vector<OtherEnergy> others = other_energies_of(effects_); !others.empty())
         measure_other_energies(others, shown(), spins(), species_table(),
                                {effects_, box_, velocity_unit_, sync_interval_}, communicator_,
                                totals);
     return totals;
 }
-
-double DiscSystem::bytes_for_crowds() const { return engine_->bytes_for_crowds(); }
-
-RollbackCounts DiscSystem::rollback_counts() const { return engine_->rollback_counts(); }
-
-PhaseSeconds DiscSystem::phase_seconds() const { return engine_->phase_seconds(); }
-
-int DiscSystem::most_ranks_across() const { return engine_->most_ranks_across(); }
 
 } // namespace carrom

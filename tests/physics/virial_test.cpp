@@ -10,10 +10,11 @@
 #include "catch.hpp"
 #include <fmt/format.h>
 
-#include "engine/wall_event.hpp"
+#include "engine/engine.hpp"
 #include "equations_of_state.hpp"
 #include "gas_runs.hpp"
 #include "parallel/exchange.hpp"
+#include "simulation/disc_statistics.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -88,9 +89,9 @@ void check_walls(TestScene scene, double n_collisions) {
     Averaging averaging(scene, system, world);
     const std::int64_t first = system.step();
     NormalImpulses impulses;
-    system.follow_walls(impulses);
+    system.engine().followers_of_walls().add(impulses);
     run_until(system, 60 * n + n_collisions, averaging.actions());
-    system.forget(impulses);
+    system.engine().followers_of_walls().forget(impulses);
     const Averages averages = averaging.averages();
     const double size = scene.setting.box_size, steps = static_cast<double>(system.step() - first);
     const double room = 1 - 2 * scene.setting.radius / size;
@@ -135,8 +136,8 @@ Tensor flown(double mass, const DiscState& disc, double time) {
 }
 
 MotionSample integrated(const DiscSystem& system) {
-    MotionSample sample = system.motion_sample();
-    system.integrate(system.stress_sums(), sample);
+    MotionSample sample = motion_sample(system);
+    integrate(system, system.stress_sums(), sample);
     return sample;
 }
 

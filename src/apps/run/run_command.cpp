@@ -18,6 +18,7 @@
 #include "apps/shell/stop_signals.hpp"
 #include "core/stop_request.hpp"
 #include "core/stopwatch.hpp"
+#include "engine/engine.hpp"
 #include "engine/jammed.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
@@ -222,7 +223,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     }
     result.wall_seconds = run.seconds().steps;
     fill_end(result, run);
-    PhaseSeconds phases = system.phase_seconds();
+    PhaseSeconds phases = system.engine().phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "core/errors.hpp"
+#include "engine/engine.hpp"
 #include "machine/machine.hpp"
 #include "statistics/blocking.hpp"
 
@@ -37,21 +38,21 @@ void fill_end(RunResult& result, const Run& run) {
     const DiscSystem& system = run.system();
     result.last_step = system.step();
     result.end = system.totals();
-    result.end_numbers = end_numbers_of(run.scene(), system.kept_by_effects());
+    result.end_numbers = end_numbers_of(run.scene(), system.engine().kept_by_effects());
     result.averages = run.sampler().averages();
     if (!reason_without_z(run.scene().effects).empty())
         result.averages.compressibility = {.value = std::numeric_limits<double>::quiet_NaN()};
     result.watched = run.watch().watched();
     result.tables = run.sampler().tables();
     result.doubts_of_tables = run.sampler().doubts();
-    result.runs = system.rollback_counts();
+    result.runs = system.engine().rollback_counts();
     if (result.runs.simultaneous > 0)
         result.end_numbers.push_back(
             {"simultaneous_collisions", "at one time",
              "collisions of pairs with an earlier one of the same disc: ids or roundings decide "
              "their order",
              result.runs.simultaneous});
-    result.ranks_across = system.most_ranks_across();
+    result.ranks_across = system.engine().most_ranks_across();
 }
 
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/species.hpp"
-#include "engine/pair_event.hpp"
+#include "engine/engine.hpp"
 #include "measure/field_means.hpp"
 #include "measure/field_sums.hpp"
 #include "measure/hdf5_key.hpp"
@@ -98,7 +98,7 @@ public:
             ends_.push_back((ends_.empty() ? 0 : ends_.back()) + one.count);
         }
     }
-    ~Profiles() override { run_.system.forget(*this); }
+    ~Profiles() override { run_.system.engine().followers_of_pairs().forget(*this); }
 
     void begin() override {
         speed_ = std::max(usual_speed(run_), driven_speed(run_.scene));
@@ -191,8 +191,8 @@ private:
     void follow() {
         sums_ = sample_ = no_sums(n_kinds_ * n_cells());
         means_.resize(n_fields() * n_sample_moments);
-        run_.system.forget(*this);
-        run_.system.follow_pairs(*this);
+        run_.system.engine().followers_of_pairs().forget(*this);
+        run_.system.engine().followers_of_pairs().add(*this);
     }
 
     std::size_t cell_of(std::int64_t column, std::int64_t row) const {

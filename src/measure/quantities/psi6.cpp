@@ -5,8 +5,8 @@
 
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
+#include "simulation/disc_statistics.hpp"
 #include "statistics/blocking.hpp"
-#include "statistics/hexatic_order.hpp"
 
 namespace carrom {
 
@@ -43,7 +43,7 @@ public:
     bool moves_discs() const override { return true; }
 
     void sample(const SampledState& /*state*/) override {
-        const HexaticSums now = run_.system.hexatic_order(largest_distance_, n_bins_of(run_));
+        const HexaticSums now = hexatic_order(run_.system, largest_distance_, n_bins_of(run_));
         const auto cells_of = [&now](std::size_t n) {
             return static_cast<double>(now.neighbours[n]);
         };

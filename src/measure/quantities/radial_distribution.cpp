@@ -5,6 +5,7 @@
 #include "measure/kept_blocks.hpp"
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
+#include "simulation/disc_statistics.hpp"
 #include "statistics/pair_distances.hpp"
 
 namespace carrom {
@@ -38,7 +39,7 @@ public:
         std::vector<DiscId> species_ends;
         for (const Species& one : species)
             species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
-        run_.system.count_pair_distances(width, species_ends, pairs);
+        count_pair_distances(run_.system, width, species_ends, pairs);
         std::vector<std::uint64_t> now(pairs.size(), 0);
         add_over(run_.ranks, std::move(pairs), now);
         std::vector<double> ideal_now(now.size(), 0);

@@ -15,7 +15,7 @@
 
 #include "core/exact_sum.hpp"
 #include "dynamics/species.hpp"
-#include "engine/pair_event.hpp"
+#include "engine/engine.hpp"
 #include "measure/hdf5_key.hpp"
 #include "measure/measurement.hpp"
 #include "measure/multiple_tau.hpp"
@@ -40,7 +40,7 @@ public:
     explicit Transport(MeasuredRun& run)
         : Measurement(run), scheme_(static_cast<std::uint64_t>(correlation_points.of(run.output))),
           heat_{ExactSum(1), ExactSum(1)} {}
-    ~Transport() override { run_.system.forget(*this); }
+    ~Transport() override { run_.system.engine().followers_of_pairs().forget(*this); }
 
     void begin() override {
         pressure_.emplace(run_.system, run_.ranks);
@@ -153,8 +153,8 @@ private:
         const double usual = speed_ * speed_ * speed_ *
                              static_cast<double>(run_.output.every_steps) * 0x1p70;
         heat_ = {ExactSum(usual), ExactSum(usual)};
-        run_.system.forget(*this);
-        run_.system.follow_pairs(*this);
+        run_.system.engine().followers_of_pairs().forget(*this);
+        run_.system.engine().followers_of_pairs().add(*this);
     }
 
     /// Compares the moments of a sample with earlier ones, and keeps them.

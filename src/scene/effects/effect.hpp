@@ -143,7 +143,7 @@ double work_on_way(const Effects& effects, const Way& way);
 double work_in_collision(const Effects& effects, double impulse, double radii);
 /// The largest of all effects'.
 double usual_speed_of_effects(const SceneParameters& scene);
-/// `kept` is DiscSystem::kept_by_effects.
+/// `kept` is Engine::kept_by_effects.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept);
 /// Why Z is undefined, from the first effect that has a reason; otherwise empty.

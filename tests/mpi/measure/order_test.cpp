@@ -11,7 +11,7 @@
 
 #include "measured_runs.hpp"
 #include "parallel/exchange.hpp"
-#include "statistics/hexatic_order.hpp"
+#include "simulation/disc_statistics.hpp"
 #include "statistics/voronoi_cell.hpp"
 
 using namespace carrom;
@@ -280,8 +280,8 @@ TEST_CASE("measurements: in a square lattice psi6 is 0, each disc with four neig
     test.setting.effects.boundaries.fill(repeated);
     test.setting.box_size = 12 * 1.5;
     const SceneParameters scene = scene_of(test);
-    const DiscSystem system = system_of(scene, test, world);
-    const HexaticSums sums = system.hexatic_order(5, 10);
+    DiscSystem system = system_of(scene, test, world);
+    const HexaticSums sums = hexatic_order(system, 5, 10);
     CHECK(sums.neighbours[4] == 144);
     CHECK(sums.modulus.value() == Approx(0).margin(1e-12));
 }
@@ -295,8 +295,8 @@ TEST_CASE("measurements: in a triangular lattice without end psi6 is 1") {
         for (int k = 0; k < 12; ++k)
             add_disc(test, 0.1 + k + 0.5 * (row % 2), 0.1 + row * std::sqrt(0.75));
     const SceneParameters scene = scene_of(test);
-    const DiscSystem system = system_of(scene, test, world);
-    const HexaticSums sums = system.hexatic_order(5, 10);
+    DiscSystem system = system_of(scene, test, world);
+    const HexaticSums sums = hexatic_order(system, 5, 10);
     CHECK(sums.neighbours[6] == 12 * 14);
     CHECK(sums.real.value() == Approx(12 * 14).epsilon(1e-13));
     CHECK(sums.imaginary.value() == Approx(0).margin(1e-10));
@@ -313,8 +313,8 @@ TEST_CASE("measurements: in a piece of a triangular lattice psi6 is 1 inside") {
         for (int k = 0; k < 11; ++k)
             add_disc(test, 20 + k + 0.5 * (row % 2), 20 + row * std::sqrt(0.75));
     const SceneParameters scene = scene_of(test);
-    const DiscSystem system = system_of(scene, test, world);
-    const HexaticSums sums = system.hexatic_order(1.5, 1000);
+    DiscSystem system = system_of(scene, test, world);
+    const HexaticSums sums = hexatic_order(system, 1.5, 1000);
     CHECK(sums.neighbours[6] >= 81); // those inside
     CHECK(sums.moduli.back() >= 81); // from 0.999 on
     std::vector<Point> points;

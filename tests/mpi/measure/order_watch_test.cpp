@@ -10,7 +10,7 @@
 #include "core/bond_order.hpp"
 #include "measure/order_watch.hpp"
 #include "measured_runs.hpp"
-#include "statistics/hexatic_order.hpp"
+#include "simulation/disc_statistics.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -40,7 +40,7 @@ void advance(DiscSystem& system, OrderWatch& watch, std::int64_t step,
         const std::int64_t due = watch.next_due(system.step());
         system.advance_towards(std::min(step, due));
         if (psi6 && system.step() == due) {
-            const HexaticSums sums = system.hexatic_order(2 * system.averaged_system().radius, 1);
+            const HexaticSums sums = hexatic_order(system, 2 * system.averaged_system().radius, 1);
             psi6->push_back(std::hypot(sums.real.value(), sums.imaginary.value()) / 100);
         }
         watch.act();
@@ -106,9 +106,9 @@ TEST_CASE("measurements: a watch goes on after a restart") {
 TEST_CASE("measurements: the order of some discs is that of each of them") {
     const Communicator world = Communicator::world();
     const TestScene test = dense_discs();
-    const DiscSystem system = system_of(scene_with_steps(test), test, world);
-    const HexaticSums sums = system.sampled_order(33); // every fourth id
-    const std::vector<BondOrder> orders = system.bond_orders();
+    DiscSystem system = system_of(scene_with_steps(test), test, world);
+    const HexaticSums sums = sampled_order(system, 33); // every fourth id
+    const std::vector<BondOrder> orders = bond_orders(system);
     ExactSum real(200), modulus(200);
     for (std::size_t k = 0; k < orders.size(); ++k) {
         if (system.discs()[k].id % 4 != 0) continue;

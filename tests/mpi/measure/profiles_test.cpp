@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 
-#include "engine/pair_event.hpp"
+#include "engine/engine.hpp"
 #include "measured_runs.hpp"
 #include "parallel/exchange.hpp"
 
@@ -203,12 +203,12 @@ TEST_CASE("measurements: collisions' stress is shared along the line between cen
         Sampler sampler(scene, system, world);
         advance_to(system, sampler, 13);
         Recorded recorded;
-        system.follow_pairs(recorded);
+        system.engine().followers_of_pairs().add(recorded);
         std::vector<Collision> log;
         system.log_to(&log);
         advance_to(system, sampler, 28);
         system.log_to(nullptr);
-        system.forget(recorded);
+        system.engine().followers_of_pairs().forget(recorded);
         std::vector<double> impulses, logged_impulses;
         for (const PairEvent& event : recorded.events)
             impulses.push_back(std::hypot(event.ix, event.iy));

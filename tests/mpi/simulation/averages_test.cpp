@@ -9,7 +9,7 @@
 #include "averaging.hpp"
 #include "gathered.hpp"
 #include "scene_tools.hpp"
-#include "simulation/disc_system.hpp"
+#include "simulation/disc_statistics.hpp"
 
 using namespace carrom;
 
@@ -77,8 +77,8 @@ void check_pressures(const Averages& averages, const test::TestScene& test, cons
 
 /// The integral of stress so far; tests/physics/virial_test.cpp has it from logged collisions.
 Tensor stress_of(const DiscSystem& system) {
-    MotionSample sample = system.motion_sample();
-    system.integrate(system.stress_sums(), sample);
+    MotionSample sample = motion_sample(system);
+    integrate(system, system.stress_sums(), sample);
     return sample.stress;
 }
 
