@@ -92,18 +92,13 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
         if (verdict == Verdict::repeat) note_rollback();
     }
-    if (reduced_.counts.ranks_jammed > 0)
-        refuse_jam(
-            fmt::format("since the last sync speeds have become {} times as large", jam_heating));
-    if (jam_watch_.add(reduced_.counts.events))
-        refuse_jam(jam_watch_.reason(static_cast<double>(this->micro_steps_)));
+    if (reduced_.counts.ranks_jammed > 0 || jam_watch_.add(reduced_.counts.events)) refuse_jam();
     commit();
     travel_speed_ = window_.speed_bound;
     time_ = window_.end;
     ++n_windows_;
     ++counts_.windows;
-    if (time_ == jam_watch_.bin_end() && jam_watch_.finish_bin())
-        refuse_jam(jam_watch_.reason(static_cast<double>(this->micro_steps_)));
+    if (time_ == jam_watch_.bin_end() && jam_watch_.finish_bin()) refuse_jam();
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::migrate() {
@@ -165,16 +160,16 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
     });
 }
 
-/// Ends the run. The place is that up to which all is well, because windows differ.
-/// **Collective.**
-template <class Dynamics>
-void EventDrivenEngine<Dynamics>::refuse_jam(const std::string& reason) const {
+/// Ends the run. The message names the place up to which all is well, and not what has shown the
+/// jam, because that depends on windows and threads. **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
     const double safe = jam_watch_.safe_until();
     const double growth = dynamics_.growth_at(safe - static_cast<double>(this->last_sync()));
     throw Jammed(fmt::format("discs jam after step {:.6g}, at a packing fraction of {:.5g} (radii "
-                             "{:.6g} times the first): {}",
+                             "{:.6g} times the first): they collide ever more often, because they "
+                             "have no room to grow further",
                              safe / static_cast<double>(this->micro_steps_),
-                             first_packing_ * growth * growth, growth, reason),
+                             first_packing_ * growth * growth, growth),
                  static_cast<std::int64_t>(safe));
 }
 

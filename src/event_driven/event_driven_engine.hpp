@@ -117,7 +117,7 @@ private:
     double largest_of_all() const;
     void note_first_speed();
     bool are_jammed() const;
-    [[noreturn]] void refuse_jam(const std::string& reason) const;
+    [[noreturn]] void refuse_jam() const;
     void shorten();
     void redistribute();
     GridGeometry lay_cells(double reach);

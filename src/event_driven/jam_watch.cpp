@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace carrom {
 
 namespace {
@@ -60,8 +58,8 @@ bool JamWatch::finish_bin() {
     const Past now{sync_ + end_, n_collisions_ / width};
     if (n_collisions_ > enough_)
         if (const Past* const then = when_rarer(now.rate)) {
-            room_ = now.time - then->time;
-            if (growth_.end - now.time > sure * room_) sign_ = Sign::no_room_left;
+            const double room = now.time - then->time; // how long it lasts
+            if (growth_.end - now.time > sure * room) sign_ = Sign::no_room_left;
         }
     if (width == width_) remember(now);
     begin_bin(end_, std::min(2 * width, width_));
@@ -79,18 +77,6 @@ void JamWatch::remember(const Past& bin) {
 const JamWatch::Past* JamWatch::when_rarer(double rate) const {
     const auto after = std::ranges::upper_bound(pasts_, rate / rarer, {}, &Past::rate);
     return after == pasts_.begin() ? nullptr : &*(after - 1);
-}
-
-std::string JamWatch::reason(double micro_steps) const {
-    if (sign_ == Sign::no_room_left)
-        return fmt::format("collisions are {:g} times as frequent as {:.3g} steps before, so there "
-                           "is room for about {:.3g} steps more, and {:.4g} are left",
-                           rarer, room_ / micro_steps, room_ / micro_steps,
-                           (growth_.end - safe_until_) / micro_steps);
-    return fmt::format(
-        "{:.2g} collisions since step {:.5g}, more than {:g} times as many as in the "
-        "same time before",
-        n_collisions_, safe_until_ / micro_steps, ever_more);
 }
 
 } // namespace carrom

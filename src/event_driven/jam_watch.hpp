@@ -15,7 +15,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace carrom {
@@ -44,8 +43,6 @@ public:
     bool add(std::uint64_t n_collisions);
     /// The time has come to `bin_end()`. Returns whether there is no room until the run's end.
     bool finish_bin();
-    /// What has been found, with times in units of `micro_steps`.
-    std::string reason(double micro_steps) const;
     /// The begin of the present bin, since the run's start, or its end after `finish_bin` has
     /// found a jam: the discs had room until then.
     double safe_until() const { return safe_until_; }
@@ -69,7 +66,6 @@ private:
     double n_collisions_ = 0;
     std::vector<Past> pasts_; ///< times and rates rise
     Sign sign_ = Sign::none;
-    double room_ = 0; ///< how long it lasts
 };
 
 } // namespace carrom

@@ -317,12 +317,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
         const std::string partner = outcome.cascade_partner == outcome.cascade_disc
                                         ? "a wall"
                                         : fmt::format("disc {}", outcome.cascade_partner);
-        const double growth = dynamics_.growth_at(outcome.cascade_time);
-        const std::string grown =
-            growth > 1 ? fmt::format(", as radii have grown to {:.9g} times the first", growth)
-                       : "";
         text = fmt::format(
-            "disc {} collides without end at step {:.9g}, at last with {}: {}{}",
+            "disc {} collides without end at step {:.9g}, at last with {}: {}",
             outcome.cascade_disc,
             (static_cast<double>(this->last_sync()) + outcome.cascade_time) /
                 static_cast<double>(this->micro_steps_),
@@ -330,16 +326,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
             Dynamics::is_for_study
                 ? "it has no room to move, or the scene's precision and arithmetic do not tell "
                   "when it moves"
-                : "it has no room to move, or is so fast that steps should be shorter",
-            grown);
+                : "it has no room to move, or is so fast that steps should be shorter");
         break;
     }
-    try {
-        agree(communicator_, text.empty(), text);
-    } catch (const CollectiveError& error) {
-        if (!jam_watch_.is_on()) throw;
-        throw Jammed(error.what(), static_cast<std::int64_t>(jam_watch_.safe_until()));
-    }
+    if (communicator_.any(!text.empty()) && jam_watch_.is_on()) refuse_jam();
+    agree(communicator_, text.empty(), text);
 }
 
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include "initial_state/narrow_gaps.hpp"
+
 namespace carrom {
 
 namespace {
@@ -35,6 +37,8 @@ public:
         for (const FixedDisc& disc : scene.effects.obstacles.discs)
             block({disc.x, disc.y, disc.x, disc.y}, disc.radius + clear);
         for (const Segment& segment : scene.effects.obstacles.segments) block(segment, clear);
+        for (const Segment& line : lines_across_narrow_gaps(scene, smallest_radius(scene)))
+            block(line, clear);
         for (std::size_t k = 0; k < region_of_.size(); ++k)
             if (region_of_[k] == unknown) sizes_.push_back(fill(k));
         largest_ = static_cast<std::int32_t>(std::ranges::max_element(sizes_) - sizes_.begin());

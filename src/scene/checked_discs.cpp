@@ -172,8 +172,8 @@ bool check_distribution(const SceneDraft& draft) {
             one && one->is_wrong)
             return false;
     bool is_alone = true;
-    for (const std::string_view other : {"discs.radius", "discs.species", "discs.list",
-                                         "discs.columns", "discs.file", "discs.from"}) {
+    for (const std::string_view other :
+         {"discs.radius", "discs.species", "discs.list", "discs.columns", "discs.file"}) {
         if (!draft.settings.has(other)) continue;
         is_alone = false;
         draft.refuse({other},

@@ -126,19 +126,23 @@ std::string room_text(const SceneParameters& scene, double radius) {
                                                     : "");
 }
 
-/// What helps a disc that was halfway through an open side in the run that it comes from. Empty if
-/// its centre is not beyond a side.
+/// What helps a disc that was halfway through open sides in the run that it comes from. Empty if it
+/// does not reach over a closed side.
 std::string hint_of_sides(const InputDisc& disc, const SceneParameters& scene, double radius) {
     if (scene.discs_from.empty()) return "";
     const std::array<double, 4> beyond = {-disc.x, disc.x - scene.box.x, -disc.y,
                                           disc.y - scene.box.y};
-    for (std::size_t side = 0; side < beyond.size(); ++side)
-        if (scene.effects.boundaries[side].kind != BoundaryKind::open && beyond[side] > 0 &&
-            beyond[side] < radius)
-            return fmt::format("; if it is halfway through an open side, set box.{}.kind = "
-                               "\"open\"",
-                               boundary_names[side]);
-    return "";
+    std::string settings;
+    for (std::size_t side = 0; side < beyond.size(); ++side) {
+        const BoundaryKind kind = scene.effects.boundaries[side].kind;
+        if (kind == BoundaryKind::open || kind == BoundaryKind::periodic ||
+            std::abs(beyond[side]) >= radius)
+            continue;
+        settings += fmt::format("{}box.{}.kind = \"open\"", settings.empty() ? "" : " and ",
+                                boundary_names[side]);
+    }
+    if (settings.empty()) return "";
+    return fmt::format("; if it is halfway through an open side, set {}", settings);
 }
 
 } // namespace

@@ -170,6 +170,7 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
     discs.departed = share ? share->departed : file.find_departed(frame);
     discs.n_discs = file.summary().n_rows - discs.departed.size();
     if (discs.n_discs == 0) refuse(path, "all its discs departed by an open side");
+    discs.radius = file.summary().radius;
     discs.n_by_species = count_species(file.summary().species, discs.departed);
     std::vector<std::size_t> places;
     for (const char* column : columns) places.push_back(file.summary().place_of(column));

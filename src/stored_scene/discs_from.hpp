@@ -22,6 +22,7 @@ struct FileOfDiscs {
     std::uint64_t n_discs = 0;           ///< without those that have departed
     std::vector<std::uint64_t> departed; ///< ids in the file of those that are left out, ascending
     std::vector<std::uint64_t> n_by_species; ///< of those that are there, if the file has species
+    double radius = 0;                       ///< of the largest disc in the file
     std::string columns;                     ///< `discs.columns` of the lines, or empty
     /// `id x y vx vy`, per step, by id. Can be read again from its beginning. A file that can no
     /// longer be read makes it throw.

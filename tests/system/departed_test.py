@@ -106,6 +106,35 @@ class Departed(ProgramTest):
         self.run_program(3, "run", "next.toml", "--set", "discs.from=" +
                          checkpoint("out_40", 40), code=2, says="all its discs departed")
 
+    def test_packing_of_fewer_discs(self):
+        """The packing fraction of one disc of radius 1 is half that of two: sqrt(2) follows."""
+        self.write("escape.toml", ESCAPE.replace("radius = 1", "packing = 0.06283185307179587"))
+        self.run_program(1, "run", "escape.toml", "--steps", 29, "-o", "out")
+        text = NEXT.format('right.kind = "open"')
+        self.write("next.toml", text.replace("radius = 1", "packing = 0.06283185307179587"))
+        for ranks in 1, 3:
+            self.run_program(ranks, "run", "next.toml", "--quiet",
+                             says="the radius 1.414213562, and in the file it is 1; try: "
+                                  "discs.radius = 1 in place of discs.packing")
+        self.write("next.toml", text)
+        self.assertNotIn("discs.packing", self.run_program(1, "run", "next.toml", "--quiet").err)
+
+    def test_hints_of_closed_sides(self):
+        """Of discs that reach over a side, be their centre beyond it or not, and over two."""
+        for x, y, sides in ((-0.5, 5, ["left"]), (0.5, 5, ["left"]), (9.6, 5, ["right"]),
+                            (5, 9.5, ["top"]), (5, -0.1, ["bottom"]),
+                            (9.7, 0.4, ["right", "bottom"])):
+            scene = "[box]\nsize = 10\n" + "".join(
+                f'{side}.kind = "open"\n' for side in ("left", "right", "bottom", "top"))
+            self.write("open.toml", f"{scene}[discs]\nradius = 1\nlist = [[{x}, {y}, 0, 0]]\n"
+                       "[time]\nsteps = 0\n")
+            self.run_program(1, "run", "open.toml", "--quiet", "-o", "out", "--overwrite")
+            self.write("next.toml", "[box]\nsize = 10\n[discs]\nradius = 1\nfrom = "
+                       f'"{checkpoint("out", 0)}"\n[time]\nsteps = 1\n')
+            says = " and ".join(f'box.{side}.kind = "open"' for side in sides)
+            self.run_program(1, "run", "next.toml", code=2,
+                             says=f"if it is halfway through an open side, set {says}\n")
+
     def test_gate(self):
         """A hopper's heap goes on to fall through the gate."""
         self.write("gate.toml", GATE.format("count = 300\nspeed = 0.05", 500))

@@ -84,7 +84,29 @@ class DoubtfulScenes(ProgramTest):
         self.check_closed(BOX + GAS + obstacles([[0, 15, 15, 0], [25, 40, 40, 25]]),
                           lambda x, y: x + y < 15 or x + y > 65, n_regions=2)
 
+    def test_gaps_that_are_too_narrow(self):
+        """A disc of radius 0.5 needs a gap of 1. Gaps of 0.6 to 0.95 are 1.2 to 1.9 radii wide."""
+        for gap in (0.6, 0.95):
+            # Along the last side, whose length is sqrt(10^2 + 18^2), and at a wall.
+            part = gap / math.hypot(10, 18)
+            sides = [*TRIANGLE[:2], [20, 28, 10 + 10 * part, 10 + 18 * part]]
+            self.check_closed(BOX + GAS + obstacles(sides), is_in_triangle)
+            self.check_closed(BOX + GAS + obstacles([[0, 15, 40 - gap, 15]]), lambda x, y: y < 15)
+            ring = [[20 + 9 * math.cos(k * math.pi / 12), 20 + 9 * math.sin(k * math.pi / 12),
+                     (18 * math.sin(math.pi / 24) - gap) / 2] for k in range(24)]
+            self.check_closed(PERIODIC + GAS + obstacles(discs=ring),
+                              lambda x, y: math.hypot(x - 20, y - 20) < 9)
+        # Across a periodic side, and between a disc and a wall.
+        self.check_closed(PERIODIC + GAS + obstacles(
+            [[4, 5, 36, 5], [36.9, 5, 40, 5], [0, 5, 3.1, 5], [0, 20, 40, 20]]), lambda x, y: 5 < y < 20)
+        self.check_closed(BOX + GAS + obstacles([[0, 12, 36, 12]], [[37.6, 12, 1.5]]),
+                          lambda x, y: y < 12)
+
     def test_ways_out(self):
+        for gap in (1.001, 1.05, 1.2):
+            self.check_open(BOX + GAS + obstacles([[0, 15, 40 - gap, 15]]))
+            self.check_open(BOX + GAS + obstacles([[0, 15, 20, 15], [20 + gap, 15, 40, 15]]))
+            self.check_open(BOX + GAS + obstacles([[0, 12, 36 - gap, 12]], [[37.5, 12, 1.5]]))
         gap = [[10, 10, 30, 10], [30, 10, 20, 28], [20, 28, 10.6, 11.08]]
         self.check_open(BOX + GAS + obstacles(gap))
         self.check_open(PERIODIC + GAS + obstacles([[0, 15, 40, 15]]))

@@ -150,8 +150,11 @@ bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double
         throw given_up(shown.last_step(), checkpoints.write_copy(), scene);
     } catch (const Jammed& jam) {
         shown.finish();
-        const std::string kept = checkpoints.keep(jam.safe_micro_step() / scene.micro_steps);
-        throw CollectiveError(fmt::format("{}; {}", jam.what(), kept), jam.code());
+        const std::int64_t safe = jam.safe_micro_step() / scene.micro_steps;
+        throw CollectiveError(fmt::format("{}; {}; try: {}", jam.what(), checkpoints.keep(safe),
+                                          safe > 0 ? fmt::format("--steps {}", safe)
+                                                   : "a smaller effects.growth.rate"),
+                              jam.code());
     }
     watch.lap();
     shown.finish();

@@ -64,7 +64,17 @@ std::string note_on_departed(const std::string& path, const FileOfDiscs& file) {
 struct FromFile {
     std::vector<std::string> settings;
     std::string warning; ///< empty if the scene has all discs of the file
+    double radius = 0;   ///< of the file's discs
 };
+
+/// What a packing fraction does to the radii where discs have departed. Empty if they are the same.
+std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
+    if (!(scene.radius > from.radius * (1 + 1e-9))) return {};
+    return fmt::format("; discs.packing gives these fewer discs {} {:.10g}, and in the file it is "
+                       "{:.10g}; try: {} in place of discs.packing",
+                       scene.sizes ? "a largest radius of" : "the radius", scene.radius, from.radius,
+                       scene.sizes ? "discs.radius.mean" : fmt::format("discs.radius = {}", from.radius));
+}
 
 /// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
 /// 0, by those of their shares on others. **Collective.**
@@ -88,6 +98,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     ranks.broadcast(file.n_discs);
     ranks.broadcast(file.columns);
     ranks.broadcast(file.departed);
+    ranks.broadcast(file.radius);
     if (!ranks.is_root() && file.n_discs > 0) // a fault here is found by rank 0, which reads all
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
@@ -101,6 +112,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
         settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
     if (!file.departed.empty()) from.warning = note_on_departed(path, file);
+    from.radius = file.radius;
     return from;
 }
 
@@ -128,7 +140,8 @@ SceneParameters read_with_files(SceneSource& source, std::vector<std::string> se
         read_again();
     }
     append(problems, found);
-    if (!from.warning.empty()) scene.warnings.push_back(from.warning);
+    if (!from.warning.empty())
+        scene.warnings.push_back(from.warning + note_on_radius(scene, from));
     return scene;
 }
 
