@@ -26,7 +26,7 @@ if [ -z "${CARROM_CORE:-}" ]; then
 fi
 export CARROM_CORE PYTHONDONTWRITEBYTECODE=1
 tests=$CARROM_SOURCE_DIR/tests/python/package
-"$python" -m pytest -q -rs -p no:cacheprovider "$tests"/test_simulation*.py "$tests"/test_recipes.py \
+"$python" -m pytest -q -rs -p no:cacheprovider "$tests"/test_{simulation*,recipes,pages}.py \
     --rootdir "$tests" >out 2>&1 || complain 'pytest'
 cat out
 grep -q 'needs the extension' out && complain "CARROM_CORE is not taken: $CARROM_CORE"
