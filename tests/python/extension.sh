@@ -7,7 +7,7 @@ source "$(dirname "$0")/environment.sh"
 
 use_environment "$1/package"
 for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest' 'nanobind nanobind' 'pandas pandas' \
-    'xarray xarray'; do
+    'xarray xarray' 'matplotlib matplotlib' 'IPython ipython'; do
     read -r module name <<<"$needed"
     has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
@@ -26,7 +26,7 @@ if [ -z "${CARROM_CORE:-}" ]; then
 fi
 export CARROM_CORE PYTHONDONTWRITEBYTECODE=1
 tests=$CARROM_SOURCE_DIR/tests/python/package
-"$python" -m pytest -q -rs -p no:cacheprovider "$tests"/test_simulation*.py \
+"$python" -m pytest -q -rs -p no:cacheprovider "$tests"/test_{simulation*,recipes,pages}.py \
     --rootdir "$tests" >out 2>&1 || complain 'pytest'
 cat out
 grep -q 'needs the extension' out && complain "CARROM_CORE is not taken: $CARROM_CORE"

@@ -31,9 +31,15 @@ try:
     run.tables["displacement"]
 except carrom.NoDataError as error:
     print(error)
+try:
+    carrom.Simulation(scene)
+except carrom.MissingPackageError as error:
+    print(error)
 END
-"$python" scene.py >out 2>err || complain "the scene: $(tail -n 3 err)"
+CARROM_CORE=$test_folder/none "$python" scene.py >out 2>err || complain "the scene: $(tail -n 3 err)"
 grep -q 'has no table' out || complain 'an absent table is no error'
+grep -q 'needs the extension.*install a wheel that holds it.*-DCARROM_PYTHON=ON' out ||
+    complain "carrom.Simulation does not say how to get the extension: $(cat out)"
 "$1/clean/bin/carrom-plot" frame run -o p.png 2>err &&
     complain 'carrom-plot draws without matplotlib'
 grep -qF 'pip install carrom[plot]' err ||

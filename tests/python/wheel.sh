@@ -81,6 +81,36 @@ alone "$fresh/bin/python" sweep.py >out 2>err || complain "the sweep: $(tail -n 
 [ "$(sed -n 2p out)" = "$fresh/bin/mpiexec" ] || complain "another launcher: $(cat out)"
 case $(head -n 1 out) in "$fresh"/*) ;; *) complain "another program: $(head -n 1 out)" ;; esac
 
+# carrom.Simulation in each Python that the wheel has a module for. The variable PYTHONS names
+# others than those on the path, for wheel.sh too.
+grep -o '^carrom/_core[^ ]*' inside >modules || complain 'the wheel has no extension'
+cat modules
+cat >simulate.py <<'END'
+import sys
+import carrom
+
+sim = carrom.Simulation("gas.toml", threads=1)
+sim.run(sim.last_step)
+print(sim.state_hash, carrom.core_module.load().__file__)
+END
+n_simulated=0
+for python in ${PYTHONS:-python3.{9..14}}; do
+    version=$("$python" -c 'import sys; print("%d%d" % sys.version_info[:2])' 2>/dev/null) || continue
+    grep -q "_core.cpython-$version-" modules ||
+        { [ "$version" -ge 312 ] && grep -q '_core.abi3' modules; } || continue
+    rm -rf "$1/wheel-$version"
+    "$python" -m venv "$1/wheel-$version" >err 2>&1 || { tail -n 1 err; continue; }
+    timeout 400 "$1/wheel-$version/bin/pip" install -q "$wheel" >err 2>&1 ||
+        { printf 'skipped: Python %s: %s\n' "$version" "$(tail -n 1 err)"; continue; }
+    own=$(realpath "$1/wheel-$version")
+    timeout 120 env -i PATH="$own/bin" HOME="$HOME" OMP_WAIT_POLICY=passive \
+        "$own/bin/python" simulate.py >out 2>err || complain "Python $version: $(tail -n 2 err)"
+    grep -q "^$hash $own" out || complain "Python $version has another hash or module: $(cat out)"
+    n_simulated=$((n_simulated + 1))
+    printf 'Python %s: %s\n' "$version" "$(sed 's|.*/||' out)"
+done
+[ "$n_simulated" -gt 0 ] || complain 'no Python could try the extension'
+
 # The launcher of another MPI would start copies that know nothing of each other.
 if other=$(command -v mpiexec.openmpi); then
     "$other" -n 2 "$fresh/bin/carrom" run gas.toml -o other >out 2>&1 &&
