@@ -141,6 +141,7 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
         check_quantities(draft);
         for (const EffectDeclaration& effect : all_effects())
             if (effect.check_room) effect.check_room(draft);
+        check_stop(draft);
     }
     check_rules(draft);
 }

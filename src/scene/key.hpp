@@ -138,6 +138,7 @@ const Table* find_table(std::string_view name);
 
 std::vector<Key> keys_of_discs();
 std::vector<Key> keys_of_sizes(); ///< discs.radius as a table
+std::vector<Key> keys_of_time();
 std::vector<Key> keys_of_effects();
 std::vector<Key> keys_of_output();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [box] without its sides, [discs] and [time].
+// The keys of [box] without its sides, and of [discs].
 #include <algorithm>
 
 #include "scene/disc_columns.hpp"
@@ -32,10 +32,9 @@ const Need generated{"where discs are listed",
 const Need not_legacy{"with discs.generator = \"legacy\"",
                       [](const SceneParameters& s) { return s.generator != Generator::legacy; },
                       true};
-const Need naive{"without time.arithmetic = \"naive\"",
-                 [](const SceneParameters& s) { return s.arithmetic == Arithmetic::naive; }};
 
-/// Rows [x, y, vx, vy], then radius and mass, or the spin, or all three. Ids are their order.
+/// Rows [x, y], or [x, y, vx, vy] and then radius and mass, or the spin, or all three. Ids are
+/// their order.
 void set_list(SceneParameters& scene, const Value& value) {
     bool have_spins = false;
     std::vector<NumberRun> spins;
@@ -194,45 +193,6 @@ Key growth_rate_key() {
         .needs(compressed);
 }
 
-std::vector<Key> keys_of_time() {
-    return {
-        key("time.steps", "steps", "S, how many steps to run; 0 shows the start.",
-            [](auto& s) -> auto& { return s.steps; })
-            .within({0, largest_steps})
-            .required()
-            .not_physical(),
-        key("time.method", "",
-            "Event-driven: every collision at its time. Time-stepped: at most one collision per "
-            "disc and micro-step; legacy text has this one.",
-            [](auto& s) -> auto& { return s.method; })
-            .formerly("time.collisions"),
-        key("time.micro_steps", "micro-steps/step",
-            "K, the micro-steps of a step. A power of two scales velocities exactly.",
-            [](auto& s) -> auto& { return s.micro_steps; })
-            .within({1, largest_steps}),
-        key("time.sync_every", "micro-steps",
-            "Time between common rewrites of all positions. Another value rounds "
-            "differently. Under strong gravity the default is 32, 16 or less.",
-            [](auto& s) -> auto& { return s.sync_every; })
-            .within({1, 0x1p30}),
-        key("time.accuracy", "1",
-            "A pilot chooses the fastest method with at most this relative error.",
-            [](auto& s) -> auto& { return s.accuracy; })
-            .by_default("none")
-            .within({.low = 0, .excludes_low = true})
-            .excludes({"time.method", "time.micro_steps", "time.precision", "time.arithmetic",
-                       "time.contraction"}),
-        key("time.precision", "", "The precision in which states are computed and stored.",
-            [](auto& s) -> auto& { return s.precision; }),
-        key("time.arithmetic", "",
-            "Naive: contacts by the course program's formula, which loses digits.",
-            [](auto& s) -> auto& { return s.arithmetic; }),
-        key("time.contraction", "", "Fuse the naive formula's products with their sums.",
-            [](auto& s) -> auto& { return s.contraction; })
-            .needs(naive),
-    };
-}
-
 } // namespace
 
 /// Discs from another run.
@@ -332,7 +292,6 @@ std::vector<Key> keys_of_discs() {
     for (Key& one : keys_of_speeds()) all.push_back(std::move(one));
     for (Key& one : keys_of_generation()) all.push_back(std::move(one));
     for (Key& one : keys_of_other_runs()) all.push_back(std::move(one));
-    for (Key& one : keys_of_time()) all.push_back(std::move(one));
     return all;
 }
 

@@ -80,4 +80,12 @@ void check_times(const SceneDraft& draft);
 /// problem, with `why` as the reason.
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why);
 
+/// Refuses conditions of `[time.stop]` on what the scene's discs do not have.
+void check_stop(const SceneDraft& draft);
+
+/// Checks whether `discs.columns` can be those of lines of discs.
+void check_columns(const SceneDraft& draft);
+/// Checks the lengths of the rows of `discs.list`. Places alone need velocities that are drawn.
+void check_rows_of_list(const SceneDraft& draft);
+
 } // namespace carrom

@@ -132,6 +132,14 @@ struct MeasurementOutput {
 struct SceneParameters {
     std::string name; ///< the file's name, "standard input" for `-`
     std::string text; ///< the input's own text without lines of discs, for checkpoints
+/// `[time.stop]`: ends a run before its last step, at the end of a step in which a sync was.
+struct StopConditions {
+    std::optional<std::int64_t> collisions, departed; ///< numbers since the scene's start
+    std::optional<double> temperature_below, temperature_above;
+    std::optional<double> energy_below, energy_above;
+    std::optional<double> pressure_below, pressure_above;
+};
+
     std::int64_t lines_before_discs =
         0;                              ///< number of lines of legacy text before its list of discs
     bool discs_follow = false;          ///< legacy text goes on with lines of discs
@@ -171,6 +179,7 @@ struct SceneParameters {
 
     TextOutput text_output = TextOutput::none;
     std::string folder; ///< for all outputs, relative to the working folder; empty: none
+    StopConditions stop;
     std::optional<CheckpointOutput> checkpoint; ///< set for each run with a folder
     std::optional<TrajectoryOutput> trajectory;
     std::string length_unit, time_unit; ///< `[output.units]`, for HDF5 files; empty: not known
