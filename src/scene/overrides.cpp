@@ -130,6 +130,13 @@ void add_table(Settings& given, Problems& problems, const Place& place, const st
     }
 }
 
+/// A word without the quotes that TOML wants.
+std::string unquoted(const std::string& word) {
+    const bool is_quoted = word.size() > 1 && (word[0] == '"' || word[0] == '\'') &&
+                           word.back() == word[0];
+    return is_quoted ? word.substr(1, word.size() - 2) : word;
+}
+
 /// Takes `table={key = value}` for `table.key=value`, as scenes do.
 void add_inline_table(Settings& given, Problems& problems, const Place& place,
                       const std::string& name, const std::string& text) {
@@ -171,7 +178,7 @@ void add_overrides(Settings& settings, Problems& problems,
         } else if (word.starts_with('{') && find_table(name)) {
             add_inline_table(given, problems, place, name, word);
         } else if (!key) {
-            add_problem(problems, place, unknown_key_text(name, Value{word}));
+            add_problem(problems, place, unknown_key_text(name, Value{unquoted(word)}));
         } else {
             const auto value = parse_value(*key, word);
             if (!value)
