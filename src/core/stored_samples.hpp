@@ -31,11 +31,12 @@ struct StoredSamples {
     std::vector<std::int64_t> averages; ///< equal on all ranks; empty before the first block
     std::vector<std::int64_t> watched;  ///< equal on all ranks; empty if no order is watched
     std::vector<std::int64_t> sums;     ///< equal on all ranks; empty if nothing is measured
-    std::vector<std::int64_t> effects;  ///< StoredState::kept_by_effects, which comes along
-    bool have_first_places = false;     ///< equal on all ranks
-    bool have_lengths = false;          ///< equal on all ranks
-    bool have_velocities = false;       ///< equal on all ranks
-    bool have_images = false;           ///< equal on all ranks; for the images of a trajectory
+    std::vector<std::int64_t> stop;    ///< equal on all ranks; empty if no pressure may end the run
+    std::vector<std::int64_t> effects; ///< StoredState::kept_by_effects, which comes along
+    bool have_first_places = false;    ///< equal on all ranks
+    bool have_lengths = false;         ///< equal on all ranks
+    bool have_velocities = false;      ///< equal on all ranks
+    bool have_images = false;          ///< equal on all ranks; for the images of a trajectory
     /// A run of ids without gaps. To be written, these are the discs of this rank's
     /// pieces (pieces.hpp); as read, those of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;

@@ -137,6 +137,9 @@ std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream*
                                                                 n_threads)
                                             : listed_discs(scene, communicator);
         refuse_in_obstacles(scene, listed, communicator);
+        if (scene.draws_velocities) give_velocities(scene, listed, communicator);
+        if (scene.velocities == VelocityKind::reversed)
+            for (InputDisc& disc : listed) disc.vx = -disc.vx, disc.vy = -disc.vy;
         return listed;
     }
     ensure(scene.generator != Generator::compressed, "a compressed start takes an engine");

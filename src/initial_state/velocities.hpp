@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities of generated discs: drawn for each disc alone, then corrected for all discs together.
+// Velocities of discs whose places are generated, or listed beside `discs.speed` or
+// `discs.temperature`: drawn for each disc alone, then corrected for all discs together.
 //
 // "maxwell": the Maxwell distribution in two dimensions, both components normal. The speed is
 // sqrt(E), E exponential of mean 1. "uniform": isotropic directions, speeds uniform in
@@ -34,7 +35,7 @@ Velocity stream_velocity(const SceneParameters& scene, Point place);
 /// Adds streams, and the flow of sheared sides, to all discs, which have their places.
 void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs);
 
-/// Gives velocities per step to the discs that the scene generates, in any distribution over the
+/// Gives drawn velocities per step to discs, in any distribution over the
 /// ranks. The energy of all discs is N kT with `discs.temperature`, and half their mass times
 /// `discs.speed` squared otherwise, both to rounding. Along periodic axes their momentum is zero to
 /// rounding; a disc that is alone keeps it, because it would be at rest. Streams are added last.

@@ -30,6 +30,7 @@ namespace {
 constexpr const char* measurements_path = "/carrom/measurements";
 constexpr const char* averages_path = "/carrom/averages";
 constexpr const char* watched_path = "/carrom/watched";
+constexpr const char* stop_path = "/carrom/stop";
 constexpr const char* effects_path = "/carrom/effects";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
@@ -78,6 +79,7 @@ StoredSamples samples_of(hid_t file, const Checksums& sums) {
         samples.averages = h5::read_column<std::int64_t>(file, averages_path);
     if (h5::has(file, watched_path))
         samples.watched = h5::read_column<std::int64_t>(file, watched_path);
+    if (h5::has(file, stop_path)) samples.stop = h5::read_column<std::int64_t>(file, stop_path);
     if (h5::has(file, effects_path))
         samples.effects = h5::read_column<std::int64_t>(file, effects_path);
     if (!h5::has(file, measurements_path)) return samples;
@@ -168,6 +170,7 @@ void broadcast(Contents& contents, const Communicator& communicator) {
     }
     communicator.broadcast(contents.samples.averages);
     communicator.broadcast(contents.samples.watched);
+    communicator.broadcast(contents.samples.stop);
     communicator.broadcast(contents.samples.effects);
     communicator.broadcast(contents.samples.sums);
     for (const SampleColumn& column : sample_columns) {

@@ -79,6 +79,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     create("/carrom/discs/");
     if (!samples.averages.empty()) h5::write_column(carrom.id(), "averages", samples.averages);
     if (!samples.watched.empty()) h5::write_column(carrom.id(), "watched", samples.watched);
+    if (!samples.stop.empty()) h5::write_column(carrom.id(), "stop", samples.stop);
     if (!samples.effects.empty()) h5::write_column(carrom.id(), "effects", samples.effects);
     if (!samples.sums.empty()) {
         const h5::Group measurements = h5::create_group(carrom.id(), "measurements");

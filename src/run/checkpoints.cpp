@@ -56,7 +56,7 @@ std::int64_t Checkpoints::next_due(std::int64_t step) const {
 bool Checkpoints::act() {
     const std::int64_t step = run_.step();
     const Updates now = updates(step);
-    const bool is_end = step >= run_.scene().steps, goes_on = !now.must_stop || is_end;
+    const bool is_end = step >= run_.last_step(), goes_on = !now.must_stop || is_end;
     if (!wanted_) return goes_on;
     const bool is_due = now.must_stop || now.is_time ||
                         (wanted_->every_steps && step > 0 && step % *wanted_->every_steps == 0) ||

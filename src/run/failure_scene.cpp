@@ -41,6 +41,8 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
                                         1);
     around.n_discs = failure.discs_around.size();
     around.generator = Generator::file;
+    around.draws_velocities = false;
+    around.velocities = VelocityKind::maxwell;
     around.discs_file = discs_file;
     around.listed_discs.clear();
     around.disc_columns.clear();

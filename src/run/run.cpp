@@ -35,7 +35,8 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
          const Messages& messages)
     : ranks_(ranks), scene_(decided(std::move(scene), start, ranks_, tuning, messages)),
       is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
-      system_(system_from(scene_, start, ranks_, tuning)), sampler_(scene_, system_, ranks_),
+      system_(system_from(scene_, start, ranks_, tuning)),
+      stop_(scene_, system_, ranks_, start.samples.stop), sampler_(scene_, system_, ranks_),
       watch_(scene_, system_, ranks_), heap_warning_(scene_, system_, ranks_, messages) {
     if (const double more = system_.engine().bytes_for_crowds(); more > 0 && !is_restart_)
         check_memory(scene_, ranks_, more); // now that places are known
@@ -52,8 +53,10 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
 }
 
 bool Run::advance_to(std::int64_t last_step) {
+    if (stop_reason()) return true;
     try {
-        return carrom::advance_to(system_, last_step, actions_, &seconds_);
+        const bool is_there = carrom::advance_to(system_, last_step, actions_, &seconds_);
+        return is_there || stop_reason();
     } catch (const CheckFailure& failure) {
         throw reported(failure, scene_, ranks_);
     }
@@ -67,6 +70,7 @@ StoredSamples Run::stored_samples() {
     StoredSamples samples = sampler_.stored();
     samples.watched = watch_.stored();
     samples.effects = system_.engine().kept_by_effects();
+    samples.stop = stop_.stored();
     samples.have_images = images_.has_value();
     if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
     return samples;

@@ -19,6 +19,7 @@
 #include "run/heap_warning.hpp"
 #include "run/messages.hpp"
 #include "run/start/run_start.hpp"
+#include "run/stop_check.hpp"
 #include "scene/scene_parameters.hpp"
 #include "simulation/advance.hpp"
 #include "simulation/disc_system.hpp"
@@ -56,8 +57,13 @@ public:
     /// From now on calls `action` between steps, after those added before. It must
     /// outlive stepping.
     void add(StepAction& action) { actions_.push_back(&action); }
-    /// Steps to the end of `last_step`. Returns false if an action ended the run before. A failed
-    /// check of `check_every_step` leaves a scene of the discs around it. **Collective.**
+    /// The step at which the run ends: the scene's last one, or the present one if a condition of
+    /// `[time.stop]` holds.
+    std::int64_t last_step() const { return stop_.reason() ? stop_.reason()->step : scene_.steps; }
+    const std::optional<StopReason>& stop_reason() const { return stop_.reason(); }
+    /// Steps to the end of `last_step`, or to where the run ends before. Returns false if another
+    /// action ended it before. A failed check of `check_every_step` leaves a scene of the discs
+    /// around it. **Collective.**
     bool advance_to(std::int64_t last_step);
     const StretchSeconds& seconds() const { return seconds_; }
 
@@ -76,11 +82,12 @@ private:
     int n_threads_;
     DiscSystem system_;
     std::optional<ImageCounts> images_;
+    StopCheck stop_; ///< before the sampler, because it may change the unit of stress
     Sampler sampler_;
     OrderWatch watch_;
     HeapWarning heap_warning_;
     /// The sampler is the first, so that all others see the sample of the present step.
-    std::vector<StepAction*> actions_{&sampler_, &watch_, &heap_warning_};
+    std::vector<StepAction*> actions_{&sampler_, &watch_, &heap_warning_, &stop_};
     StretchSeconds seconds_;
 };
 

@@ -60,7 +60,7 @@ void check_numbers(const SceneDraft& draft) {
     for (const SideColumn column : all_side_columns)
         are_given[column] = has_column(draft.scene, disc_column_of(column));
     draft.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
-        if (n.size() % 2 == 0) return {};
+        if (n.size() % 2 == 0 || n.size() < 5) return {};
         are_given[SideColumn::spin] = true;
         return number_problem(draft.scene, SideColumn::spin, n.back());
     });
@@ -163,6 +163,19 @@ std::string problem_of_limits(const SizeDistribution& sizes) {
                        smallest, largest, share, sizes.polydispersity, smallest_share);
 }
 
+constexpr std::array<std::string_view, 5> not_with_sizes = {
+    "discs.radius", "discs.species", "discs.list", "discs.columns", "discs.file"};
+
+/// A distribution gives the radii alone, also where the number of discs is not known yet.
+void check_rivals_of_sizes(const SceneDraft& draft) {
+    if (!draft.scene.sizes) return;
+    for (const std::string_view other : not_with_sizes)
+        if (draft.settings.has(other))
+            draft.refuse(
+                {other},
+                fmt::format("'{}' has no meaning where radii follow a distribution", other));
+}
+
 /// Whether radii can follow the distribution: its limits are in order and not too small.
 bool check_distribution(const SceneDraft& draft) {
     const SizeDistribution& sizes = *draft.scene.sizes;
@@ -171,14 +184,8 @@ bool check_distribution(const SceneDraft& draft) {
         if (const Setting* one = draft.settings.find(fmt::format("discs.radius.{}", part));
             one && one->is_wrong)
             return false;
-    bool is_alone = true;
-    for (const std::string_view other :
-         {"discs.radius", "discs.species", "discs.list", "discs.columns", "discs.file"}) {
-        if (!draft.settings.has(other)) continue;
-        is_alone = false;
-        draft.refuse({other},
-                     fmt::format("'{}' has no meaning where radii follow a distribution", other));
-    }
+    const bool is_alone = std::ranges::none_of(
+        not_with_sizes, [&](std::string_view other) { return draft.settings.has(other); });
     const bool has_mean = draft.settings.has("discs.radius.mean"),
                has_packing = draft.settings.has("discs.packing");
     if (!has_mean && !has_packing)
@@ -295,7 +302,7 @@ void check_velocities(const SceneDraft& draft) {
                                                  "discs.generator = \"legacy\", not {}",
                                                  scene.seed));
     if (const std::string text = speed_problem(scene.speed, scene);
-        !text.empty() && scene.generator != Generator::file)
+        !text.empty() && (scene.generator != Generator::file || scene.draws_velocities))
         draft.refuse({"discs.speed"}, "'discs.speed': " + text);
     check_temperature(draft);
     draft.refuse_rows("discs.streams", [&scene](const Numbers& n, std::size_t) {
@@ -328,12 +335,18 @@ bool check_discs(const SceneDraft& draft) {
         draft.refuse({"discs.generator"}, "discs.generator is \"file\", but there is no "
                                           "'discs.file', 'discs.list' or 'discs.from'");
     const std::size_t n_problems = draft.problems.size();
+    check_columns(draft);
+    check_rivals_of_sizes(draft);
     check_species(draft);
     const bool are_species_right = draft.problems.size() == n_problems;
     fill_count(draft);
     const bool is_right = fill_sizes(draft) && are_species_right;
+    check_rows_of_list(draft);
     check_numbers(draft);
     check_velocities(draft);
+    const bool comes_later = scene.n_discs == 0 && draft.problems.size() == n_problems &&
+                             (!scene.discs_file.empty() || !scene.discs_from.empty());
+    if (comes_later) return false; // the file, which is read later, gives the number
     if (!is_right) {
         scene.radius = 0;
         if (!are_radii_unknown(draft)) scene.box = {};

@@ -37,6 +37,8 @@ void derive_defaults(const SceneDraft& draft) {
     if (!settings.has("discs.generator") &&
         (settings.has("discs.file") || settings.has("discs.list") || settings.has("discs.from")))
         scene.generator = Generator::file;
+    scene.draws_velocities = scene.generator == Generator::file &&
+                             (settings.has("discs.speed") || settings.has("discs.temperature"));
     if (draft.columns && !draft.columns->species.empty())
         scene.effects.species = draft.columns->species;
     for (const SideColumn column : all_side_columns)
@@ -139,6 +141,7 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
         for (const BoundaryDeclaration& kind : all_boundaries())
             if (kind.check_room) kind.check_room(draft);
         check_quantities(draft);
+        check_stop(draft);
         for (const EffectDeclaration& effect : all_effects())
             if (effect.check_room) effect.check_room(draft);
     }

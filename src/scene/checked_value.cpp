@@ -202,6 +202,10 @@ private:
                               takes_list ? "numbers, " + std::string(field.form) : "a number"));
         return {};
     }
+    std::string hint_of(const std::string& word, const std::vector<std::string_view>& names) const {
+        const std::string instead = instead_of(fmt::format("{}.{}", key_.name, word));
+        return instead.empty() ? guess(word, names, '\'') : "; " + instead;
+    }
     Numbers numbers_of_table(const Value& row, const std::string& name) {
         const auto* table = std::get_if<NamedValues>(&row.data);
         if (!table) {
@@ -213,7 +217,7 @@ private:
         for (const auto& [word, value] : *table)
             if (std::find(names.begin(), names.end(), word) == names.end())
                 refuse_at(value.line, fmt::format("{} has no {}{}", name, in_quotes(word),
-                                                  guess(word, names, '\'')));
+                                                  hint_of(word, names)));
         Numbers all;
         for (const Field& field : key_.fields) {
             const auto found = std::find_if(

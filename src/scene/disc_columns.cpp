@@ -2,10 +2,11 @@
 #include "scene/disc_columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
+#include "scene/data_lines.hpp"
 #include "scene/limits.hpp"
-#include "scene/line_reader.hpp"
 #include "scene/number.hpp"
 
 namespace carrom {
@@ -18,18 +19,21 @@ struct Row {
     BySideColumn<double> beside;
 };
 
-/// The numbers in a line of `5 + columns.size()` words; nothing if DiscReader would refuse it.
+/// The numbers in the words of line number `id`; nothing if DiscReader would refuse it.
 std::optional<Row> row_of(const std::vector<std::string_view>& words,
-                          const std::vector<DiscColumn>& columns) {
-    if (words.size() != 5 + columns.size()) return std::nullopt;
-    Row row;
-    const auto id = parse_id(words[0]);
-    if (!id) return std::nullopt;
-    row.id = *id;
+                          const std::vector<DiscColumn>& columns, DiscId id) {
+    if (words.size() != columns.size()) return std::nullopt;
+    Row row{id, {}, {}};
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        const auto number = parse_double(words[5 + k]);
-        if (!number || !column_problem(columns[k], *number).empty()) return std::nullopt;
-        number_of(columns[k], row.body, row.beside) = *number;
+        if (columns[k] == DiscColumn::id) {
+            const auto given = parse_id(words[k]);
+            if (!given) return std::nullopt;
+            row.id = *given;
+        } else if (columns[k] >= DiscColumn::radius) {
+            const auto number = parse_double(words[k]);
+            if (!number || !column_problem(columns[k], *number).empty()) return std::nullopt;
+            number_of(columns[k], row.body, row.beside) = *number;
+        }
     }
     return row;
 }
@@ -57,6 +61,15 @@ bool has_column(const SceneParameters& scene, DiscColumn column) {
            scene.disc_columns.end();
 }
 
+bool has_columns_beside(const SceneParameters& scene) {
+    return std::ranges::any_of(scene.disc_columns,
+                               [](DiscColumn column) { return column >= DiscColumn::radius; });
+}
+
+bool lines_have_velocities(const SceneParameters& scene) {
+    return !has_column(scene, DiscColumn::x) || has_column(scene, DiscColumn::vx);
+}
+
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside) {
     return column == DiscColumn::radius ? body.radius
            : column == DiscColumn::mass ? body.mass
@@ -64,9 +77,9 @@ double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& be
 }
 
 const char* name_of(DiscColumn column) {
-    return column == DiscColumn::radius ? "radius"
-           : column == DiscColumn::mass ? "mass"
-                                        : info_of(side_column_of(column)).name;
+    constexpr std::array names = {"id", "x", "y", "vx", "vy", "radius", "mass"};
+    return column < DiscColumn::first_side ? names[static_cast<std::size_t>(column)]
+                                           : info_of(side_column_of(column)).name;
 }
 
 DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene) {
@@ -74,18 +87,17 @@ DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene
     found.is_whole = false;
     std::vector<Row> rows;
     std::vector<std::string_view> words;
-    LineReader lines(stream, 0);
+    const std::vector<DiscColumn> columns = columns_of_lines(scene);
+    DataLines lines(stream, scene, 0);
     for (std::string_view line; lines.next(line);) {
-        if (lines.is_cut()) return found;
-        if (lines.line_number() == 1 && line.starts_with(byte_order_mark))
-            line.remove_prefix(byte_order_mark.size());
-        if (trimmed(line).empty()) continue;
-        split_words(line, 5 + scene.disc_columns.size(), words);
-        const std::optional<Row> row = row_of(words, scene.disc_columns);
+        if (lines.reader().is_cut()) return found;
+        split_words(line, columns.size(), words);
+        const std::optional<Row> row = row_of(words, columns, rows.size());
         if (!row || rows.size() == scene.n_discs) return found;
         rows.push_back(*row);
     }
-    if (lines.has_failed() || lines.is_endless() || rows.size() != scene.n_discs) return found;
+    if (lines.reader().has_failed() || lines.reader().is_endless() || rows.size() != scene.n_discs)
+        return found;
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (rows[i].id != i) return found;

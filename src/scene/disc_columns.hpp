@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of a file of discs beyond places and velocities, which `discs.columns` names.
+// The columns of a file of discs beyond ids, places and velocities, which `discs.columns` names.
 //
 // The checks of a scene need radii and masses, and every rank needs them, because a
 // dynamics asks for those of any disc. So rank 0 reads the file twice: first these
@@ -22,12 +22,15 @@ struct DiscColumns {
     bool is_whole = true;
 };
 
-/// Reads all lines of `stream`: `id x y vx vy` and the scene's columns. Takes 32 bytes
-/// a disc while it reads.
+/// Reads all lines of `stream`, from its first one. Takes 32 bytes a disc while it reads.
 DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene);
 
 bool has_column(const SceneParameters& scene, DiscColumn column);
-/// The place for the column's number of a disc.
+/// Whether read_disc_columns finds anything in the scene's file.
+bool has_columns_beside(const SceneParameters& scene);
+/// Whether the lines of the scene's file have velocities.
+bool lines_have_velocities(const SceneParameters& scene);
+/// The place for the number of a column beyond ids, places and velocities.
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);

@@ -2,7 +2,6 @@
 #include "scene/disc_reader.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -14,11 +13,28 @@ namespace carrom {
 
 namespace {
 
-/// The columns of a line, for messages.
-std::string columns_text(const std::vector<DiscColumn>& columns) {
-    std::string text = "id x y vx vy";
-    for (const DiscColumn column : columns) text += std::string(" ") + name_of(column);
-    return text;
+std::optional<std::size_t> place_of_id(const std::vector<DiscColumn>& columns) {
+    const auto found = std::ranges::find(columns, DiscColumn::id);
+    if (found == columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+/// The place for a column's number of a disc; none for its id.
+double* place_of(DiscColumn column, InputDisc& disc, SizeAndMass& body,
+                 BySideColumn<double>& beside) {
+    switch (column) {
+    case DiscColumn::id: return nullptr;
+    case DiscColumn::x: return &disc.x;
+    case DiscColumn::y: return &disc.y;
+    case DiscColumn::vx: return &disc.vx;
+    case DiscColumn::vy: return &disc.vy;
+    default: return &number_of(column, body, beside);
+    }
+}
+
+std::string too_few_text(const std::vector<DiscColumn>& columns, std::size_t n_words) {
+    return fmt::format("expected '{}', found only {} of the {} numbers", names_of(columns), n_words,
+                       columns.size());
 }
 
 } // namespace
@@ -26,12 +42,16 @@ std::string columns_text(const std::vector<DiscColumn>& columns) {
 DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene)
     : scene_(scene), species_(scene.effects.species, scene.radius),
       place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
-      has_lines_(scene.discs_from.empty()),
-      lines_(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
+      has_lines_(scene.discs_from.empty()), columns_(columns_of_lines(scene)),
+      place_of_id_(place_of_id(columns_)),
+      lines_(stream, scene, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
 
 DiscReader::DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part)
     : scene_(scene), species_(scene.effects.species, scene.radius), place_(discs_path(scene)),
-      lines_(stream, part.is_first ? 0 : 1, part.n_bytes), are_ids_noted_(false) {}
+      has_lines_(scene.discs_from.empty()), columns_(columns_of_lines(scene)),
+      place_of_id_(place_of_id(columns_)),
+      lines_(stream, scene, part.is_first ? 0 : 1, part.n_bytes, part.is_first),
+      are_ids_noted_(false) {}
 
 bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit, const InParts& in_parts) {
     chunk.clear();
@@ -46,19 +66,17 @@ bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit, const In
     return !chunk.empty();
 }
 
-/// Copies up to `limit` lines that are not empty, because the reader of lines keeps only one.
-/// False if there are none.
+/// Copies up to `limit` lines, because the reader of lines keeps only one. False if there are
+/// none.
 bool DiscReader::take_lines(std::size_t limit) {
     text_.clear();
     taken_.clear();
     std::string_view line;
     while (taken_.size() < limit && lines_.next(line)) {
-        if (lines_.line_number() == 1 && line.starts_with(byte_order_mark))
-            line.remove_prefix(byte_order_mark.size());
-        if (!lines_.is_cut() && trimmed(line).empty()) continue;
         Line& taken = taken_.emplace_back();
-        taken.is_cut = lines_.is_cut();
-        taken.number = lines_.line_number();
+        taken.is_cut = lines_.reader().is_cut();
+        taken.number = lines_.reader().line_number();
+        if (!place_of_id_) taken.disc.id = next_id_++;
         taken.begin = text_.size();
         if (!taken.is_cut) text_.insert(text_.end(), line.begin(), line.end());
         taken.end = text_.size();
@@ -84,11 +102,12 @@ std::vector<Problem> DiscReader::problems() const {
              fmt::format("and {} more {} with problems{}", n_problems_ - problems_.size(),
                          has_lines_ ? "lines" : "discs",
                          n_problems_ < most_wrong_lines ? "" : "; it was not read beyond them")});
-    if (lines_.is_endless())
+    const LineReader& reader = lines_.reader();
+    if (reader.is_endless())
         all.push_back(
-            {place_, lines_.line_number(), "this line does not end: it was not read beyond"});
-    if (lines_.has_failed())
-        all.push_back({place_, lines_.line_number(), "cannot be read beyond this line"});
+            {place_, reader.line_number(), "this line does not end: it was not read beyond"});
+    if (reader.has_failed())
+        all.push_back({place_, reader.line_number(), "cannot be read beyond this line"});
     if (n_seen_ < scene_.n_discs) all.push_back({place_, 0, missing_ids()});
     return all;
 }
@@ -96,17 +115,20 @@ std::vector<Problem> DiscReader::problems() const {
 /// Finds the disc, or the fault that follows its id.
 void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
     if (line.is_cut) return;
-    const std::vector<DiscColumn>& columns = scene_.disc_columns;
-    const std::size_t n_words = 5 + columns.size();
+    const std::size_t n_words = columns_.size();
     split_words(text_of(line), n_words, words);
-    const auto id = parse_id(words[0]);
-    line.has_number = id && *id < most_discs();
-    if (!line.has_number) return;
     InputDisc& disc = line.disc;
-    disc.id = *id;
+    if (place_of_id_) {
+        const auto id = *place_of_id_ < words.size() ? parse_id(words[*place_of_id_])
+                                                     : std::nullopt;
+        line.has_number = id && *id < most_discs();
+        if (line.has_number) disc.id = *id;
+    } else {
+        line.has_number = disc.id < most_discs();
+    }
+    if (!line.has_number) return;
     if (words.size() < n_words) {
-        line.fault = fmt::format("expected '{}', found only {} of the {} numbers",
-                                 columns_text(columns), words.size(), n_words);
+        line.fault = too_few_text(columns_, words.size());
         return;
     }
     std::string& text = line.fault;
@@ -115,35 +137,44 @@ void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
     };
     SizeAndMass body = species_.of(disc.id);
     BySideColumn<double> beside;
-    std::array<double*, 6 + n_side_columns> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
-    for (std::size_t k = 0; k < columns.size(); ++k)
-        numbers[4 + k] = &number_of(columns[k], body, beside);
-    for (std::size_t i = 0; i + 1 < n_words; ++i) {
-        const auto number = parse_double(words[i + 1]);
-        if (number)
-            *numbers[i] = *number;
+    for (std::size_t i = 0; i < n_words; ++i) {
+        double* const place = place_of(columns_[i], disc, body, beside);
+        if (!place) continue;
+        if (const auto number = parse_double(words[i]))
+            *place = *number;
         else
-            add(fmt::format("{} is not a number", in_quotes(words[i + 1])));
+            add(fmt::format("{} is not a number", in_quotes(words[i])));
     }
     const bool are_numbers = text.empty();
-    for (std::size_t k = 0; k < columns.size() && are_numbers; ++k)
-        if (const std::string fault = column_problem(columns[k], *numbers[4 + k]); !fault.empty())
-            add(fault);
+    for (std::size_t i = 0; i < n_words && are_numbers; ++i)
+        if (columns_[i] >= DiscColumn::radius)
+            if (const std::string fault = column_problem(
+                    columns_[i], *place_of(columns_[i], disc, body, beside));
+                !fault.empty())
+                add(fault);
     if (text.empty()) text = disc_problem(disc, scene_, body.radius);
     if (words.size() > n_words)
         add(fmt::format("{} after the {} numbers '{}'", in_quotes(words[n_words]), n_words,
-                        columns_text(columns)));
+                        names_of(columns_)));
 }
 
 /// Marks the disc as seen, or returns why it cannot be.
 std::string DiscReader::note_id(const Line& line) {
     if (!line.has_number) {
+        if (!place_of_id_)
+            return fmt::format("one line too many: the scene is of {} discs", most_discs());
         std::vector<std::string_view> words;
-        split_words(text_of(line), 1, words);
-        return parse_id(words[0]) || parse_integer(words[0])
-                   ? fmt::format("disc {} is out of range: ids are 0 to {}", words[0],
-                                 most_discs() - 1)
-                   : fmt::format("{} is not the id of a disc", in_quotes(words[0]));
+        split_words(text_of(line), columns_.size(), words);
+        if (*place_of_id_ >= words.size()) return too_few_text(columns_, words.size());
+        const std::string_view id = words[*place_of_id_];
+        return parse_id(id) || parse_integer(id)
+                   ? fmt::format("disc {} is out of range: ids are 0 to {}", id, most_discs() - 1)
+                   : fmt::format("{} is not the id of a disc{}", in_quotes(id),
+                                 parse_double(id) && !scene_.discs_file.empty()
+                                     ? fmt::format("; lines are '{}', and discs.columns or a "
+                                                   "header line name others",
+                                                   names_of(columns_))
+                                     : "");
     }
     if (!are_ids_noted_) return "";
     const DiscId id = line.disc.id;

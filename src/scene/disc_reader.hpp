@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`,
-// which are checked here and kept by read_disc_columns) in any order of ids, in
+// Reads discs from lines of text, "id x y vx vy" or other columns (`discs.columns`; those beyond
+// places and velocities are checked here and kept by read_disc_columns) in any order of ids, in
 // bounded chunks, so that one rank can read more than it could hold. Takes up to N
 // bits to see that every id comes once, and less than a microsecond a line, which threads share:
-// lines are parsed by all of them, and then ids are noted in the order of lines.
+// lines are parsed by all of them, and then ids are noted in the order of lines. Without a column
+// of ids, discs are numbered in the order of lines.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
@@ -12,12 +13,13 @@
 #include <cstdint>
 #include <functional>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/errors.hpp"
-#include "scene/line_reader.hpp"
+#include "scene/data_lines.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
@@ -54,7 +56,7 @@ public:
     std::vector<Problem> problems() const;
     /// Whether no line of a part is wrong as far as it was read.
     bool is_flawless() const {
-        return n_problems_ == 0 && !lines_.is_endless() && !lines_.has_failed();
+        return n_problems_ == 0 && !lines_.reader().is_endless() && !lines_.reader().has_failed();
     }
 
 private:
@@ -85,7 +87,10 @@ private:
     SpeciesTable species_;
     std::string place_;
     bool has_lines_; ///< false for `discs.from`, whose lines nobody sees: problems name the discs
-    LineReader lines_;
+    std::vector<DiscColumn> columns_;
+    std::optional<std::size_t> place_of_id_; ///< in a line
+    DataLines lines_;
+    DiscId next_id_ = 0; ///< of lines without ids
     bool are_ids_noted_ = true;
     std::vector<bool> seen_; ///< by id, as far as ids have come
     std::uint64_t n_seen_ = 0;

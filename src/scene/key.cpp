@@ -59,6 +59,7 @@ const std::vector<Key>& keys() {
         const auto add = [&list](const std::vector<Key>& part) {
             list.insert(list.end(), part.begin(), part.end());
         };
+        add(keys_of_time());
         add(keys_of_sizes());
         add(keys_of_effects());
         add(keys_of_output());
@@ -76,6 +77,8 @@ const std::vector<Table>& tables() {
              [](const SceneParameters& s) { return s.sizes.has_value(); },
              [](SceneParameters& s) { s.sizes.emplace(); }},
             {"time", "How long, and by which method."},
+            {"time.stop", "What ends a run before its last step. It is checked at the end of each "
+                          "step with a sync, and the report says what ended the run."},
             {"box.left", "One side of the box. `[box.right]`, `[box.bottom]` and `[box.top]` have "
                          "the same keys."},
             {.name = "box.right", .is_like_another = true},

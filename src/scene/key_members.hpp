@@ -42,14 +42,19 @@ inline constexpr std::array words_of<Generator>{
     Word<Generator>{"file", Generator::file}};
 template <>
 inline constexpr std::array words_of<VelocityKind>{Word{"maxwell", VelocityKind::maxwell},
-                                                   Word{"uniform", VelocityKind::uniform}};
+                                                   Word{"uniform", VelocityKind::uniform},
+                                                   Word{"reversed", VelocityKind::reversed}};
 template <>
 inline constexpr auto words_of<DiscColumn> = [] {
-    std::array<Word<DiscColumn>, 2 + n_side_columns> words{Word{"radius", DiscColumn::radius},
-                                                           Word{"mass", DiscColumn::mass}};
+    constexpr auto n_first = static_cast<std::size_t>(DiscColumn::first_side);
+    std::array<Word<DiscColumn>, n_first + n_side_columns> words{
+        Word{"id", DiscColumn::id},    Word{"x", DiscColumn::x},
+        Word{"y", DiscColumn::y},      Word{"vx", DiscColumn::vx},
+        Word{"vy", DiscColumn::vy},    Word{"radius", DiscColumn::radius},
+        Word{"mass", DiscColumn::mass}};
     for (const SideColumn column : all_side_columns)
-        words[2 + static_cast<std::size_t>(column)] = {info_of(column).name,
-                                                       disc_column_of(column)};
+        words[n_first + static_cast<std::size_t>(column)] = {info_of(column).name,
+                                                             disc_column_of(column)};
     return words;
 }();
 template <>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [box] without its sides, [discs] and [time].
+// The keys of [box] without its sides, and of [discs].
 #include <algorithm>
 
 #include "scene/disc_columns.hpp"
@@ -18,29 +18,39 @@ const Need equal_discs{"where 'discs.species', 'discs.list' or 'discs.columns' n
                        }};
 const Need listed{"without discs.generator = \"file\"",
                   [](const SceneParameters& s) { return s.generator == Generator::file; }, true};
-const Need random_speeds{"where discs are listed, or with discs.generator = \"legacy\"",
-                         [](const SceneParameters& s) {
-                             return s.generator != Generator::file &&
-                                    s.generator != Generator::legacy;
-                         },
-                         true};
+/// Velocities of discs whose places are generated, or listed beside a speed or a temperature.
+bool are_drawn(const SceneParameters& s) {
+    return s.generator == Generator::file ? s.draws_velocities : s.generator != Generator::legacy;
+}
+
+const Need speeds{"with discs.generator = \"legacy\"", are_drawn, true};
+const Need kinds_of_velocities{
+    "with discs.generator = \"legacy\", or where discs are listed and neither 'discs.speed' nor "
+    "'discs.temperature' draws their velocities",
+    [](const SceneParameters& s) {
+        return are_drawn(s) ||
+               (s.generator == Generator::file && s.velocities == VelocityKind::reversed);
+    },
+    true};
 const Need compressed{"without discs.generator = \"compressed\"",
                       [](const SceneParameters& s) { return s.generator == Generator::compressed; },
                       true};
-const Need generated{"where discs are listed",
-                     [](const SceneParameters& s) { return s.generator != Generator::file; }, true};
+const Need seeded{
+    "where discs are listed with their velocities",
+    [](const SceneParameters& s) { return s.generator != Generator::file || s.draws_velocities; },
+    true};
 const Need not_legacy{"with discs.generator = \"legacy\"",
                       [](const SceneParameters& s) { return s.generator != Generator::legacy; },
                       true};
-const Need naive{"without time.arithmetic = \"naive\"",
-                 [](const SceneParameters& s) { return s.arithmetic == Arithmetic::naive; }};
 
-/// Rows [x, y, vx, vy], then radius and mass, or the spin, or all three. Ids are their order.
+/// Rows [x, y], or [x, y, vx, vy] and then radius and mass, or the spin, or all three. Ids are
+/// their order.
 void set_list(SceneParameters& scene, const Value& value) {
     bool have_spins = false;
     std::vector<NumberRun> spins;
     for (const Value& row : std::get<Values>(value.data)) {
-        const Numbers n = row.is_nothing() ? Numbers(4) : std::get<Numbers>(row.data);
+        Numbers n = row.is_nothing() ? Numbers(4) : std::get<Numbers>(row.data);
+        n.resize(std::max<std::size_t>(n.size(), 4));
         scene.listed_discs.push_back({scene.listed_discs.size(), n[0], n[1], n[2], n[3]});
         if (n.size() >= 6) add_species(scene.effects.species, {1, n[4], n[5]});
         have_spins = have_spins || n.size() % 2 == 1;
@@ -125,12 +135,12 @@ Value get_species(const SceneParameters& scene) {
 }
 
 Key list_key() {
-    Key key = named_key(
-                  "discs.list", "length, length/step",
+    Key key =
+        named_key("discs.list", "length, length/step",
                   "The discs themselves; ids count from 0. Radius and mass, then spin, may follow.")
-                  .by_default("none")
-                  .needs(listed)
-                  .with_rows({{"", "[x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 4, 7}});
+            .by_default("none")
+            .needs(listed)
+            .with_rows({{"", "[x, y], [x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 2, 7}});
     key.get = get_list;
     key.set = set_list;
     key.compare = [](const SceneParameters& a, const SceneParameters& b) {
@@ -171,14 +181,14 @@ Key packing_key() {
     return key;
 }
 
-/// Unknown before the file of `discs.from` is read.
+/// Unknown before the file of `discs.file` or `discs.from` is read.
 Key count_key() {
     Key count = key("discs.count", "discs",
-                    "N, the number of discs; a list or species give it too.",
+                    "N, the number of discs; a list, a file or species give it too.",
                     [](auto& s) -> auto& { return s.n_discs; })
                     .within({1, static_cast<double>(largest_count)})
                     .required()
-                    .unless({"discs.list", "discs.species", "discs.from"});
+                    .unless({"discs.list", "discs.file", "discs.species", "discs.from"});
     count.get = [](const SceneParameters& s) {
         return s.n_discs == 0 ? Value{} : value_of(s.n_discs);
     };
@@ -192,45 +202,6 @@ Key growth_rate_key() {
                [](auto& s) -> auto& { return s.growth_rate; })
         .within({1e-6, 0.2})
         .needs(compressed);
-}
-
-std::vector<Key> keys_of_time() {
-    return {
-        key("time.steps", "steps", "S, how many steps to run; 0 shows the start.",
-            [](auto& s) -> auto& { return s.steps; })
-            .within({0, largest_steps})
-            .required()
-            .not_physical(),
-        key("time.method", "",
-            "Event-driven: every collision at its time. Time-stepped: at most one collision per "
-            "disc and micro-step; legacy text has this one.",
-            [](auto& s) -> auto& { return s.method; })
-            .formerly("time.collisions"),
-        key("time.micro_steps", "micro-steps/step",
-            "K, the micro-steps of a step. A power of two scales velocities exactly.",
-            [](auto& s) -> auto& { return s.micro_steps; })
-            .within({1, largest_steps}),
-        key("time.sync_every", "micro-steps",
-            "Time between common rewrites of all positions. Another value rounds "
-            "differently. Under strong gravity the default is 32, 16 or less.",
-            [](auto& s) -> auto& { return s.sync_every; })
-            .within({1, 0x1p30}),
-        key("time.accuracy", "1",
-            "A pilot chooses the fastest method with at most this relative error.",
-            [](auto& s) -> auto& { return s.accuracy; })
-            .by_default("none")
-            .within({.low = 0, .excludes_low = true})
-            .excludes({"time.method", "time.micro_steps", "time.precision", "time.arithmetic",
-                       "time.contraction"}),
-        key("time.precision", "", "The precision in which states are computed and stored.",
-            [](auto& s) -> auto& { return s.precision; }),
-        key("time.arithmetic", "",
-            "Naive: contacts by the course program's formula, which loses digits.",
-            [](auto& s) -> auto& { return s.arithmetic; }),
-        key("time.contraction", "", "Fuse the naive formula's products with their sums.",
-            [](auto& s) -> auto& { return s.contraction; })
-            .needs(naive),
-    };
 }
 
 } // namespace
@@ -255,25 +226,39 @@ std::vector<Key> keys_of_other_runs() {
     };
 }
 
+/// Beside a list it is written even where it is the default, because it draws velocities there.
+Key speed_key() {
+    Key speed = key("discs.speed", "length/step",
+                    "Root mean square of the speeds at the start; the heavier count more, by their "
+                    "mass. Beside listed discs it draws their velocities.",
+                    [](auto& s) -> auto& { return s.speed; })
+                    .within({smallest_size, 0x1p-8 * largest_size, false, true})
+                    .needs(speeds);
+    speed.get = [](const SceneParameters& s) {
+        return s.temperature ? Value{} : value_of(s.speed);
+    };
+    speed.compare = [](const SceneParameters& a, const SceneParameters& b) {
+        return a.speed == b.speed && a.draws_velocities == b.draws_velocities;
+    };
+    return speed;
+}
+
 std::vector<Key> keys_of_speeds() {
     return {
-        key("discs.speed", "length/step",
-            "Root mean square of the speeds at the start; the heavier count more, by their mass.",
-            [](auto& s) -> auto& { return s.speed; })
-            .within({smallest_size, 0x1p-8 * largest_size, false, true})
-            .needs(random_speeds),
+        speed_key(),
         key("discs.temperature", "mass length^2/step^2",
-            "kT at the start, in place of the speed: the kinetic energy over N.",
+            "kT at the start, in place of the speed: the kinetic energy over N. Beside listed "
+            "discs it draws their velocities.",
             [](auto& s) -> auto& { return s.temperature; })
             .by_default("from 'discs.speed'")
             .within({.low = 0})
-            .needs(random_speeds)
+            .needs(speeds)
             .excludes({"discs.speed"}),
         key("discs.velocities", "",
             "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
-            "their root mean square.",
+            "their root mean square. Reversed: listed velocities and spins, turned round.",
             [](auto& s) -> auto& { return s.velocities; })
-            .needs(random_speeds),
+            .needs(kinds_of_velocities),
     };
 }
 
@@ -283,12 +268,12 @@ std::vector<Key> keys_of_generation() {
         key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
             [](auto& s) -> auto& { return s.seed; })
             .within({.low = 0})
-            .needs(generated)
+            .needs(seeded)
             .seed(),
         key("discs.streams", "length, length/step",
-            "Adds a velocity to generated discs inside a region.",
+            "Adds a velocity to discs inside a region, beyond the one that is drawn.",
             [](auto& s) -> auto& { return s.streams; })
-            .needs(generated)
+            .needs(seeded)
             .with_rows({{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}),
     };
 }
@@ -304,7 +289,9 @@ std::vector<Key> keys_of_discs() {
         count_key(),
         key("discs.radius", "length", "r, the radius of a disc; or give 'discs.packing'.",
             [](auto& s) -> auto& { return s.radius; })
-            .within(lengths)
+            .within(
+                {smallest_length, largest_size, false, false,
+                 "discs have a size; for points take one that is small against their distances"})
             .needs(equal_discs)
             .required()
             .unless({"discs.packing", "discs.species", "discs.radius.distribution",
@@ -319,12 +306,16 @@ std::vector<Key> keys_of_discs() {
             .by_default("\"random\"; \"file\" with a list or file of discs"),
         list_key(),
         key("discs.file", "",
-            "File of lines `id x y vx vy`, from the scene's folder. Ids are 0 to N-1.",
+            "File of lines `id x y vx vy`, from the scene's folder. Ids are 0 to N-1. Lines "
+            "without "
+            "ids are numbered from 0; a first line may name other columns; `#` begins a comment.",
             [](auto& s) -> auto& { return s.discs_file; })
             .by_default("none")
             .needs(listed)
             .excludes({"discs.list"}),
-        key("discs.columns", "", "Further columns of the file, in their order. Mass needs radius.",
+        key("discs.columns", "",
+            "Columns of the file behind `id x y vx vy`, in their order; or all of them, with x and "
+            "y among them. Mass needs radius.",
             [](auto& s) -> auto& { return s.disc_columns; })
             .needs(listed)
             .excludes({"discs.list"}),
@@ -332,7 +323,6 @@ std::vector<Key> keys_of_discs() {
     for (Key& one : keys_of_speeds()) all.push_back(std::move(one));
     for (Key& one : keys_of_generation()) all.push_back(std::move(one));
     for (Key& one : keys_of_other_runs()) all.push_back(std::move(one));
-    for (Key& one : keys_of_time()) all.push_back(std::move(one));
     return all;
 }
 

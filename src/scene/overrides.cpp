@@ -16,12 +16,17 @@ namespace carrom {
 
 namespace {
 
+bool list_discs(const Settings& settings) {
+    return settings.has("discs.file") || settings.has("discs.list") || settings.has("discs.from");
+}
+
 /// Removes keys of the input without a meaning for the generator that the command line chooses.
-void remove_keys_of_other_generators(Settings& settings, const Settings& given) {
-    const bool lists_discs = given.has("discs.file") || given.has("discs.list") ||
-                             given.has("discs.from");
+/// `were_listed`: the input lists discs.
+void remove_keys_of_other_generators(Settings& settings, const Settings& given, bool were_listed) {
+    const bool lists_discs = list_discs(given);
     if (lists_discs) settings.remove("discs.generator");
     SceneParameters chosen;
+    chosen.draws_velocities = were_listed; // then its speed is meant for listed discs
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)
@@ -99,6 +104,7 @@ void remove_other_forms(Settings& settings, const Settings& given) {
 
 /// Removes settings of the input that are excluded by those of the command line.
 void remove_rivals(Settings& settings, const Settings& given) {
+    const bool were_listed = list_discs(settings);
     for (const Key& key : keys()) {
         for (const std::string_view other : key.instead_of) {
             if (given.has(key.name)) settings.remove(other);
@@ -106,7 +112,7 @@ void remove_rivals(Settings& settings, const Settings& given) {
         }
     }
     remove_other_forms(settings, given);
-    remove_keys_of_other_generators(settings, given);
+    remove_keys_of_other_generators(settings, given, were_listed);
     remove_keys_of_other_kinds(settings, given);
 }
 
@@ -122,6 +128,13 @@ void add_table(Settings& given, Problems& problems, const Place& place, const st
         else
             add_problem(problems, place, unknown_key_text(name, value));
     }
+}
+
+/// A word without the quotes that TOML wants.
+std::string unquoted(const std::string& word) {
+    const bool is_quoted = word.size() > 1 && (word[0] == '"' || word[0] == '\'') &&
+                           word.back() == word[0];
+    return is_quoted ? word.substr(1, word.size() - 2) : word;
 }
 
 /// Takes `table={key = value}` for `table.key=value`, as scenes do.
@@ -165,7 +178,7 @@ void add_overrides(Settings& settings, Problems& problems,
         } else if (word.starts_with('{') && find_table(name)) {
             add_inline_table(given, problems, place, name, word);
         } else if (!key) {
-            add_problem(problems, place, unknown_key_text(name, Value{word}));
+            add_problem(problems, place, unknown_key_text(name, Value{unquoted(word)}));
         } else {
             const auto value = parse_value(*key, word);
             if (!value)

@@ -43,6 +43,12 @@ std::vector<Rule> rules_of_starts() {
              [](const SceneParameters& s) {
                  return s.generator == Generator::triangular && !is_periodic_all_round(s);
              }),
+        rule("discs.velocities = \"reversed\"", "drawn velocities", "it turns listed ones round",
+             {"discs.velocities"},
+             [](const SceneParameters& s) {
+                 return s.velocities == VelocityKind::reversed &&
+                        (s.generator != Generator::file || s.draws_velocities);
+             }),
     };
 }
 

@@ -56,12 +56,19 @@ struct SceneDraft {
                 what(*numbers, number, Place{setting->place.name, row.line});
         }
     }
-    /// Adds "row 2 of 'key': ..." for each row for which fault(row) is not empty.
+    /// Adds "row 2 of 'key': ..." for the first rows for which fault(row) is not empty, and the
+    /// number of the others.
     template <class Fault> void refuse_rows(std::string_view key, const Fault& fault) const {
+        constexpr std::size_t most_listed = 20;
+        std::size_t n_wrong = 0;
         for_each_row(key, [&](const Numbers& row, std::size_t number, const Place& place) {
-            if (const std::string text = fault(row, number - 1); !text.empty())
+            const std::string text = fault(row, number - 1);
+            if (!text.empty() && ++n_wrong <= most_listed)
                 add_problem(problems, place, fmt::format("row {} of '{}': {}", number, key, text));
         });
+        if (n_wrong > most_listed)
+            refuse({key},
+                   fmt::format("and {} more wrong rows of '{}'", n_wrong - most_listed, key));
     }
 };
 
@@ -72,6 +79,14 @@ inline double steps_between_syncs(const SceneParameters& scene) {
 /// Checks the number, sizes, places and speeds of discs. Returns false if box or discs
 /// are not known to be right; then both sizes are 0.
 bool check_discs(const SceneDraft& draft);
+
+/// Refuses conditions of `[time.stop]` on what the scene's discs do not have.
+void check_stop(const SceneDraft& draft);
+
+/// Checks whether `discs.columns` can be those of lines of discs.
+void check_columns(const SceneDraft& draft);
+/// Checks the lengths of the rows of `discs.list`. Places alone need velocities that are drawn.
+void check_rows_of_list(const SceneDraft& draft);
 
 /// Checks numbers of steps, rates and times against each other.
 void check_times(const SceneDraft& draft);

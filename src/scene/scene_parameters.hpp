@@ -29,7 +29,11 @@ enum class Precision { double_, single };
 /// How contacts are found: by the predicate, or by the course program's formula.
 enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, triangular, compressed, legacy, file };
-enum class VelocityKind { maxwell, uniform };
+enum class VelocityKind {
+    maxwell,
+    uniform,
+    reversed ///< given velocities, turned round
+};
 
 /// The lines on standard output: none, steps 0 and S, or every step (the course
 /// program's `perf` and `print`).
@@ -54,9 +58,8 @@ struct NumberRun {
 /// In the order of ids; a column in which all discs begin with 0 has none.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// The numbers that a line of `discs_file` may have after `id x y vx vy`. The columns
-/// beside the states come last.
-enum class DiscColumn : std::size_t { radius, mass, first_side };
+/// The numbers that a line of `discs_file` may have. The columns beside the states come last.
+enum class DiscColumn : std::size_t { id, x, y, vx, vy, radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
     return static_cast<DiscColumn>(static_cast<std::size_t>(DiscColumn::first_side) +
@@ -129,6 +132,14 @@ struct MeasurementOutput {
     void derive(const std::string& setting, double value) { settings[setting] = {value, false}; }
 };
 
+/// `[time.stop]`: ends a run before its last step, at the end of a step in which a sync was.
+struct StopConditions {
+    std::optional<std::int64_t> collisions, departed; ///< numbers since the scene's start
+    std::optional<double> temperature_below, temperature_above;
+    std::optional<double> energy_below, energy_above;
+    std::optional<double> pressure_below, pressure_above;
+};
+
 struct SceneParameters {
     std::string name; ///< the file's name, "standard input" for `-`
     std::string text; ///< the input's own text without lines of discs, for checkpoints
@@ -150,12 +161,14 @@ struct SceneParameters {
     double speed = 1;                            ///< root mean square of the generated speeds
     std::optional<double> temperature;           ///< kT of generated discs, in place of the speed
     VelocityKind velocities = VelocityKind::maxwell;
-    double growth_rate = 0.01; ///< for Generator::compressed: the rate at which the
-                               ///< largest diameter grows, over the root mean square speed
+    bool draws_velocities = false; ///< of listed discs, because `discs.speed` or
+                                   ///< `discs.temperature` stand beside the list
+    double growth_rate = 0.01;     ///< for Generator::compressed: the rate at which the
+                                   ///< largest diameter grows, over the root mean square speed
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
-    std::vector<DiscColumn> disc_columns; ///< columns of `discs_file` in order (`discs.columns`)
+    std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
     FirstNumbers first_numbers;           ///< for columns beside the states
 
     std::int64_t steps = 0;
@@ -166,6 +179,7 @@ struct SceneParameters {
     Arithmetic arithmetic = Arithmetic::stable;
     bool contraction = false; ///< in the products and sums of the naive formula
     std::optional<double> accuracy;
+    StopConditions stop;
 
     Effects effects; ///< times in steps
 

@@ -106,12 +106,10 @@ private:
             if (!find_key(key)) settings_.set({key, {name_, line}, {}});
             walk(*node.as_table(), key + '.');
         } else if (table) {
-            add_problem(problems_, {name_, line},
-                        fmt::format("'{}' must be a table, [{}]", key, key));
+            add_problem(problems_, {name_, line}, table_text(key, to_value(node)));
         } else if (++n_unknown_ <= most_unknown) {
-            const bool is_text = node.is_string();
             add_problem(problems_, {name_, line},
-                        unknown_key_text(key, is_text ? to_value(node) : Value{}));
+                        unknown_key_text(key, node.is_value() ? to_value(node) : Value{}));
         }
     }
 

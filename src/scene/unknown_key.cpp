@@ -30,6 +30,11 @@ std::optional<std::size_t> nearest_of(std::string_view name,
     return nearest;
 }
 
+constexpr std::string_view folder_text =
+    "it is no more: name 'output.folder', where all that a run writes has its place";
+constexpr std::string_view both_partners =
+    "it is of all pairs alike; try: effects.contact.kind and effects.contact.restitution";
+
 std::string_view table_of(std::string_view key) {
     const std::size_t dot = key.rfind('.');
     return key.substr(0, dot == std::string_view::npos ? 0 : dot);
@@ -58,6 +63,45 @@ std::string what_there_is(std::string_view table) {
     return fmt::format("; [{}] has {}", table, list);
 }
 
+/// What people try, and what there is instead.
+constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
+    {"output.checkpoint.folder", folder_text},
+    {"output.trajectory.file", folder_text},
+    {"output.collisions.file", folder_text},
+    {"output.measurements.folder", folder_text},
+    {"box.periodic", "try: box.left.kind = \"periodic\" and box.right.kind = \"periodic\", and the "
+                     "same of bottom and top"},
+    {"discs.polydispersity",
+     "try: discs.radius.distribution = \"lognormal\" and discs.radius.polydispersity"},
+    {"discs.mass", "a disc has the mass 1, which is the unit; discs.species = [{count = N, radius "
+                   "= r, mass = m}] in place of discs.radius gives others"},
+    {"discs.density", "try: discs.packing, the share of the box that discs cover, or discs.count"},
+    {"discs.N", "try: discs.count"},
+    {"discs.n", "try: discs.count"},
+    {"discs.number", "try: discs.count"},
+    {"discs.region",
+     "discs begin in all of the box; try: discs.list or discs.file, which give their "
+     "places"},
+    {"discs.species.restitution", both_partners},
+    {"discs.species.friction", both_partners},
+    {"time.dt", "a step is the unit of time, and collisions come at their exact times; try: "
+                "time.steps, and speeds in lengths per step"},
+    {"time.timestep",
+     "a step is the unit of time; try: time.steps, and speeds in lengths per step"},
+    {"time.collisions", "try: time.stop.collisions, which ends a run by their number; time.method "
+                        "is how they are found"},
+    {"time.stop.kT", "try: time.stop.kT_below or time.stop.kT_above"},
+    {"time.stop.temperature", "try: time.stop.kT_below or time.stop.kT_above"},
+    {"time.stop.energy", "try: time.stop.energy_below or time.stop.energy_above"},
+    {"time.stop.pressure", "try: time.stop.pressure_below or time.stop.pressure_above"},
+};
+
+/// Whether the value can be one of the renamed key. A number is none where it had words.
+bool is_old_value(const Key& key, const Value& value) {
+    const auto* word = std::get_if<std::string>(&value.data);
+    return key.words.empty() || (word ? !parse_double(*word) : value.is_nothing());
+}
+
 std::string renamed_text(const Key& key, std::string_view old, const Value& value) {
     std::string text = fmt::format("'{}' is now '{}'", old, key.name);
     const auto* word = std::get_if<std::string>(&value.data);
@@ -71,21 +115,11 @@ std::string renamed_text(const Key& key, std::string_view old, const Value& valu
 
 std::string unknown_key_text(std::string_view key, const Value& value) {
     for (const Key& known : keys())
-        if (!known.old_name.empty() && known.old_name == key)
+        if (!known.old_name.empty() && known.old_name == key && is_old_value(known, value))
             return renamed_text(known, key, value);
-    for (const std::string_view old : {"output.checkpoint.folder", "output.trajectory.file",
-                                       "output.collisions.file", "output.measurements.folder"})
-        if (key == old)
-            return in_quotes(key) +
-                   " is no more: name 'output.folder', where all that a run writes "
-                   "has its place";
-    if (key == "box.periodic")
-        return "no such key 'box.periodic'; try: box.left.kind = \"periodic\" and "
-               "box.right.kind = \"periodic\", and the same of bottom and top";
-    if (key == "discs.polydispersity")
-        return "no such key 'discs.polydispersity'; try: discs.radius.distribution = "
-               "\"lognormal\" and discs.radius.polydispersity";
-    if (find_table(key)) return in_quotes(key) + " is a table, not a value";
+    if (const std::string text = instead_of(key); !text.empty())
+        return fmt::format("no such key {}; {}", in_quotes(key), text);
+    if (find_table(key)) return table_text(key, value);
     const std::string_view table = table_of(key);
     const bool is_known = !table.empty() && find_table(table);
     const std::vector<std::string_view> names = names_in(table, is_known);
@@ -95,6 +129,32 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     const auto nearest = nearest_of(is_known ? last_of(key) : key, compared);
     return "no such key " + in_quotes(key) +
            (nearest ? fmt::format("; did you mean '{}'?", names[*nearest]) : what_there_is(table));
+}
+
+std::string instead_of(std::string_view key) {
+    for (const auto& [tried, text] : keys_tried)
+        if (tried == key) return std::string(text);
+    return {};
+}
+
+std::string table_text(std::string_view key, const Value& value) {
+    const std::string text = fmt::format("'{}' is a table, not a value", key);
+    const auto try_key = [&](std::string_view name, const std::string& shown) {
+        return fmt::format("{}; try: {}.{} = {}", text, key, name, shown);
+    };
+    const Key* kind = find_key(fmt::format("{}.kind", key));
+    const auto* word = std::get_if<std::string>(&value.data);
+    const auto is_word = [word](std::string_view one) { return one == *word; };
+    if (kind && word && std::ranges::any_of(kind->words, is_word))
+        return try_key("kind", fmt::format("\"{}\"", *word));
+    const auto* real = std::get_if<double>(&value.data);
+    const auto* whole = std::get_if<std::int64_t>(&value.data);
+    const std::string number = real                          ? fmt::format("{:g}", *real)
+                               : whole                       ? fmt::format("{}", *whole)
+                               : word && parse_double(*word) ? *word
+                                                             : "";
+    if (!number.empty() && key == "effects.gravity") return try_key("y", number);
+    return text + what_there_is(key);
 }
 
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote) {

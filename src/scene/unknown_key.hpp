@@ -14,6 +14,12 @@ namespace carrom {
 /// distance, or the existing names.
 std::string unknown_key_text(std::string_view key, const Value& value);
 
+/// What there is instead of a key that people try, as they know it from other programs; else empty.
+std::string instead_of(std::string_view key);
+
+/// The text about a table that the input gives as one value.
+std::string table_text(std::string_view key, const Value& value);
+
 /// "; did you mean \"all\"?" with the nearest of a few names, in `quote`s; empty if
 /// none is near enough: one letter wrong, or up to a third of the letters.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);

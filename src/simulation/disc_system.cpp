@@ -41,6 +41,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
 /// of a run.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
+    const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
     StoredState state;
     BySideColumn<std::vector<double>> numbers;
     const std::size_t n = inputs.size();
@@ -58,7 +59,7 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
             for (const SideColumn column : all_side_columns)
                 if (!scene.first_numbers[column].empty())
                     numbers[column].push_back(first_number(scene, column, input.id) /
-                                              (info_of(column).is_rate ? k : 1));
+                                              (info_of(column).is_rate ? rate_unit : 1));
         }
     }
     for (const SideColumn column : all_side_columns)

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "grading/runs.hpp"
 #include "initial_state/scene_input.hpp"
 #include "parallel/agreement.hpp"
+#include "run/start/scene_source.hpp"
 #include "scene/read_scene.hpp"
 
 namespace carrom {
@@ -67,16 +69,15 @@ std::vector<Problem> reasons_against(const SceneParameters& scene) {
 }
 
 /// Leaves `stream` at the first line of discs, on rank 0. **Collective.**
-SceneParameters read_scene_on_all(const CompareOptions& options, std::istream& stream,
+SceneParameters read_scene_on_all(const CompareOptions& options,
+                                  std::unique_ptr<std::istream>& stream,
                                   const Communicator& ranks) {
-    SceneText text;
-    let_root(ranks, [&] { text = read_scene_text(stream, options.scene); });
-    broadcast(text, ranks);
-    SceneParameters scene = read_scene(text, options.overrides);
-    if (!scene.disc_columns.empty() && !scene.discs_file.empty()) {
-        text.columns = load_columns(scene, &stream, ranks);
-        scene = read_scene(text, options.overrides);
-    }
+    SceneSource source;
+    let_root(ranks, [&] { source.text = read_scene_text(*stream, options.scene); });
+    broadcast(source.text, ranks);
+    source.stream = std::move(stream);
+    SceneParameters scene = read_with_files(source, options.overrides, ranks);
+    stream = std::move(source.stream);
     if (std::vector<Problem> problems = reasons_against(scene); !problems.empty())
         throw InputError(std::move(problems));
     return scene;
@@ -102,22 +103,26 @@ bool grade(ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
 
 /// **Collective.**
 ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
-    std::ifstream scene_file, output_file;
+    std::unique_ptr<std::istream> scene_file;
+    std::ifstream output_file;
     let_root(ranks, [&] {
         std::vector<Problem> problems;
-        const auto open = [&](const std::string& path, std::ifstream& file) {
+        const auto open = [&](const std::string& path, const auto& take) {
             try {
-                file = open_input(path);
+                take(open_input(path));
             } catch (const InputError& error) {
                 problems.insert(problems.end(), error.problems().begin(), error.problems().end());
             }
         };
-        open(options.scene, scene_file);
-        if (options.output != "-") open(options.output, output_file);
+        open(options.scene, [&](std::ifstream file) {
+            scene_file = std::make_unique<std::ifstream>(std::move(file));
+        });
+        if (options.output != "-")
+            open(options.output, [&](std::ifstream file) { output_file = std::move(file); });
         if (!problems.empty()) throw InputError(std::move(problems));
     });
     const SceneParameters scene = read_scene_on_all(options, scene_file, ranks);
-    ComparedRuns runs(scene, load_discs(scene, &scene_file, ranks), ranks);
+    ComparedRuns runs(scene, load_discs(scene, scene_file.get(), ranks), ranks);
     std::istream& output = options.output == "-" ? std::cin : output_file;
     Grader grader(scene, options.tolerance.value_or(1e-6 * scene.radius), output,
                   options.output == "-" ? "standard input" : options.output, options.counts_points);

@@ -37,6 +37,9 @@ public:
     DiscLines(const SceneParameters& scene, const std::string& path, int digits,
               const Communicator& ranks, std::uint64_t slab = default_slab);
 
+    /// Lines of this step, and no later ones, are those of the last step.
+    void end_at(std::int64_t last_step) { last_step_ = last_step; }
+
     /// The next step after `step` that has to be written, or the last one.
     std::int64_t next_due(std::int64_t step) const;
 

@@ -86,6 +86,14 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
+void add_stop(nlohmann::ordered_json& report, const RunResult& result) {
+    if (const auto& reason = result.stop_reason)
+        report["stopped_by"] = {{"key", reason->key},
+                                {"limit", reason->limit},
+                                {"value", reason->value},
+                                {"step", reason->step}};
+}
+
 /// Thermodynamics is at the top of the report, because most readers want it.
 void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& scene,
                         const Averages& averages) {
@@ -193,6 +201,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         {"imbalance", result.imbalance},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
+    add_stop(report, result);
     add_thermodynamics(report, scene, result.averages);
     if (scene.method == Method::time_stepped)
         report["lost_collisions"] = lost_collisions_json(lost_collisions(scene, result));

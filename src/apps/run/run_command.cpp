@@ -96,7 +96,7 @@ public:
         : run_(run), lines_(run.scene(), options.output, options.digits, run.ranks()),
           progress_(run.step(), run.scene().steps, run.ranks().is_root() && !options.quiet),
           last_step_(run.step()) {
-        if (!run.is_restart() || run.step() == run.scene().steps) write_if_due();
+        if (!run.is_restart() || run.step() == run.last_step()) write_if_due();
     }
 
     std::int64_t next_due(std::int64_t step) const override { return lines_.next_due(step); }
@@ -116,6 +116,7 @@ public:
 
 private:
     void write_if_due() {
+        lines_.end_at(run_.last_step());
         if (!lines_.is_due(run_.step())) return;
         progress_.finish(); // both may go to the same terminal
         lines_.write(run_.system());
@@ -141,7 +142,7 @@ bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double
     for (StepAction* action :
          std::initializer_list<StepAction*>{&guard, &shown, &recordings, &checkpoints})
         run.add(*action);
-    bool is_done = checkpoints.act() || run.step() >= scene.steps;
+    bool is_done = checkpoints.act() || run.step() >= run.last_step();
     output_seconds += watch.lap();
     try {
         is_done = is_done && run.advance_to(scene.steps);

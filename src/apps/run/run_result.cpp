@@ -37,6 +37,7 @@ double imbalance_of(double seconds, const Communicator& ranks) {
 void fill_end(RunResult& result, const Run& run) {
     const DiscSystem& system = run.system();
     result.last_step = system.step();
+    result.stop_reason = run.stop_reason();
     result.end = system.totals();
     result.end_numbers = end_numbers_of(run.scene(), system.engine().kept_by_effects());
     result.averages = run.sampler().averages();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ struct RunResult {
     Totals start, end;
     std::vector<EndNumber> end_numbers; ///< of the scene's effects
     std::int64_t first_step = 0, last_step = 0;
+    std::optional<StopReason> stop_reason; ///< if the run ended before the scene's last step
     int ranks = 1;
     int ranks_across = 1;    ///< ranks that share a strip, at most
     int threads = 1;         ///< per rank; the largest if ranks differ

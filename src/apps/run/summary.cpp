@@ -158,13 +158,16 @@ std::string scene_lines(const SceneParameters& scene) {
     return text;
 }
 
-std::string time_lines(const RunResult& result) {
+std::string time_lines(const RunResult& result, std::int64_t last_step) {
     const std::int64_t n_steps = result.last_step - result.first_step;
     std::string text = labelled_line(
         "steps",
         fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
                     result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
                     ns_per_disc_step(result)));
+    if (const auto& reason = result.stop_reason)
+        text += labelled_line("ended", fmt::format("at step {} of {} by {}", reason->step,
+                                                   last_step, text_of(*reason)));
     const std::string across = result.ranks_across == 1
                                    ? ""
                                    : fmt::format(" (up to {} share a strip)", result.ranks_across);
@@ -267,7 +270,8 @@ std::string energy_text(const SceneParameters& scene, const RunResult& result) {
 
 std::string summary_text(const SceneParameters& scene, const RunResult& result) {
     const Totals& end = result.end;
-    std::string text = scene_lines(scene) + time_lines(result) + collision_lines(scene, result);
+    std::string text = scene_lines(scene) + time_lines(result, scene.steps) +
+                       collision_lines(scene, result);
     text += labelled_line("energy", energy_text(scene, result));
     if (scene.measurements) text += labelled_line("measured", measured_text(scene, result.tables));
     text += labelled_line("momentum",

@@ -138,7 +138,8 @@ class Simulation:
     def run(self, steps: int, progress: ProgressLike = None) -> None:
         """Move forward by some steps, and call the actions that are due on the way.
 
-        Other threads of Python run meanwhile. Ctrl-C stops at the end of a step and leaves the
+        A condition of `time.stop` ends the run before, at its step. Other threads of Python run
+        meanwhile. Ctrl-C stops at the end of a step and leaves the
         simulation usable (on several ranks it ends the launcher). An error in an action stops the
         run at its step, with the action's traceback.
 
@@ -178,6 +179,8 @@ class Simulation:
             before = time.perf_counter()
             core.advance(min(stretch, self._actions.next_due(step, end) - step))
             done, step = int(core.step) - step, int(core.step)
+            if done == 0:
+                return  # time.stop has ended the run
             now = time.perf_counter()
             if core.ranks == 1:
                 stretch = max(1, min(int(_STRETCH * done / max(now - before, 1e-9)), 10 * stretch))

@@ -11,6 +11,8 @@
 #include "io/checkpoint.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/slabs.hpp"
+#include "scene/disc_columns.hpp"
+#include "scene/disc_file.hpp"
 #include "scene/disc_reader.hpp"
 #include "stored_scene/discs_from.hpp"
 
@@ -37,7 +39,7 @@ bool takes_discs_from(const SceneParameters& scene) {
     return !scene.discs_from.empty() && scene.discs_file.empty() && scene.listed_discs.empty();
 }
 bool takes_discs_of_file(const SceneParameters& scene) {
-    return !scene.discs_file.empty() && scene.discs_from.empty();
+    return !scene.discs_file.empty() && scene.discs_from.empty() && scene.listed_discs.empty();
 }
 
 /// Why a scene of `n_wanted` discs cannot have those of the file.
@@ -116,6 +118,28 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     return from;
 }
 
+/// What the file of discs says of its columns and number, the same on every rank. A file that
+/// cannot be opened is a problem here only if nothing else would need it. **Collective.**
+std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems& of_root,
+                                          const Communicator& ranks) {
+    std::string all;
+    if (ranks.is_root()) {
+        SurveyOfDiscs survey;
+        const Problems unreadable = problems_of([&] {
+            std::ifstream file = open_input(discs_path(scene));
+            survey = survey_discs(file, scene);
+        });
+        append(of_root, survey.problems);
+        if (scene.n_discs == 0) append(of_root, unreadable);
+        for (const std::string& setting : survey.settings) all += setting + '\n';
+    }
+    ranks.broadcast(all);
+    std::vector<std::string> settings;
+    std::istringstream lines(all);
+    for (std::string line; std::getline(lines, line);) settings.push_back(line);
+    return settings;
+}
+
 } // namespace
 
 SceneParameters read_with_files(SceneSource& source, std::vector<std::string> settings,
@@ -134,8 +158,13 @@ SceneParameters read_with_files(SceneSource& source, std::vector<std::string> se
         source.text.discs_follow = true;
         if (!from.settings.empty()) read_again();
     }
+    if (takes_discs_of_file(scene)) {
+        const std::vector<std::string> of_file = settings_of_file(scene, of_root, ranks);
+        settings.insert(settings.end(), of_file.begin(), of_file.end());
+        if (!of_file.empty()) read_again();
+    }
     const bool has_file = takes_discs_of_file(scene) || takes_discs_from(scene);
-    if (!scene.disc_columns.empty() && has_file) {
+    if (has_columns_beside(scene) && has_file) {
         source.text.columns = load_columns(scene, source.stream.get(), ranks);
         read_again();
     }
@@ -167,10 +196,15 @@ bool are_columns_wrong(const SceneSource& source) {
 
 Problems disc_line_problems_of(const SceneParameters& scene, std::istream* stream) {
     Problems problems;
+    const bool is_known = takes_discs_of_file(scene) && scene.n_discs == 0;
+    if (is_known) return problems; // the number of lines was not found either
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;
                if (takes_discs_of_file(scene)) {
                    std::ifstream file = open_input(discs_path(scene));
+                   if (!survey_discs(file, scene).problems.empty()) return; // found before
+                   file.clear();
+                   file.seekg(0);
                    problems = disc_line_problems(file, scene);
                } else if (stream && scene.discs_follow && scene.discs_file.empty()) {
                    problems = disc_line_problems(*stream, scene);

@@ -29,9 +29,10 @@ struct SceneSource {
 };
 
 /// Reads the scene with the settings on top. Discs of `discs.from` become the lines
-/// that follow its text. Columns of its file of discs are read, too; they are
-/// incomplete if lines are wrong, see `disc_line_problems_of`. Appends to `problems`
-/// what all ranks find, and to `of_root` what rank 0 finds. **Collective.**
+/// that follow its text. What a file of discs says of its columns and number becomes settings.
+/// Columns of its file of discs are read, too; they are incomplete if lines are wrong, see
+/// `disc_line_problems_of`. Appends to `problems` what all ranks find, and to `of_root` what rank 0
+/// finds. **Collective.**
 SceneParameters read_with_files(SceneSource& source, std::vector<std::string> settings,
                                 std::vector<Problem>& problems, std::vector<Problem>& of_root,
                                 const Communicator& ranks);

@@ -32,7 +32,9 @@ TEST_CASE("A packing or a radius that cannot be says what the bound is") {
 }
 
 TEST_CASE("Keys that have no say in the discs are refused") {
-    CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).size() == 2);
+    CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nseed = 1\nvelocities = 'uniform'"))
+              .size() == 2);
+    CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).empty());
     CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'legacy'\nvelocities = 'uniform'"))
               .size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'lattice'\nfile = 'd'")).size() == 1);
@@ -57,7 +59,7 @@ TEST_CASE("Discs listed in the scene must lie in the box and move") {
         good, {"discs.list=[[1, 2, 3], [5, 5, inf, nan], [0, nan, 1, 0], [5, 5, 0, 0]]",
                "discs.count=4"});
     CHECK(inline_rows.size() == 3); // they have no lines of their own
-    CHECK(mentions(inline_rows, "row 1 of 'discs.list' must be numbers, [x, y, vx, vy]"));
+    CHECK(mentions(inline_rows, "row 1 of 'discs.list': three numbers; it takes [x, y]"));
     CHECK(mentions(
         inline_rows,
         "row 2 of 'discs.list': the velocity inf is not a finite number; the velocity nan is not"));

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ends a run before its last step, by the conditions of `[time.stop]`.
+//
+// Conditions are checked at step 0, and at the end of each step in which there was a sync, because
+// the steps of syncs depend on the scene alone. What is compared are exact sums, so that the run
+// ends at the same step on any number of ranks and threads, and over restarts. The pressure is the
+// mean since the last check; a checkpoint keeps the part of that time which has passed. Price of a
+// check: at most two passes over the discs. Without conditions nothing is done.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measure/pressure_sampler.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene_parameters.hpp"
+#include "simulation/advance.hpp"
+#include "simulation/disc_system.hpp"
+
+namespace carrom {
+
+/// What has ended a run.
+struct StopReason {
+    std::string key; ///< the condition
+    double limit = 0, value = 0;
+    std::int64_t step = 0;
+};
+
+/// "time.stop.kT_below = 0.1: 0.0987"
+std::string text_of(const StopReason& reason);
+
+class StopCheck : public StepAction {
+public:
+    /// Goes on from the data of a checkpoint, if there are any; before any step. All arguments must
+    /// outlive this. **Collective.**
+    StopCheck(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks,
+              std::span<const std::int64_t> stored);
+    StopCheck(const StopCheck&) = delete;
+    StopCheck& operator=(const StopCheck&) = delete;
+
+    std::int64_t next_due(std::int64_t step) const override;
+    /// Returns false once a condition holds.
+    bool act() override;
+
+    /// Why the run ends at the present step; nothing as long as it goes on.
+    const std::optional<StopReason>& reason() const { return reason_; }
+    /// For a checkpoint; empty if no pressure is compared. **Collective.**
+    std::vector<std::int64_t> stored();
+
+private:
+    bool is_due(std::int64_t step) const;
+    std::int64_t n_syncs(std::int64_t step) const {
+        return step * scene_.micro_steps / scene_.sync_every;
+    }
+    void keep(KeptNumbers& kept);
+    void measure_pressure();
+    void check();
+    void check_counts();
+    bool holds(const char* name, const std::optional<double>& below,
+               const std::optional<double>& above, double value);
+    bool reaches(const char* name, const std::optional<std::int64_t>& limit, std::uint64_t count);
+
+    const SceneParameters& scene_;
+    DiscSystem& system_;
+    const Communicator& ranks_;
+    bool has_conditions_, has_pressure_;
+    std::optional<PressureSampler> pressure_;
+    double last_pressure_;
+    std::int64_t last_check_;
+    std::optional<StopReason> reason_;
+};
+
+} // namespace carrom
