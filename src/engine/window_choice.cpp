@@ -9,7 +9,7 @@ namespace carrom {
 namespace {
 
 // Times in nanoseconds, on one core, with discs in cache. In main memory all take some
-// 1.2 times as long (docs/log/performance.md).
+// 1.2 times as long.
 constexpr double disc = 30;       ///< for each disc in a window of any length
 constexpr double partner = 1.3;   ///< for each partner within a square of one reach
 constexpr double hit = 85;        ///< for predicting a disc again that was hit inside the window

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-// Measured on one core, in nanoseconds (docs/log/performance.md).
+// Measured on one core, in nanoseconds.
 constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc, once a window
 constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
 constexpr double cost_per_event = 160;

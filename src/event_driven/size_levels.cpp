@@ -8,7 +8,7 @@ namespace carrom {
 
 namespace {
 
-// Costs in instructions, with vectors of eight (docs/log/performance.md).
+// Costs in instructions, with vectors of eight.
 constexpr double cost_per_level = 80;  ///< for a search in a level
 constexpr double cost_per_column = 50; ///< for each column of cells that it searches
 constexpr double cost_per_partner = 4; ///< for each disc in these cells

@@ -177,7 +177,8 @@ File open_alone(const std::string& path, Access access) {
     const Descriptor plain(path, O_RDONLY); // HDF5 would wait for the other end of a pipe
     if (access == Access::read && !check_seal(path)) check_heaps(path);
     if (H5Fis_hdf5(path.c_str()) == 0)
-        throw FileError("is no HDF5 file, so none that carrom has written");
+        throw FileError(
+            "is no HDF5 file, so none that carrom has written; carrom-import takes other formats");
     try {
         return opened(path, access, H5P_DEFAULT);
     } catch (const FileError& error) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program's large arrays ask for huge pages. Discs are accessed out of order, and if a page
 // holds 64 of them, most of the time goes into finding the page. A gas of 1e6 discs is 1.3 times as
-// fast with huge pages (docs/log/performance.md). Systems that always use them are not affected.
+// fast with huge pages on a Xeon. Systems that always use them are not affected.
 //
 // This is for the program only, because a library must not replace its user's memory functions.
 #include <cstddef>

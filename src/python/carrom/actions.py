@@ -5,22 +5,19 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Generic, TypeVar
 
-if TYPE_CHECKING:
-    from carrom.simulation import Simulation
-
-Action = Callable[["Simulation"], object]
+Simulated = TypeVar("Simulated")  # a simulation, which is defined in a module above this one
 
 
-class Actions:
+class Actions(Generic[Simulated]):
     """Functions and the numbers of steps between their calls, in the order of adding."""
 
     def __init__(self) -> None:
         """Have none."""
-        self._of: list[tuple[int, Action]] = []
+        self._of: list[tuple[int, Callable[[Simulated], object]]] = []
 
-    def add(self, interval: int, action: Action) -> None:
+    def add(self, interval: int, action: Callable[[Simulated], object]) -> None:
         """Call the action at each multiple of `interval`."""
         if operator.index(interval) < 1:
             raise ValueError(f"interval is a number of steps, at least 1, not {interval}")
@@ -28,7 +25,7 @@ class Actions:
             raise TypeError(f"an action is a function of the simulation, not {action!r}")
         self._of.append((operator.index(interval), action))
 
-    def forget(self, action: Action) -> None:
+    def forget(self, action: Callable[[Simulated], object]) -> None:
         """Call an action no more."""
         kept = [pair for pair in self._of if pair[1] is not action]
         if len(kept) == len(self._of):
@@ -40,7 +37,7 @@ class Actions:
         dues = ((step // interval + 1) * interval for interval, _ in self._of)
         return min((end, *dues))
 
-    def call(self, simulation: Simulation, step: int) -> None:
+    def call(self, simulation: Simulated, step: int) -> None:
         """Call those that are due at the step."""
         for interval, action in list(self._of):
             if step % interval == 0:

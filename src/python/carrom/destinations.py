@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where files that Python writes may go, by the rules of the program (docs/reference/exit-codes.md).
+"""Where Python may write files, by the rules of the program (docs/reference/exit-codes.md).
 
 Every function of the package that writes to a path of the user asks `refuse_owned` before it
 computes anything, so that no file of a run is lost to a picture or a table.

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import contextlib
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -13,8 +13,30 @@ from carrom.disc_arrays import Array
 from carrom.errors import SceneError
 from carrom.frame import Frame
 
-if TYPE_CHECKING:
-    from carrom.simulation import Simulation
+
+class _Source(Protocol):
+    """What a frame takes of a simulation, whose module stands above this one."""
+
+    box: Array
+    periodic: tuple[bool, bool]
+    radii: Array
+    masses: Array
+    species: Array
+
+    @property
+    def step(self) -> int: ...
+    @property
+    def positions(self) -> Array: ...
+    @property
+    def velocities(self) -> Array: ...
+    @property
+    def spins(self) -> Array: ...
+    @property
+    def wall_collisions(self) -> Array: ...
+    @property
+    def pair_collisions(self) -> Array: ...
+    @property
+    def images(self) -> Array: ...
 
 
 class LocalDiscs(NamedTuple):
@@ -33,7 +55,7 @@ class LocalDiscs(NamedTuple):
 class MemoryFrame(Frame):
     """The discs of a simulation at one step, in float64. Later steps do not change it."""
 
-    def __init__(self, sim: Simulation) -> None:
+    def __init__(self, sim: _Source) -> None:
         """Copy all arrays of a simulation. On several ranks all make the call."""
         self.step = sim.step
         self.box, self.periodic = sim.box, sim.periodic

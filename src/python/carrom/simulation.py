@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carrom import display
-from carrom.actions import Action, Actions
+from carrom.actions import Actions
 from carrom.checkpoints import Checkpoint
 from carrom.core_module import load
 from carrom.destinations import refuse_owned
@@ -41,6 +41,7 @@ from carrom.words import with_arguments
 if TYPE_CHECKING:
     from carrom import _core
 
+Action = Callable[["Simulation"], object]
 _A = TypeVar("_A", bound=Action)
 _STRETCH = 0.1  # seconds between two looks at Ctrl-C and the bar
 
@@ -103,7 +104,7 @@ class Simulation:
         self._made = made
         self._thread = load().thread
         self._first_step = made.step
-        self._actions = Actions()
+        self._actions: Actions[Simulation] = Actions()
         self._changes = Changes()
         self._is_running = False
         facts = made.facts

@@ -16,9 +16,9 @@ Graph = dict[str, set[str]]
 
 
 def modules_of(folder: Path) -> dict[str, str]:
-    """Return the sources of a package by the names of its modules."""
+    """Return the sources of a package by the names of its modules; the extension has a stub."""
     sources = {}
-    for path in folder.rglob("*.py"):
+    for path in [*folder.rglob("*.py"), *folder.rglob("*.pyi")]:
         parts = path.relative_to(folder.parent).with_suffix("").parts
         name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
         sources[name] = path.read_text(encoding="utf-8")

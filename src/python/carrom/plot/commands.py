@@ -94,6 +94,9 @@ def _add_style(command: Any) -> None:
     command.add_argument(
         "--fastest", type=float, help="number of the strongest colour; default: 99 in 100 are below"
     )
+    command.add_argument(
+        "--magnify", type=float, default=1, help="draw discs so many times as large; default 1"
+    )
     command.add_argument("--scene", help="a scene's TOML, to draw its obstacles")
 
 
@@ -103,6 +106,7 @@ def _style(options: Options) -> dict[str, Any]:
         "ranks": options.ranks,
         "view": tuple(options.view) if options.view else None,
         "fastest": options.fastest,
+        "magnify": options.magnify,
         "scene": read_scene(options.scene) if options.scene else None,
     }
 

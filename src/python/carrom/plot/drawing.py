@@ -14,7 +14,7 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection, LineCollection, PatchCollection
 from matplotlib.colors import Colormap, ListedColormap
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, Rectangle
 
 from carrom.disc_arrays import Array
 from carrom.frame import Frame
@@ -45,6 +45,7 @@ class Style:
         cmap: a colour map of matplotlib, instead of the usual one
         bar: whether there is a bar of colours
         limits: the numbers of the first and the last colour, instead of `fastest`
+        magnify: how many times as large as they are discs are drawn
     """
 
     colour: str | npt.ArrayLike = "speed"
@@ -55,11 +56,14 @@ class Style:
     cmap: str | Colormap | None = None
     bar: bool = True
     limits: npt.ArrayLike | None = None
+    magnify: float = 1.0
 
     def __post_init__(self) -> None:
         if isinstance(self.colour, str) and self.colour not in COLOURS:
             known = ", ".join(COLOURS)
             raise ValueError(f"no colour {self.colour!r}; there are {known}, or an array (N,)")
+        if not self.magnify > 0:
+            raise ValueError(f"magnify must be above 0, not {self.magnify}")
         if self.ranks < 1:
             raise ValueError(f"ranks must be at least 1, not {self.ranks}")
         if self.fastest is not None and not self.fastest > 0:
@@ -99,10 +103,11 @@ def frame(
     cmap: str | Colormap | None = None,
     bar: bool = True,
     limits: npt.ArrayLike | None = None,
+    magnify: float = 1.0,
     scene: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw the discs of one step to scale, with obstacles.
+    """Draw the discs of one step to scale, with obstacles and the sides of the box.
 
     Args:
         source: a run, frames, a frame, or a path
@@ -116,11 +121,13 @@ def frame(
         cmap: a colour map of matplotlib
         bar: whether there is a bar of colours
         limits: the numbers of the first and the last colour, instead of `fastest`
+        magnify: draw discs so many times as large as they are, where they would be dots
         scene: where obstacles stand, if the source does not know
         ax: where to draw; a new figure if None
     """
     shown = frame_of(source, step)
-    style = Style(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
+    chosen = colour_of(colour, color)
+    style = Style(chosen, view, fastest, ranks, label, cmap, bar, limits, magnify)
     picture = Picture(shown, style, scene_of(source) if scene is None else scene, ax)
     picture.show(shown)
     return picture.axes
@@ -133,15 +140,19 @@ class Picture:
         self, first: Frame, style: Style, scene: Mapping[str, Any], ax: Axes | None = None
     ) -> None:
         """Set the scale of colours by the first frame; it is the same for all."""
-        if ax is None:
-            _, ax = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
-        self.axes = ax
-        self.style = style
         whole = (0.0, 0.0, *first.box) if style.view is None else style.view
         x0, y0, x1, y1 = np.asarray(whole, dtype=float).tolist()
         self.view = (x0, y0, x1, y1)
+        if ax is None:
+            # A wide view needs no more height than it fills, with room for title and labels.
+            height = min(6.2, max(1.9, 5.4 * (y1 - y0) / (x1 - x0) + 0.9))
+            _, ax = plt.subplots(figsize=(7.2, height), layout="constrained")
+        self.axes = ax
+        self.style = style
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
         _add_obstacles(ax, scene, first.box)
+        self.sides = Rectangle((0, 0), 0, 0, fill=False, edgecolor="0.3", linewidth=1)
+        ax.add_patch(self.sides)
         self.discs = EllipseCollection(
             [],
             [],
@@ -159,10 +170,11 @@ class Picture:
 
     def show(self, frame: Frame) -> None:
         """Show a frame instead of the one before."""
+        self.sides.set(width=frame.box[0], height=frame.box[1])
         x0, y0, x1, y1 = self.view
         x, y, r = frame.x[:, 0], frame.x[:, 1], frame.radius
         seen = frame.present & (x > x0 - r) & (x < x1 + r) & (y > y0 - r) & (y < y1 + r)
-        width = 2 * r[seen]
+        width = 2 * self.style.magnify * r[seen]
         self.discs.set(
             widths=width,
             heights=width,
@@ -170,7 +182,8 @@ class Picture:
             offsets=frame.x[seen],
             array=self._values(frame)[seen],
         )
-        self.axes.set_title(f"step {frame.step}")
+        times = f", discs drawn {self.style.magnify:g} times as large"
+        self.axes.set_title(f"step {frame.step}{times if self.style.magnify != 1 else ''}")
 
     def _values(self, frame: Frame) -> Array:
         colour = self.style.colour

@@ -44,6 +44,7 @@ def movie(
     cmap: str | Colormap | None = None,
     bar: bool = True,
     limits: npt.ArrayLike | None = None,
+    magnify: float = 1.0,
     scene: Mapping[str, Any] | None = None,
     dpi: int = 110,
 ) -> Path:
@@ -66,6 +67,7 @@ def movie(
         cmap: a colour map of matplotlib
         bar: whether there is a bar of colours
         limits: the numbers of the first and the last colour, instead of `fastest`
+        magnify: draw discs so many times as large as they are
         scene: where obstacles stand, if the source does not know
         dpi: dots per inch; the figure is 7.2 x 6.2 inches
     """
@@ -77,7 +79,8 @@ def movie(
         raise FileError(f"{path}: there is no folder {path.parent}")
     ffmpeg = "" if path.suffix == ".gif" else find_ffmpeg()
     frames = frames_of(source)[::every]
-    style = Style(colour_of(colour, color), view, fastest, ranks, label, cmap, bar, limits)
+    chosen = colour_of(colour, color)
+    style = Style(chosen, view, fastest, ranks, label, cmap, bar, limits, magnify)
     film = _Film(frames[0], style, scene_of(source) if scene is None else scene, dpi)
     with tempfile.TemporaryDirectory(prefix=".carrom-", dir=path.parent) as folder:
         part = Path(folder, path.name)
@@ -116,7 +119,7 @@ class _Film:
         self.picture.show(first)
         self.canvas.draw()  # finds the layout, which is slow to find and the same for all
         self.figure.set_layout_engine("none")
-        self.moving = (self.picture.discs, self.picture.axes.title)
+        self.moving = (self.picture.discs, self.picture.sides, self.picture.axes.title)
         for part in self.moving:
             part.set_animated(True)
         self.canvas.draw()
