@@ -10,6 +10,7 @@
 
 #include "core/random_numbers.hpp"
 #include "dynamics/oscillation.hpp"
+#include "scene/key.hpp"
 
 namespace carrom::test {
 
