@@ -6,9 +6,9 @@
 #   src/python/wheel.sh [FOLDER]         puts the wheel into FOLDER; default: build-wheel/dist
 #   pip install FOLDER/carrom-*.whl      brings the program, and MPICH as the package `mpich`
 #
-# The variable PYTHONS names interpreters to build the extension for, in words; default: python3.9 to
-# python3.14, as far as they are there with their headers. One of 3.12 or later serves all of these,
-# because it is built for Python's stable ABI. 3.9, 3.10 and 3.11 need one each: nanobind has
+# The variable PYTHONS names interpreters to build the extension for, in words; default: python3.9
+# to python3.14, as far as they are there with their headers. One of 3.12 or later serves all of
+# these, because it is built for Python's stable ABI. 3.9, 3.10 and 3.11 need one each: nanobind has
 # no stable ABI there. Where a Python has none, all but carrom.Simulation works.
 #
 # The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR; the
@@ -39,8 +39,9 @@ is_of_system() {
 # is_of_gcc PATH: whether a library belongs to the compiler, and so to a release of Debian
 is_of_gcc() { [[ $(basename "$1") =~ ^lib(gcc_s|gomp|stdc\+\+)\.so ]]; }
 
-# libraries_of FILE: the paths of those that a program or an extension brings into the wheel. What MPICH alone needs comes with
-# MPICH, so this follows the names that each file asks for, instead of taking all that are loaded.
+# libraries_of FILE: the paths of those that a program or an extension brings into the wheel. What
+# MPICH alone needs comes with MPICH, so this follows the names that each file asks for, instead of
+# taking all that are loaded.
 libraries_of() {
     local -A paths=() seen=()
     local queue=("$1") file name path
@@ -121,9 +122,9 @@ if (Path(sysconfig.get_path("include")) / "Python.h").exists() and sys.version_i
     done
 }
 
-# static_hdf5_for_libraries FOLDER: a copy of Debian's static HDF5 that shared libraries can hold. It
-# was compiled for programs, so its only fault is that it takes `stderr` and `stdout` from a fixed
-# place: here it finds them under names of its own, in streams.o, which is linked beside it.
+# static_hdf5_for_libraries FOLDER: a copy of Debian's static HDF5 that shared libraries can hold.
+# It was compiled for programs, so its only fault is that it takes `stderr` and `stdout` from a
+# fixed place. Here it finds them under names of its own, in streams.o, which is linked beside it.
 static_hdf5_for_libraries() {
     local library
     library=/usr/lib/$(gcc -print-multiarch)/libhdf5_mpich.a

@@ -40,7 +40,9 @@ def compare(speed: float) -> None:
     whole = carrom.Simulation(scene(10_000, speed, **PERIODIC), threads=1)
     whole.run(20)  # the lattice melts
     cut, before = whole.copy(), whole.collisions
-    pairs = [(seconds(lambda: whole.run(TURNS)), seconds(lambda: loop(cut))) for _ in range(REPEATS)]
+    pairs = []
+    for _ in range(REPEATS):
+        pairs.append((seconds(lambda: whole.run(TURNS)), seconds(lambda: loop(cut))))
     assert whole.state_hash == cut.state_hash
     rate = (whole.collisions - before) * 2 / 10_000 / (TURNS * REPEATS)
     one, each = (1e3 * statistics.median(column) / TURNS for column in zip(*pairs))

@@ -36,7 +36,8 @@ try:
 except carrom.MissingPackageError as error:
     print(error)
 END
-CARROM_CORE=$test_folder/none "$python" scene.py >out 2>err || complain "the scene: $(tail -n 3 err)"
+CARROM_CORE=$test_folder/none "$python" scene.py >out 2>err ||
+    complain "the scene: $(tail -n 3 err)"
 grep -q 'has no table' out || complain 'an absent table is no error'
 grep -q 'needs the extension.*install a wheel that holds it.*-DCARROM_PYTHON=ON' out ||
     complain "carrom.Simulation does not say how to get the extension: $(cat out)"

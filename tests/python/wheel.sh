@@ -95,7 +95,8 @@ print(sim.state_hash, carrom.core_module.load().__file__)
 END
 n_simulated=0
 for python in ${PYTHONS:-python3.{9..14}}; do
-    version=$("$python" -c 'import sys; print("%d%d" % sys.version_info[:2])' 2>/dev/null) || continue
+    version=$("$python" -c 'import sys; print("%d%d" % sys.version_info[:2])' 2>/dev/null) ||
+        continue
     grep -q "_core.cpython-$version-" modules ||
         { [ "$version" -ge 312 ] && grep -q '_core.abi3' modules; } || continue
     rm -rf "$1/wheel-$version"

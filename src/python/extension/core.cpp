@@ -47,30 +47,9 @@ std::vector<std::string> taken_lines(Core& core) {
     return lines;
 }
 
-} // namespace
-
-} // namespace carrom::python
-
-NB_MODULE(_core, module) {
-    using namespace carrom::python;
-    using namespace nb::literals;
-    nb::register_exception_translator(translate);
-    module.doc() = "The library in this process. `carrom.Simulation` is what users call.\n\n"
-                   "\"Collective\": all ranks of the simulation's communicator make the call.";
-    module.def(
-        "make_errors_by", [](nb::object maker) { error_maker() = std::move(maker); }, "maker"_a,
-        "Take the function (lines, exit code) that makes exceptions.");
-    module.def("end_session", end_session, "End MPI with the last simulation.");
-    module.def("mpi_library", carrom::Session::mpi_library,
-               "Return name and version of the MPI library.");
-    module.def("new", new_core, "text"_a, "is_file"_a, "settings"_a, "threads"_a,
-               "communicator"_a.none(),
-               "Begin with a scene, TOML text or the path of a file, and settings KEY=VALUE on "
-               "top. 0 threads: the usual number. Collective.");
-    module.def("from_checkpoint", core_from_checkpoint, "path"_a, "settings"_a, "threads"_a,
-               "communicator"_a.none(), "Go on from a checkpoint's file or folder. Collective.");
-    nb::class_<Core>(module, "Core", "A simulation. Arrays are new ones, in the order of ids.")
-        .def_prop_ro(
+/// Numbers and arrays. Arrays are new ones at each access.
+void add_properties(nb::class_<Core>& core) {
+    core.def_prop_ro(
             "step", [](const Core& core) { return core.simulation.step(); },
             "Steps since the scene's start.")
         .def_prop_ro(
@@ -91,8 +70,12 @@ NB_MODULE(_core, module) {
         .def_prop_ro("totals", totals_of, "Sums over all discs, by name. Collective.")
         .def_prop_ro("averages", averages_of, "Averages and their errors, by name. Collective.")
         .def_prop_ro("tables", tables_of,
-                     "Measurements so far: (name, columns, rows (n, columns), remarks) of each.")
-        .def("taken_lines", taken_lines, "Return the lines printed since the last call.")
+                     "Measurements so far: (name, columns, rows (n, columns), remarks) of each.");
+}
+
+void add_methods(nb::class_<Core>& core) {
+    using namespace nb::literals;
+    core.def("taken_lines", taken_lines, "Return the lines printed since the last call.")
         .def(
             "advance",
             [](Core& core, std::int64_t steps) {
@@ -118,4 +101,32 @@ NB_MODULE(_core, module) {
                             without_lock([&] { return core.simulation.copy(); })};
             },
             "Return an independent simulation of the same state. Collective.");
+}
+
+} // namespace
+
+} // namespace carrom::python
+
+NB_MODULE(_core, module) {
+    using namespace carrom::python;
+    using namespace nb::literals;
+    nb::register_exception_translator(translate);
+    module.doc() = "The library in this process. `carrom.Simulation` is what users call.\n\n"
+                   "\"Collective\": all ranks of the simulation's communicator make the call.";
+    module.def(
+        "make_errors_by", [](nb::object maker) { error_maker() = std::move(maker); }, "maker"_a,
+        "Take the function (lines, exit code) that makes exceptions.");
+    module.def("end_session", end_session, "End MPI with the last simulation.");
+    module.def("mpi_library", carrom::Session::mpi_library,
+               "Return name and version of the MPI library.");
+    module.def("new", new_core, "text"_a, "is_file"_a, "settings"_a, "threads"_a,
+               "communicator"_a.none(),
+               "Begin with a scene, TOML text or the path of a file, and settings KEY=VALUE on "
+               "top. 0 threads: the usual number. Collective.");
+    module.def("from_checkpoint", core_from_checkpoint, "path"_a, "settings"_a, "threads"_a,
+               "communicator"_a.none(), "Go on from a checkpoint's file or folder. Collective.");
+    nb::class_<Core> core(module, "Core",
+                          "A simulation. Arrays are new ones, in the order of ids.");
+    add_properties(core);
+    add_methods(core);
 }
