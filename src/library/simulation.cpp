@@ -17,7 +17,6 @@
 #include "parallel/agreement.hpp"
 #include "parallel/meeting.hpp"
 #include "parallel/sample_sort.hpp"
-#include "run/start/load.hpp"
 #include "run/start/restart.hpp"
 
 namespace carrom {
@@ -134,11 +133,14 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
     wanted.restart = path;
     wanted.overrides = settings;
     wanted.messages = messages_of(options, ranks);
-    Loaded loaded;
-    with_named_keys([&] { load_restart(wanted, loaded, ranks); });
-    loaded.start.counts_images = may_count_images(options, loaded.scene);
-    return Simulation(std::make_unique<State>(std::move(loaded.scene), std::move(loaded.start),
-                                              ranks, tuning_of(options, ranks), wanted.messages));
+    SceneParameters scene;
+    RunStart start;
+    with_named_keys([&] {
+        start = read_restart(plan_restart(wanted, scene, ranks), wanted, scene, ranks).value();
+    });
+    start.counts_images = may_count_images(options, scene);
+    return Simulation(std::make_unique<State>(std::move(scene), std::move(start), ranks,
+                                              tuning_of(options, ranks), wanted.messages));
 }
 
 const SceneFacts& Simulation::scene() const { return live().facts; }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/accuracy/accuracy_study.hpp"
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
 #include "apps/shell/number_words.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "run/files/destinations.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/accuracy/accuracy_table.hpp"
-#include "apps/run/progress.hpp"
+#include "apps/run_command/progress.hpp"
 #include "core/errors.hpp"
 #include "run/files/csv_table.hpp"
 #include "simulation/compression.hpp"

@@ -13,8 +13,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/disc_lines.hpp"
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
+#include "apps/run_command/disc_lines.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "apps/replicas/replicas_join.hpp"
-#include "apps/run/run_command.hpp"
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
+#include "apps/run_command/run_command.hpp"
 #include "apps/shell/number_words.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "parallel/agreement.hpp"

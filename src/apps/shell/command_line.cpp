@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "apps/run/run_command.hpp"
+#include "apps/run_command/run_command.hpp"
 #include "apps/shell/subcommands.hpp"
 #include "io/start_io.hpp"
 #include "machine/machine.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the options of a run to its scene and first discs. All errors of the input show here.
-//
-// Rank 0 opens files and reads; the others get its bytes, so all ranks find the same scene
-// or the same problems. No output of the run has been written when a problem is printed.
+// Carries out the plan of how a run begins: reads the checkpoint or makes the first discs, and
+// claims the outputs. All errors of the input show here or in the plan.
 #pragma once
 
 #include <vector>
@@ -12,6 +10,7 @@
 #include "parallel/communicator.hpp"
 #include "run/start/run_options.hpp"
 #include "run/start/run_start.hpp"
+#include "run/start/start_plan.hpp"
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
@@ -23,16 +22,14 @@ struct Loaded {
     std::vector<WriteLock> locks; ///< rank 0's, on all outputs
 };
 
-/// Throws InputError on every rank with `problems` (found so far, the same on all
-/// ranks), those of the report's path and those of the scene. If there are none, with
-/// those of the outputs' places, of the lines of discs, or of the checkpoint to go on
-/// from. Rank 0 prints the scene's warnings. **Collective.**
-Loaded load(const RunOptions& options, const std::vector<Problem>& problems,
-            const Communicator& ranks);
+/// Throws InputError on every rank with the problems of the checkpoint to go on from, of the
+/// outputs' places, or of the lines of discs. Rank 0 prints the scene's warnings. **Collective.**
+Loaded carry_out(StartPlan plan, const Communicator& ranks);
 
-/// Returns the scene alone; finds the problems of its text and its outputs' places.
-/// Makes and locks nothing. **Collective.**
-SceneParameters load_scene_alone(const RunOptions& options, const std::vector<Problem>& problems,
-                                 const Communicator& ranks);
+/// Plans the start of a run, and carries the plan out. **Collective.**
+inline Loaded load(const RunOptions& options, const std::vector<Problem>& problems,
+                   const Communicator& ranks) {
+    return carry_out(plan_start(options, problems, ranks), ranks);
+}
 
 } // namespace carrom

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,16 +32,18 @@ std::string place_of(const RunOptions& options) {
 /// Whether the newest checkpoint of the run's own folder is wanted.
 bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
 
-/// The folder to search; empty if a file was named. **Collective.**
-std::string folder_to_search(const RunOptions& options, const SceneParameters& scene,
-                             const Communicator& ranks) {
-    if (is_own(options)) {
-        if (scene.checkpoint) return scene.checkpoint->folder;
-        if (!options.folder.empty()) return checkpoints_of_run(options.folder);
-        refuse(options, options.input.empty()
-                            ? "name the folder of the run with -o, or the scene"
-                            : "the run has no folder to search: name output.folder or -o");
-    }
+/// The folder of the run itself.
+std::string own_folder(const RunOptions& options, const SceneParameters& scene) {
+    if (scene.checkpoint) return scene.checkpoint->folder;
+    if (!options.folder.empty()) return checkpoints_of_run(options.folder);
+    refuse(options, options.input.empty() ? "name the folder of the run with -o, or the scene"
+                                          : "the run has no folder to search: name output.folder "
+                                            "or -o");
+}
+
+/// The folder that `--restart` names, or the checkpoints in that folder of a run; empty if it names
+/// a file. **Collective.**
+std::string named_folder(const RunOptions& options, const Communicator& ranks) {
     std::string folder;
     std::error_code ignored;
     if (ranks.is_root() && std::filesystem::is_directory(options.restart, ignored)) {
@@ -138,13 +141,30 @@ std::vector<std::string> earlier_checkpoints(const std::string& folder,
     return paths;
 }
 
-std::vector<std::string> restart_candidates(const RunOptions& options, const SceneParameters& scene,
-                                            const Communicator& ranks) {
-    const std::string folder = folder_to_search(options, scene, ranks);
-    return folder.empty() ? std::vector<std::string>{} : candidates_in(folder, ranks);
+RestartPlan plan_restart(const RunOptions& options, const SceneParameters& scene,
+                         const Communicator& ranks) {
+    using From = RestartPlan::From;
+    if (!goes_on(options)) return {};
+    if (is_own(options)) {
+        std::string folder = own_folder(options, scene);
+        std::vector<std::string> candidates = candidates_in(folder, ranks);
+        return {From::own_folder, std::move(folder), std::move(candidates)};
+    }
+    std::string folder = named_folder(options, ranks);
+    if (folder.empty()) return {From::file, options.restart, {options.restart}};
+    std::vector<std::string> candidates = candidates_in(folder, ranks);
+    return {From::folder, std::move(folder), std::move(candidates)};
 }
 
-void begin_anew(const RunOptions& options, const SceneParameters& scene,
+bool has_other_checkpoints(RestartPlan& plan, const Communicator& ranks) {
+    if (!plan.goes_on() || plan.from == RestartPlan::From::file) return false;
+    std::vector<std::string> now = candidates_in(plan.place, ranks);
+    const bool are_others = now != plan.candidates;
+    plan.candidates = std::move(now);
+    return are_others;
+}
+
+void begin_anew(const RestartPlan& plan, const RunOptions& options, const SceneParameters& scene,
                 const Communicator& ranks) {
     let_root(ranks, [&] {
         const std::string recorded = recorded_beyond_start(scene.folder);
@@ -153,33 +173,33 @@ void begin_anew(const RunOptions& options, const SceneParameters& scene,
                                         "anew by --overwrite, or name another folder",
                                         scene.folder, recorded));
     });
-    options.messages.warn("no checkpoint in {}: beginning at step 0\n",
-                          folder_to_search(options, scene, ranks));
+    options.messages.warn("no checkpoint in {}: beginning at step 0\n", plan.place);
 }
 
-void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {
-    const std::string folder = folder_to_search(options, loaded.scene, ranks);
+std::optional<RunStart> read_restart(const RestartPlan& plan, const RunOptions& options,
+                                     SceneParameters& scene, const Communicator& ranks) {
+    using From = RestartPlan::From;
+    if (!plan.goes_on()) return std::nullopt;
     std::optional<Checkpoint> checkpoint;
-    if (folder.empty()) {
-        checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
+    if (plan.from == From::file) {
+        checkpoint = read_matching(plan.place, options, scene, ranks);
     } else {
-        const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
-        checkpoint = read_newest(paths, options, loaded.scene, ranks);
-        if (!checkpoint && !paths.empty())
-            refuse(options, folder + ": no checkpoint there can be gone on from");
-        if (!checkpoint && !is_own(options))
+        checkpoint = read_newest(plan.candidates, options, scene, ranks);
+        if (!checkpoint && !plan.candidates.empty())
+            refuse(options, plan.place + ": no checkpoint there can be gone on from");
+        if (!checkpoint && plan.from != From::own_folder)
             refuse(options, "there is no checkpoint; only `latest` and --resume may begin anew");
         if (!checkpoint && options.input.empty())
-            refuse(options, folder + ": there is no checkpoint, and no scene to begin with");
+            refuse(options, plan.place + ": there is no checkpoint, and no scene to begin with");
     }
-    if (!checkpoint) return;
+    if (!checkpoint) return std::nullopt;
     const CheckpointHeader& header = checkpoint->header;
-    if (loaded.scene.steps < header.step)
+    if (scene.steps < header.step)
         refuse(options,
                fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
-                           header.step, loaded.scene.steps));
+                           header.step, scene.steps));
     options.messages.note("going on from step {}\n", header.step);
-    loaded.start = start_of(std::move(*checkpoint));
+    return start_of(std::move(*checkpoint));
 }
 
 RunStart start_of(Checkpoint checkpoint) {

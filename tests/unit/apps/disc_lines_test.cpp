@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 
-#include "apps/run/disc_lines.hpp"
+#include "apps/run_command/disc_lines.hpp"
 
 namespace carrom {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "catch.hpp"
 
-#include "apps/run/progress.hpp"
+#include "apps/run_command/progress.hpp"
 
 namespace carrom {
 

@@ -2,8 +2,8 @@
 #include "catch.hpp"
 #include <nlohmann/json.hpp>
 
-#include "apps/run/report.hpp"
-#include "apps/run/summary.hpp"
+#include "apps/run_command/report.hpp"
+#include "apps/run_command/summary.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/summary.hpp"
+#include "apps/run_command/summary.hpp"
 
 #include <algorithm>
 #include <cmath>

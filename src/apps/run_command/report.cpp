@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/report.hpp"
+#include "apps/run_command/report.hpp"
 
 #include <cmath>
 #include <limits>

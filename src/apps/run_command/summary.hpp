@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/run/run_result.hpp"
+#include "apps/run_command/run_result.hpp"
 
 namespace carrom {
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measure what a whole node does: how near one run on all cores comes to separate runs on each.
 
-  tests/performance/node.py CARROM [--seconds 120] [--csv FILE] [--mpiexec mpiexec]
+  tests/studies/node.py CARROM [--seconds 120] [--csv FILE] [--mpiexec mpiexec]
 
 It needs nothing but the program, and an mpiexec for more than one rank. A case is a method, a kind
 of sides, a number of discs and of steps. For each it runs, one after another,

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
 #include "apps/shell/command_line.hpp"
 
 namespace carrom {

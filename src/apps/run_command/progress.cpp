@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/progress.hpp"
+#include "apps/run_command/progress.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/run_result.hpp"
+#include "apps/run_command/run_result.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // summary at the end.
 #pragma once
 
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
 #include "apps/shell/subcommand.hpp"
 
 namespace carrom {

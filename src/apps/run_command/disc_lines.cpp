@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/disc_lines.hpp"
+#include "apps/run_command/disc_lines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <span>
 
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
 #include "core/errors.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/exchange.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/run_command.hpp"
+#include "apps/run_command/run_command.hpp"
 
 #include <algorithm>
 #include <initializer_list>
@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/disc_lines.hpp"
-#include "apps/run/progress.hpp"
-#include "apps/run/report.hpp"
-#include "apps/run/run_options.hpp"
-#include "apps/run/summary.hpp"
+#include "apps/run_command/command_options.hpp"
+#include "apps/run_command/disc_lines.hpp"
+#include "apps/run_command/progress.hpp"
+#include "apps/run_command/report.hpp"
+#include "apps/run_command/summary.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
 #include "core/stop_request.hpp"

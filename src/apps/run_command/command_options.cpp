@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/run_options.hpp"
+#include "apps/run_command/command_options.hpp"
 
 #include <limits>
 
