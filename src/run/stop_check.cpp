@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "simulation/disc_statistics.hpp"
+
 namespace carrom {
 
 namespace {
@@ -73,7 +75,7 @@ void StopCheck::check() {
     check_counts();
     if (reason_) return;
     if (stop.temperature_below || stop.temperature_above) {
-        const double kt = temperature_at(system_.averaged_system(), system_.motion_sample());
+        const double kt = temperature_at(system_.averaged_system(), motion_sample(system_));
         if (holds("kT", stop.temperature_below, stop.temperature_above, kt)) return;
     }
     if (stop.energy_below || stop.energy_above) {
