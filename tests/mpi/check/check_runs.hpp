@@ -87,7 +87,7 @@ struct NamedEffects {
     Effects effects;
     bool is_for_one;
 };
-inline std::vector<NamedEffects> all_effects() {
+inline std::vector<NamedEffects> named_effects() {
     Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed, sinking, shaken;
     none.contact.kind = ContactKind::none;
     lossy.contact = {ContactKind::restitution, 0.8, 0.001};

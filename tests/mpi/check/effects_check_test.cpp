@@ -10,7 +10,7 @@ using namespace carrom::test;
 TEST_CASE("check: nothing is wrong in scenes with effects") {
     const Communicator world = Communicator::world();
     std::size_t number = 0;
-    for (const NamedEffects& named : all_effects()) {
+    for (const NamedEffects& named : named_effects()) {
         ++number;
         for (const Method method : both) {
             if (is_left_to_others(number + (method == Method::time_stepped))) continue;
@@ -63,7 +63,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
     const auto collided_disc_faster = [&](double factor) {
         return [=](OneStep& step) { faster(step.first_pair().p, factor)(step); };
     };
-    for (const NamedEffects& named : all_effects()) {
+    for (const NamedEffects& named : named_effects()) {
         INFO(named.name);
         CHECK(found_in(named.effects, [](OneStep&) {}) == std::nullopt);
         CHECK(found_in(named.effects, free_disc_faster(1 + 1e-9)) == Invariant::motion);
@@ -77,7 +77,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
         if (const DiscState* const disc = step.own(id))
             step.spins[static_cast<std::size_t>(disc - step.local_view.discs.data())] += 0.2;
     };
-    for (const NamedEffects& named : all_effects()) {
+    for (const NamedEffects& named : named_effects()) {
         if (named.effects.contact.kind != ContactKind::rough) continue;
         CHECK(found_in(named.effects, [&](OneStep& step) {
                   turns_faster(step, step.free_disc());
