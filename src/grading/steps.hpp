@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "grading/lines.hpp"
 #include "core/disc_state.hpp"
+#include "grading/lines.hpp"
 
 namespace carrom {
 

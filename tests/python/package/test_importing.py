@@ -305,6 +305,26 @@ def test_formats_by_another_name(program: Path, source: carrom.Run, tmp_path: Pa
         read_discs(noise)
 
 
+def test_no_file_of_a_run_is_replaced(
+    program: Path, source: carrom.Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "rows.txt"
+    file.write_text(GOOD, encoding="ascii")
+    before = trajectory(source).read_bytes()
+    for output, message in (
+        (trajectory(source), "is a file of the run in"),
+        (file, "is the file to import"),
+    ):
+        assert main([str(file), "-o", str(output), "--box", "10"]) == 2
+        assert message in capsys.readouterr().err
+    assert main([str(tmp_path / "nowhere.txt"), "-o", str(file)]) == 2
+    assert "nowhere.txt: No such file" in capsys.readouterr().err
+    assert file.read_text(encoding="ascii") == GOOD
+    assert trajectory(source).read_bytes() == before
+    for _ in range(2):  # an earlier import is replaced
+        assert main([str(file), "-o", str(tmp_path / "discs.h5"), "--box", "10"]) == 0
+
+
 def test_10_gb_do_not_fill_the_memory(tmp_path: Path) -> None:
     """Sparse files, which take no room on the disk."""
     for begin, message in (

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from carrom.destinations import refuse_owned
 from carrom.errors import FileError, InputError
 from carrom.importing import gsd, lammps, rows, xyz
 from carrom.importing.discs import Box, Discs
@@ -254,8 +255,11 @@ def import_discs(
         FileError: the file is wrong, or says too little
         InputError: the program refuses the discs
     """
-    discs = read_discs(path, choice)
     output = Path(output)
+    refuse_owned(output, begins=(b"\x89HDF",))
+    if output.exists() and Path(path).exists() and output.samefile(path):
+        raise FileError(f"{output}: is the file to import; name another output")
+    discs = read_discs(path, choice)
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder) / "scene.toml"
         columns = [discs.columns[name].tolist() for name in ("x", "y", "vx", "vy")]
