@@ -4,8 +4,8 @@
 # lies differs by system: Debian has it by the name of the package, conda and Arch by that of the
 # library, and a prefix or a copy of the sources beside the headers.
 
-# install_license(NAME FOLDER PACKAGE...): the first file that is found, beside the FOLDER of headers or
-# under the name of a package
+# install_license(NAME FOLDER PACKAGE...): the first file that is found, beside the FOLDER of
+# headers or under the name of a package
 function(install_license name include)
   set(places ${include} ${include}/.. ${include}/../share/licenses/${name}
              ${include}/../share/doc/${name} ${include}/../../../info/licenses)

@@ -384,12 +384,6 @@ Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     return first;
 }
 
-double StateCheck::n_syncs_since(std::int64_t micro_step) const {
-    const std::int64_t n_all = micro_steps_done_ / scene_.sync_every,
-                       n_before = micro_step / scene_.sync_every;
-    return static_cast<double>(n_all - n_before);
-}
-
 int StateCheck::slab_of_disc(DiscId id) const {
     return slab_of(id, scene_.n_discs, communicator_.size());
 }

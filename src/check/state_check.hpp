@@ -115,7 +115,10 @@ private:
     /// The share of energy that is left since the last check, and how long ago that was.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
-    double n_syncs_since(std::int64_t micro_step) const;
+    double n_syncs_since(std::int64_t micro_step) const {
+        const std::int64_t interval = scene_.sync_every;
+        return static_cast<double>(micro_steps_done_ / interval - micro_step / interval);
+    }
     /// Whether effects at syncs have changed velocities since the last inspection.
     bool were_rewritten() const { return acts_at_syncs_ && n_syncs_since(micro_steps_before_) > 0; }
     void note_speeds();

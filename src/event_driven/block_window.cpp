@@ -142,10 +142,10 @@ double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
                  bounces = bounce_rate(needs) * choice.duration;
     const double tries = partners * (cost_per_partner +
                                      cost_per_candidate * share_met(needs, choice.duration));
-    const double run_blocks = cost_per_copy + tries / 2 + collisions * (cost_per_event + 2 * tries) +
+    const double run_blocks = cost_per_copy + tries / 2 +
+                              collisions * (cost_per_event + 2 * tries) +
                               bounces * (cost_per_event + tries);
-    const double wait = (cost_per_choice + cost_per_window * needs.n_threads) /
-                        (needs.n_discs + 1);
+    const double wait = (cost_per_choice + cost_per_window * needs.n_threads) / (needs.n_discs + 1);
     return (cost_per_disc + wait + share * run_blocks) / choice.duration;
 }
 

@@ -39,8 +39,8 @@ void check_threads(int threads, const Communicator& ranks);
 std::string limit_in_the_way();
 
 /// A warning with the number of threads to take if a rank has more threads than cores, if ranks
-/// that share cores have more than twice as many together, or if a rank has more than its discs keep at work;
-/// else empty. **Collective.**
+/// that share cores have more than twice as many together, or if a rank has more than its discs
+/// keep at work; else empty. **Collective.**
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks);
 

@@ -8,8 +8,8 @@ Rough discs of two sizes, with the mean diameter d, fill a silo with a flat floo
 through an opening of the width D in its middle. Their contacts last from sync to sync. Prints CSV:
 for each opening the discs that leave in a step, as mean and standard error over the seeds, and what
 the fitted law gives. W^(2/3) is a straight line in D, whose slope is C^(2/3) and whose zero is k d.
-The last line has k and C in units of d and sqrt(g / d), and the exponent that fits best for k = 1.5,
-with standard errors from leaving out one seed at a time.
+The last line has k and C in units of d and sqrt(g / d), and the exponent that fits best for
+k = 1.5, with standard errors from leaving out one seed at a time.
 
 The code is 1 where k is more than three standard errors outside 1 to 2 (Beverloo, Leniger and van
 de Velde, Chem. Eng. Sci. 15, 260 (1961)), the exponent as many from 1.5, a flow from the law, or

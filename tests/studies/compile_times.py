@@ -54,7 +54,8 @@ def core_seconds(command, folder):
 
 def processor():
     try:
-        found = re.search(r"^model name\s*:\s*(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+        found = re.search(r"^model name\s*:\s*(.*)$", pathlib.Path("/proc/cpuinfo").read_text(),
+                          re.M)
     except OSError:
         found = None
     return found.group(1).strip() if found else platform.machine()

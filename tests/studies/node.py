@@ -146,7 +146,8 @@ def line_of(row):
     """A row for the eye; phases below a percent are left out."""
     phases = ", ".join(f"{phase} {row[phase]:.0f}" for phase in WORK_OF_PHASES if row[phase] >= 1)
     return (f"{row['method']:<13}{row['gas']:<9}{row['sides']:<9}{row['discs']:>7}"
-            f"{row['steps']:>6} {row['shape']:<9}{row['millions_a_second']:>9.2f}{row['share_of_separate']:>6.2f}"
+            f"{row['steps']:>6} {row['shape']:<9}{row['millions_a_second']:>9.2f}"
+            f"{row['share_of_separate']:>6.2f}"
             f"{row['seconds']:>8.2f}{row['set_up']:>7.2f}  {phases}")
 
 

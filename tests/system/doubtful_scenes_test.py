@@ -98,7 +98,8 @@ class DoubtfulScenes(ProgramTest):
                               lambda x, y: math.hypot(x - 20, y - 20) < 9)
         # Across a periodic side, and between a disc and a wall.
         self.check_closed(PERIODIC + GAS + obstacles(
-            [[4, 5, 36, 5], [36.9, 5, 40, 5], [0, 5, 3.1, 5], [0, 20, 40, 20]]), lambda x, y: 5 < y < 20)
+            [[4, 5, 36, 5], [36.9, 5, 40, 5], [0, 5, 3.1, 5], [0, 20, 40, 20]]),
+            lambda x, y: 5 < y < 20)
         self.check_closed(BOX + GAS + obstacles([[0, 12, 36, 12]], [[37.6, 12, 1.5]]),
                           lambda x, y: y < 12)
 

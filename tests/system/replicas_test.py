@@ -11,7 +11,8 @@ import statistics
 from program import SOURCES, ProgramTest, main
 
 SCENE = [SOURCES / "inputs/gas.toml", "--set", "discs.count=300", "--set", "discs.packing=0.2",
-         "--set", "time.steps=300", "--set", "output.measurements.quantities=['velocities']", "--set",
+         "--set", "time.steps=300", "--set",
+         "output.measurements.quantities=['velocities']", "--set",
          "output.measurements.every_steps=10"]
 
 

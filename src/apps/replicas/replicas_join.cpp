@@ -163,7 +163,8 @@ public:
 
 private:
     void add(std::vector<std::string>& list, const char* name, std::size_t n) const {
-        if (n * 4 > n_replicas_) list.push_back(fmt::format("{} in {} of {}", name, n, n_replicas_));
+        if (n * 4 > n_replicas_)
+            list.push_back(fmt::format("{} in {} of {}", name, n, n_replicas_));
     }
 
     std::size_t n_replicas_;

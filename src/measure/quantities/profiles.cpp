@@ -337,15 +337,15 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
          "in_pairs: discs in samples with two or more in the cell, the weight of temperature; "
          "density: discs per area; vx, vy: of the centre of mass; temperature: kT about that, with "
          "its degrees of freedom given back; xx, xy, yy: kinetic part of the pressure tensor; "
-         "heat_x, "
-         "heat_y: flow of heat; contact_*: collisions' parts, shared along the line of centres",
+         "heat_x, heat_y: flow of heat; contact_*: collisions' parts, shared along the line of "
+         "centres",
          "lengths in the scene's unit, times in steps; nan without discs or time"},
         {"to_step"},
         {}};
     if (is_grid) table.columns.insert(table.columns.end(), {"x", "y"});
     table.columns.insert(table.columns.end(),
-                         {"count", "in_pairs", "density", "vx", "vy", "temperature", "xx", "xy", "yy",
-                          "contact_xx", "contact_xy", "contact_yy", "heat_x", "heat_y",
+                         {"count", "in_pairs", "density", "vx", "vy", "temperature", "xx", "xy",
+                          "yy", "contact_xx", "contact_xy", "contact_yy", "heat_x", "heat_y",
                           "contact_heat_x", "contact_heat_y"});
     for (std::size_t block = 0; 6 * block < heads_.size(); ++block) {
         BlockHead head;

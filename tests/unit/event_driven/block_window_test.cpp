@@ -58,7 +58,8 @@ TEST_CASE(
     CHECK(choose_block_window(needs, 64, std::nullopt).halo == 2);
 }
 
-TEST_CASE("exact window: in a thin gas a window ends long before a disc could come to most others") {
+TEST_CASE(
+    "exact window: in a thin gas a window ends long before a disc could come to most others") {
     // Measured: 0.10 s of windows of 0.25, 0.17 of 0.5, 1.3 of 2 and 0.55 of 38, for 300 steps.
     BlockNeeds needs;
     needs.box = 1000;
