@@ -4,8 +4,7 @@
 //
 // What discs carry is sampled. What collisions carry is not: each one counts, and its impulse times
 // distance is shared by length among the cells on the line between both centres, so that the force
-// across any line of the grid is right. Price: a pass over discs and cells at each sample, and some
-// hundred instructions for each collision.
+// across any line of the grid is right. Price: a pass over discs a sample, 100 instructions a collision.
 #include <algorithm>
 #include <array>
 #include <cmath>
