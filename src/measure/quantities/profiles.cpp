@@ -2,9 +2,9 @@
 // "profiles": density, velocity, temperature about the local mean, the pressure tensor and the flow
 // of heat, on a grid of cells, averaged over one block of time after another.
 //
-// What discs carry is sampled. What collisions carry is not: each one counts, and its impulse times
-// distance is shared by length among the cells on the line between both centres, so that the force
-// across any line of the grid is right. Price: a pass over discs a sample, 100 instructions a collision.
+// What discs carry is sampled. Each collision counts: its impulse times distance is shared by length
+// among the cells on the line between both centres, so that the force across any line of the grid
+// is right. Price: a pass over discs and cells a sample, and some hundred instructions a collision.
 #include <algorithm>
 #include <array>
 #include <cmath>
