@@ -2,7 +2,7 @@
 // "profiles": density, velocity, temperature about the local mean, the pressure tensor and the flow
 // of heat, on a grid of cells, averaged over one block of time after another.
 //
-// What discs carry is sampled. Each collision counts: its impulse times distance is shared by length
+// What discs carry is sampled. Each collision counts: impulse times distance is shared by length
 // among the cells on the line between both centres, so that the force across any line of the grid
 // is right. Price: a pass over discs and cells a sample, and some hundred instructions a collision.
 #include <algorithm>
