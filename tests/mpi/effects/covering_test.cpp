@@ -186,6 +186,7 @@ bool is_excluded(const std::string& a, const std::string& b) {
         {"growing", "rough"},
         {"growing", "thermal"},
         {"growing", "moving"},
+        {"growing", "oscillating"},
         {"growing", "open"},
         {"growing", "gravity down"},
         {"growing", "gravity aslant"},
