@@ -3,10 +3,10 @@
 // inside a polygon of segments. There they have another density than the scene seems to say.
 //
 // The box is covered with points two thirds of the smallest radius apart. Those where the smallest
-// disc would overlap an obstacle by more than that are blocked, and those near the lines across gaps
-// that are too narrow (narrow_gaps.hpp). A flood fill finds which others hang together. So a gap
-// counts as a way out if the smallest disc fits through. A region at an open side has a way out. Four bytes and a few
-// nanoseconds a point on each rank.
+// disc would overlap an obstacle by more than that are blocked, and those near the lines across
+// gaps that are too narrow (narrow_gaps.hpp). A flood fill finds which others hang together. So a
+// gap counts as a way out if the smallest disc fits through. A region at an open side has a way
+// out. Four bytes and a few nanoseconds a point on each rank.
 #pragma once
 
 #include <cstdint>

@@ -74,8 +74,8 @@ void add_walls(const SceneParameters& scene, const std::vector<Body>& bodies, do
         return kind == BoundaryKind::wall || kind == BoundaryKind::thermal;
     };
     for (const Body& body : bodies)
-        for (const auto& [x, y] : {std::pair(body.line.x0, body.line.y0),
-                                   std::pair(body.line.x1, body.line.y1)}) {
+        for (const auto& [x, y] :
+             {std::pair(body.line.x0, body.line.y0), std::pair(body.line.x1, body.line.y1)}) {
             const double most = width + body.radius;
             if (is_wall(0) && x < most) lines.push_back({0, y, x, y});
             if (is_wall(1) && box.x - x < most) lines.push_back({x, y, box.x, y});

@@ -117,7 +117,9 @@ std::size_t stack_of_threads() {
                               ? 1
                               : static_cast<int>(unit / 2);
         const double bytes = std::ldexp(number, 10 * power);
-        return bytes >= static_cast<double>(PTHREAD_STACK_MIN) && bytes < 0x1p62 ? static_cast<std::size_t>(bytes) : 0;
+        return bytes >= static_cast<double>(PTHREAD_STACK_MIN) && bytes < 0x1p62
+                   ? static_cast<std::size_t>(bytes)
+                   : 0;
     }
     return 0;
 }

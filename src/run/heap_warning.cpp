@@ -47,6 +47,12 @@ constexpr std::int64_t intervals_of_flow = 16;
 /// Of the speed at which discs pass each other; a key below that is named.
 constexpr double enough = 0.8;
 
+/// To one digit.
+double rounded_up(double value) {
+    const double digit = std::pow(10, std::floor(std::log10(value)));
+    return value > 0 ? std::ceil(value / digit) * digit : 0;
+}
+
 } // namespace
 
 HeapWarning::HeapWarning(const SceneParameters& scene, const DiscSystem& system,
@@ -66,8 +72,7 @@ bool HeapWarning::may_warn(const SceneParameters& scene) {
 bool HeapWarning::act() {
     const std::int64_t steps = system_.step() - last_step_,
                        intervals = scene_.effects.lasting_speed > 0 ? intervals_of_flow : 1;
-    if (!is_watching_ || steps == 0 ||
-        steps * scene_.micro_steps < intervals * scene_.sync_every)
+    if (!is_watching_ || steps == 0 || steps * scene_.micro_steps < intervals * scene_.sync_every)
         return true;
     const std::uint64_t collisions = n_collisions();
     const double per_step = static_cast<double>(collisions - last_collisions_) /
@@ -102,11 +107,11 @@ std::string HeapWarning::text_on_flow(double per_step) const {
     // Above these speeds the scene would be an error, or impacts would lose more than they should.
     const Gravity& gravity = scene_.effects.gravity;
     const double radius = smallest_radius(scene_), pull = std::hypot(gravity.x, gravity.y),
-                 best = std::min({speed_of_passing(), 2 * radius / time,
+                 best = std::min({rounded_up(speed_of_passing()), 2 * radius / time,
                                   2 * std::sqrt(2 * pull * radius)});
     if (!(scene_.effects.lasting_speed < enough * best)) return {};
     return fmt::format("though contacts last that are slower than {:g}: discs flow past each other "
-                       "faster than that, and bounce until the next sync; try: {} = {:.1g}",
+                       "faster than that, and bounce until the next sync; try: {} = {:.2g}",
                        scene_.effects.lasting_speed, lasting_key, best);
 }
 

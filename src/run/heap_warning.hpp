@@ -6,9 +6,9 @@
 // that fly collide far less often, because a contact time is much shorter than their flights. So
 // more than one collision of a disc in a contact time, in the mean over the time between two syncs,
 // tells heaps from gases at any speed and density. Where contacts last, a disc collides a few times
-// between two syncs. In a flow with too small a `speed` it has a hundred collisions: discs that meet
-// faster are no lasting contacts, and bounce in the crowd until the next sync. Price: a sum over the
-// discs and the ranks in that time, in scenes with gravity and losses alone.
+// between two syncs. In a flow with too small a `speed` it has a hundred collisions: discs that
+// meet faster are no lasting contacts, and bounce in the crowd until the next sync. Price: a sum
+// over the discs and the ranks in that time, in scenes with gravity and losses alone.
 #pragma once
 
 #include <cstdint>
