@@ -32,6 +32,7 @@ FAULTS = {  # of a test: what it does, and how its output counts that
     "output_failure": ("outputs that cannot be written", RUNS),
     "destinations": ("outputs named as files of a run, of replicas, or of another kind", RUNS),
     "special_files": ("pipes and sockets in the place of files, texts nested without end", RUNS),
+    "damaged_files": ("any range of a file's bytes overwritten, heaps on which HDF5 loops", RUNS),
     "sizes": ("radii from the tails of a distribution, and from narrow ones", RUNS),
     "machine_limits": ("limits and settings for which OpenMP or MPI ends a program", RUNS),
     "compare": ("wrong lines of students, numbers that no run has", RUNS),

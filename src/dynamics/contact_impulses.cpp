@@ -18,6 +18,15 @@ constexpr double small_change = 0.005;
 /// Impulses begin from those of the last sync, so a sync need not find all of them. Sweeps at most
 /// for n contacts: that many and the root of n.
 constexpr double sweeps_at_most = 20;
+/// In a flow contacts change from sync to sync, so the last impulses are no good begin. Discs that
+/// are left with wrong ones meet until the next sync, which takes longer than the sweeps.
+constexpr double sweeps_of_flow = 400;
+
+/// Whether gravity pulls along periodic sides, so that discs may flow on without end.
+bool may_flow_on(const Effects& effects) {
+    return (effects.gravity.x != 0 && effects.is_periodic_x()) ||
+           (effects.gravity.y != 0 && effects.is_periodic_y());
+}
 
 } // namespace
 
@@ -50,7 +59,8 @@ ContactImpulses::ContactImpulses(const Box& box, const Effects& effects,
       pull_(std::hypot(effects.gravity.x, effects.gravity.y) * interval),
       fall_x_((0.5 * effects.gravity.x) * interval), fall_y_((0.5 * effects.gravity.y) * interval),
       rest_gap_(pull_ * interval / 8),
-      turning_(effects.contact.kind == ContactKind::rough ? 1 / effects.contact.inertia : 0) {}
+      turning_(effects.contact.kind == ContactKind::rough ? 1 / effects.contact.inertia : 0),
+      sweeps_(may_flow_on(effects) ? sweeps_of_flow : sweeps_at_most) {}
 
 LastingForces ContactImpulses::act(std::span<HeapDisc> discs,
                                    std::vector<KeptImpulse>& kept) const {
@@ -245,7 +255,7 @@ int ContactImpulses::sweep(std::span<Contact> part, std::vector<Body>& bodies) c
     bool is_settled = std::all_of(part.begin(), part.end(), [&](const Contact& contact) {
         return is_small(contact, change_of(contact, bodies));
     });
-    const double most = sweeps_at_most + std::sqrt(static_cast<double>(part.size()));
+    const double most = sweeps_ + std::sqrt(static_cast<double>(part.size()));
     int n_sweeps = 0;
     for (; n_sweeps < most && !is_settled; ++n_sweeps) {
         is_settled = true;

@@ -91,6 +91,7 @@ private:
     double fall_x_, fall_y_; ///< g T / 2
     double rest_gap_;
     double turning_; ///< 1 over the moment of inertia in m r^2; 0 where discs do not turn
+    double sweeps_;  ///< at most, and more for many contacts
 };
 
 } // namespace carrom

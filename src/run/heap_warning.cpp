@@ -25,13 +25,32 @@ bool may_have_lasting_contacts(SceneParameters scene) {
     });
 }
 
-std::string remedy_of(const SceneParameters& scene) {
-    if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
+double smallest_radius(const SceneParameters& scene) {
     double radius = scene.radius;
     for (const Species& one : scene.effects.species) radius = std::min(radius, one.radius);
+    return radius;
+}
+
+std::string remedy_of(const SceneParameters& scene) {
+    if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
+    const double radius = smallest_radius(scene);
     // Some 2 g T for the longest time T between syncs that the effect takes by default.
     const double pull = std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
+}
+
+/// Collisions of a disc between two syncs in flows whose contacts last. If they do not, it has some
+/// hundred.
+constexpr double most_where_lasting = 30;
+/// For the mean, between two syncs.
+constexpr std::int64_t intervals_of_flow = 16;
+/// Of the speed at which discs pass each other; a key below that is named.
+constexpr double enough = 0.8;
+
+/// To one digit.
+double rounded_up(double value) {
+    const double digit = std::pow(10, std::floor(std::log10(value)));
+    return value > 0 ? std::ceil(value / digit) * digit : 0;
 }
 
 } // namespace
@@ -47,30 +66,63 @@ HeapWarning::HeapWarning(const SceneParameters& scene, const DiscSystem& system,
 
 bool HeapWarning::may_warn(const SceneParameters& scene) {
     const Effects& effects = scene.effects;
-    return effects.gravity.is_any() && are_pairs_lossy(effects) && effects.lasting_speed == 0;
+    return effects.gravity.is_any() && are_pairs_lossy(effects);
 }
 
 bool HeapWarning::act() {
-    const std::int64_t steps = system_.step() - last_step_;
-    if (!is_watching_ || steps == 0 || steps * scene_.micro_steps < scene_.sync_every) return true;
+    const std::int64_t steps = system_.step() - last_step_,
+                       intervals = scene_.effects.lasting_speed > 0 ? intervals_of_flow : 1;
+    if (!is_watching_ || steps == 0 || steps * scene_.micro_steps < intervals * scene_.sync_every)
+        return true;
     const std::uint64_t collisions = n_collisions();
     const double per_step = static_cast<double>(collisions - last_collisions_) /
                             (static_cast<double>(steps) * static_cast<double>(scene_.n_discs));
+    const std::string text = scene_.effects.lasting_speed > 0 ? text_on_flow(per_step)
+                                                              : text_on_rest(per_step);
+    if (!text.empty())
+        messages_.warn("{}: warning: from step {} to {} each disc collided {:.2g} times in a step, "
+                       "{}\n",
+                       scene_.name, last_step_, system_.step(), per_step, text);
+    is_watching_ = text.empty();
+    last_step_ = system_.step();
+    last_collisions_ = collisions;
+    return true;
+}
+
+std::string HeapWarning::text_on_rest(double per_step) const {
     const Gravity& gravity = scene_.effects.gravity;
     const double per_contact_time = per_step *
                                     ContactGuard(scene_.effects, scene_.radius)
                                         .rest_time(std::hypot(gravity.x, gravity.y), scene_.radius);
-    if (per_contact_time > 1) {
-        messages_.warn(
-            "{}: warning: from step {} to {} each disc collided {:.2g} times in a step, which is "
-            "{:.2g} times in a contact time: discs that lie on each other make the run slow, and "
-            "have no friction; try: {}\n",
-            scene_.name, last_step_, system_.step(), per_step, per_contact_time, remedy_of(scene_));
-        is_watching_ = false;
-    }
-    last_step_ = system_.step();
-    last_collisions_ = collisions;
-    return true;
+    if (!(per_contact_time > 1)) return {};
+    return fmt::format("which is {:.2g} times in a contact time: discs that lie on each other make "
+                       "the run slow, and have no friction; try: {}",
+                       per_contact_time, remedy_of(scene_));
+}
+
+std::string HeapWarning::text_on_flow(double per_step) const {
+    const double time = static_cast<double>(scene_.sync_every) /
+                        static_cast<double>(scene_.micro_steps);
+    if (!(per_step * time > most_where_lasting)) return {};
+    // Above these speeds the scene would be an error, or impacts would lose more than they should.
+    const Gravity& gravity = scene_.effects.gravity;
+    const double radius = smallest_radius(scene_), pull = std::hypot(gravity.x, gravity.y),
+                 best = std::min({rounded_up(speed_of_passing()), 2 * radius / time,
+                                  2 * std::sqrt(2 * pull * radius)});
+    if (!(scene_.effects.lasting_speed < enough * best)) return {};
+    return fmt::format("though contacts last that are slower than {:g}: discs flow past each other "
+                       "faster than that, and bounce until the next sync; try: {} = {:.2g}",
+                       scene_.effects.lasting_speed, lasting_key, best);
+}
+
+/// The standard deviation of the discs' velocities, by their mass.
+double HeapWarning::speed_of_passing() const {
+    double mass = scene_.effects.species.empty() ? static_cast<double>(scene_.n_discs) : 0;
+    for (const Species& one : scene_.effects.species)
+        mass += static_cast<double>(one.count) * one.mass;
+    const Totals totals = system_.energies();
+    const double drift = std::hypot(totals.momentum_x, totals.momentum_y) / mass;
+    return std::sqrt(std::max(0.0, 2 * totals.kinetic_energy / mass - drift * drift));
 }
 
 std::uint64_t HeapWarning::n_collisions() const {

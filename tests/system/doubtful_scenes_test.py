@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes whose numbers mean something else than their authors may think: the run says so."""
 import math
+import re
 
 from program import ProgramTest, lines_of, main
 
@@ -43,6 +44,41 @@ speed = 0.05
 [time]
 steps = 10
 sync_every = 2
+"""
+
+
+# A layer flows down a rough plane. The box is periodic along the flow.
+CHUTE = """
+[box]
+size = [16, 44]
+left.kind = "periodic"
+right.kind = "periodic"
+[discs]
+count = 100
+radius = 1
+speed = 0.01
+seed = {}
+[effects.gravity]
+x = 0.00406737
+y = -0.00913545
+[effects.contact]
+kind = "rough"
+restitution = 0.5
+tangential_restitution = 0
+friction = 0.5
+contact_time = {}
+[effects.lasting_contacts]
+speed = 0.05
+[effects.obstacles]
+restitution = 0.5
+tangential_restitution = 0
+friction = 0.5
+discs = [[1, 1, 1], [3, 1, 1], [5, 1, 1], [7, 1, 1], [9, 1, 1], [11, 1, 1], [13, 1, 1], [15, 1, 1]]
+[time]
+steps = 250
+sync_every = 2
+[output]
+text = "none"
 """
 
 
@@ -97,9 +133,8 @@ class DoubtfulScenes(ProgramTest):
             self.check_closed(PERIODIC + GAS + obstacles(discs=ring),
                               lambda x, y: math.hypot(x - 20, y - 20) < 9)
         # Across a periodic side, and between a disc and a wall.
-        self.check_closed(PERIODIC + GAS + obstacles(
-            [[4, 5, 36, 5], [36.9, 5, 40, 5], [0, 5, 3.1, 5], [0, 20, 40, 20]]),
-            lambda x, y: 5 < y < 20)
+        row = [[4, 5, 36, 5], [36.9, 5, 40, 5], [0, 5, 3.1, 5], [0, 20, 40, 20]]
+        self.check_closed(PERIODIC + GAS + obstacles(row), lambda x, y: 5 < y < 20)
         self.check_closed(BOX + GAS + obstacles([[0, 12, 36, 12]], [[37.6, 12, 1.5]]),
                           lambda x, y: y < 12)
 
@@ -115,6 +150,19 @@ class DoubtfulScenes(ProgramTest):
         # A list is where its author wants it.
         self.check_open(BOX + GAS.replace("count = 200", "list = [[20, 15, 0, 0], [5, 5, 0, 0]]")
                         .replace("speed = 0.1\n", "") + obstacles(TRIANGLE))
+
+    def test_flow_faster_than_lasting_contacts(self):
+        """The speed that the warning names makes each disc collide a fifth as often, or less."""
+        for seed, contact_time in ((2, 0.01), (3, 0.002)):
+            self.write("chute.toml", CHUTE.format(seed, contact_time))
+            words = ("run", "chute.toml", "--quiet", "--threads", 1, "--report", "flow.json")
+            run = self.run_program(1, *words, says="discs flow past each other faster than that")
+            rate = self.report("flow.json")["collisions_per_disc_per_micro_step"]
+            speed = re.search(r"try: (effects.lasting_contacts.speed = \S+)\n", run.err)[1]
+            run = self.run_program(1, *words, "--set", speed.replace(" ", ""))
+            self.assertNotIn("flow past", run.err)
+            self.assertLess(self.report("flow.json")["collisions_per_disc_per_micro_step"],
+                            rate / 5)
 
     def test_two_hits_at_once(self):
         """Disc 0 meets 1, and with what is left of its velocity 2, at the same time. Along unit

@@ -72,11 +72,12 @@ struct FromFile {
 /// What a packing fraction does to the radii where discs have departed. Empty if they are the same.
 std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
     if (!(scene.radius > from.radius * (1 + 1e-9))) return {};
-    return fmt::format(
-        "; discs.packing gives these fewer discs {} {:.10g}, and in the file it is "
-        "{:.10g}; try: {} in place of discs.packing",
-        scene.sizes ? "a largest radius of" : "the radius", scene.radius, from.radius,
-        scene.sizes ? "discs.radius.mean" : fmt::format("discs.radius = {}", from.radius));
+    const std::string remedy = scene.sizes ? "discs.radius.mean"
+                                           : fmt::format("discs.radius = {}", from.radius);
+    return fmt::format("; discs.packing gives these fewer discs {} {:.10g}, and in the file it is "
+                       "{:.10g}; try: {} in place of discs.packing",
+                       scene.sizes ? "a largest radius of" : "the radius", scene.radius,
+                       from.radius, remedy);
 }
 
 /// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
