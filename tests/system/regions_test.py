@@ -34,9 +34,9 @@ mass = 4
 
 class Regions(ProgramTest):
     def write_scene(self, name, discs, box=20, sides=""):
-        text = SCENE.format(box=box, sides=sides, discs=discs.split("[[")[0])
-        rest = discs[len(discs.split("[[")[0]):]
-        return self.write(f"{name}.toml", text + rest)
+        keys, mark, species = discs.partition("\n[[")
+        text = SCENE.format(box=box, sides=sides, discs=keys)
+        return self.write(f"{name}.toml", text + mark + species)
 
     def places(self, name, ranks=1, step=0):
         out = self.run_program(ranks, "run", f"{name}.toml", "--quiet", "--set",
@@ -115,7 +115,7 @@ class Regions(ProgramTest):
     def test_messages(self):
         count = "count = 20\nradius = 0.5\n"
         for discs, says in (
-                (count + "region = [0, 0, 30, 5]", "inside a box of 20"),
+                (count + "region = [0, 0, 30, 5]", "inside a box of side 20"),
                 (count + "region = [5, 0, 2, 5]", "with x0 < x1 and y0 < y1"),
                 (count + "region = [0, 0, nan, 5]", "with x0 < x1 and y0 < y1"),
                 (count + "region = [0, 0, 20, 0.9]", "is narrower than a disc of radius 0.5"),
