@@ -18,6 +18,7 @@
 #include "lattices/lattice.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene_parameters.hpp"
+#include "scene/start_region.hpp"
 
 namespace carrom {
 
@@ -46,7 +47,7 @@ public:
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
           species_(scene.effects.species, scene.radius), axis_(longer_axis(scene.box)),
           box_(scene.box.longest(), scene.box.shortest()),
-          periods_(lying(scene.effects.periods(scene.box))) {
+          periods_(lying(scene.effects.periods(scene.box))), has_regions_(has_regions(scene)) {
         if (scene.effects.obstacles.are_any())
             obstacles_.emplace(scene.box, scene.radius, scene.effects);
     }
@@ -82,6 +83,8 @@ public:
     Point proposal(DiscId id, std::uint64_t round) const {
         const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
         const double radius = species_.of(id).radius;
+        if (const auto region = has_regions_ ? region_of(scene_, id) : std::nullopt)
+            return place_in(*region, radius, {unit_number(words[0]), unit_number(words[1])});
         const auto place = [radius](double period, double length, double number) {
             const double low = period == 0 ? radius : 0,
                          high = period == 0 ? length - radius : period;
@@ -153,6 +156,19 @@ public:
     }
 
 private:
+    /// The place of a disc in a region, for numbers from 0 to 1. Where a region goes all along a
+    /// period, discs may lie across the seam.
+    Point place_in(const StartRegion& region, double radius, Point numbers) const {
+        const auto [x_low, y_low] = turned(axis_, region.x_low, region.y_low);
+        const auto [x_high, y_high] = turned(axis_, region.x_high, region.y_high);
+        const auto place = [radius](double low, double high, double period, double number) {
+            const double inset = period != 0 && high - low == period ? 0 : radius;
+            return std::min((low + inset) + ((high - inset) - (low + inset)) * number,
+                            high - inset);
+        };
+        return {place(x_low, x_high, periods_.x, numbers.x),
+                place(y_low, y_high, periods_.y, numbers.y)};
+    }
     void make_proposals(const Proposers& proposers, std::uint64_t first, std::uint64_t end,
                         int n_threads, RawVector<Notice>& made) const;
     void deliver(std::span<const Notice> notices, std::span<const Notice> updates, int n_threads,
@@ -171,6 +187,7 @@ private:
     Axis axis_;
     Box box_;
     Periods periods_;
+    bool has_regions_;
 };
 
 } // namespace carrom

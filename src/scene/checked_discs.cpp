@@ -10,6 +10,7 @@
 #include "lattices/triangular.hpp"
 #include "scene/limits.hpp"
 #include "scene/scene_draft.hpp"
+#include "scene/start_region.hpp"
 
 namespace carrom {
 
@@ -259,7 +260,8 @@ void check_triangular(const SceneDraft& draft) {
 /// Random insertion stalls at a packing fraction of about 0.54: denser gases start from a lattice.
 void check_generator(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
-    if (scene.generator == Generator::random &&
+    check_regions(draft);
+    if (scene.generator == Generator::random && !has_regions(scene) &&
         scene.packing() > largest_random_packing * (1 + 1e-12)) {
         scene.generator = Generator::lattice;
         scene.warnings.push_back(

@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -165,6 +166,12 @@ private:
     void check_rows() {
         check_type<Values>();
         if (setting_.is_wrong) return;
+        if (key_.is_one_row) {
+            Values& rows = std::get<Values>(setting_.value.data);
+            if (!rows.empty() && !std::holds_alternative<Values>(rows[0].data))
+                rows = Values{Value{std::exchange(rows, {}), setting_.value.line}};
+            if (rows.size() != 1) return refuse_type();
+        }
         const std::size_t n_problems = problems_.size();
         std::size_t number = 0, n_wrong = 0;
         for (Value& row : std::get<Values>(setting_.value.data)) {
@@ -229,7 +236,7 @@ private:
                                                          found->second.line);
                 all.insert(all.end(), numbers.begin(), numbers.end());
             } else if (field.fallback) {
-                all.push_back(*field.fallback);
+                all.insert(all.end(), field.most, *field.fallback);
             } else {
                 refuse_at(row.line, fmt::format("{} needs {} = {}", name, field.name,
                                                 field.form.empty() ? "..." : field.form));
@@ -292,7 +299,8 @@ std::string kind_text(const Key& key) {
     case Kind::text: return "text";
     case Kind::choice: return words_text(key.words);
     case Kind::words: return "an array of " + words_text(key.words);
-    case Kind::rows: return "an array of " + std::string(key.fields[0].form);
+    case Kind::rows:
+        return (key.is_one_row ? "numbers, " : "an array of ") + std::string(key.fields[0].form);
     case Kind::tables: return "an array of tables, [[" + key.name + "]]";
     }
     return {};

@@ -61,7 +61,7 @@ struct Field {
     std::string_view name;
     std::string_view form; ///< "[x, y, radius]"
     std::size_t least = 1, most = 1;
-    std::optional<double> fallback = {};
+    std::optional<double> fallback = {}; ///< NaN: there may be none
 };
 
 /// Made by `key` (key_members.hpp); the functions that return `Key&&` add to a declaration.
@@ -80,6 +80,7 @@ struct Key {
     /// Words of other programs, and what to write here.
     std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
+    bool is_one_row = false; ///< of Kind::rows; it may stand without the outer brackets
 
     // Filled in from the member:
     Kind kind = Kind::number;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/key_page.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "scene/checked_value.hpp"
@@ -47,11 +49,14 @@ std::string type_text(const Key& key) {
         for (const Field& field : key.fields) {
             list += list.empty() ? "" : ", ";
             list += fmt::format("{} = {}", field.name, field.form.empty() ? "..." : field.form);
-            if (field.fallback) list += fmt::format(" ({} unless given)", *field.fallback);
+            if (field.fallback)
+                list += std::isnan(*field.fallback)
+                            ? " (if any)"
+                            : fmt::format(" ({} unless given)", *field.fallback);
         }
         return "tables of " + list;
     }
-    case Kind::rows: return "rows " + std::string(key.fields[0].form);
+    case Kind::rows: return (key.is_one_row ? "" : "rows ") + std::string(key.fields[0].form);
     default: return kind_text(key);
     }
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The keys of [box] without its sides, and of [discs].
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "scene/disc_columns.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
+#include "scene/start_region.hpp"
 
 namespace carrom {
 
@@ -86,8 +90,24 @@ Value get_list(const SceneParameters& scene) {
 /// The place of a column's number in rows of species, after count, radius and mass.
 constexpr std::size_t place_of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
 
+/// The place of a region in rows of species.
+constexpr std::size_t place_of_region = 3 + n_side_columns;
+
+/// Appends `count` discs with the region of the row `n`; as a new run only if it is another one.
+void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers& n) {
+    const double* const r = &n[place_of_region];
+    std::optional<StartRegion> region;
+    if (!std::isnan(r[0])) region = StartRegion{r[0], r[1], r[2], r[3]};
+    const DiscId end = (runs.empty() ? 0 : runs.back().end) + count;
+    if (!runs.empty() && runs.back().region == region)
+        runs.back().end = end;
+    else
+        runs.push_back({end, region});
+}
+
 void set_species(SceneParameters& scene, const Value& value) {
     FirstNumbers numbers;
+    std::vector<RegionRun> regions;
     for (const Value& row : std::get<Values>(value.data)) {
         if (row.is_nothing()) continue;
         const Numbers& n = std::get<Numbers>(row.data);
@@ -95,7 +115,10 @@ void set_species(SceneParameters& scene, const Value& value) {
         add_species(scene.effects.species, {static_cast<std::uint64_t>(n[0]), n[1], n[2]});
         for (const SideColumn column : all_side_columns)
             add_numbers(numbers[column], static_cast<std::uint64_t>(n[0]), n[place_of(column)]);
+        add_region(regions, static_cast<std::uint64_t>(n[0]), n);
     }
+    if (std::ranges::any_of(regions, [](const RegionRun& run) { return run.region.has_value(); }))
+        scene.regions = regions;
     for (const SideColumn column : all_side_columns) {
         const std::vector<NumberRun>& runs = numbers[column];
         if (runs.size() > 1 || (runs.size() == 1 && runs[0].number != 0))
@@ -113,6 +136,7 @@ Value get_species(const SceneParameters& scene) {
         if (!has_column(scene, disc_column_of(column)))
             numbers[column] = scene.first_numbers[column];
     BySideColumn<std::size_t> next; // by column
+    auto region = scene.regions.begin();
     Values rows;
     DiscId first = 0;
     for (const Species& one : species) {
@@ -125,6 +149,14 @@ Value get_species(const SceneParameters& scene) {
                 while (run < runs.size() && runs[run].end <= first) ++run;
                 if (run < runs.size()) end = std::min(end, runs[run].end);
                 row.push_back(run < runs.size() ? runs[run].number : 0);
+            }
+            while (region != scene.regions.end() && region->end <= first) ++region;
+            row.resize(place_of_region + 4, std::numeric_limits<double>::quiet_NaN());
+            if (region != scene.regions.end()) {
+                end = std::min(end, region->end);
+                if (const auto& r = region->region)
+                    std::ranges::copy(std::array{r->x_low, r->y_low, r->x_high, r->y_high},
+                                      row.begin() + place_of_region);
             }
             row[0] = static_cast<double>(end - first);
             rows.push_back({std::move(row)});
@@ -153,6 +185,8 @@ Key species_key() {
     std::vector<Field> fields = {{"count", ""}, {"radius", ""}, {"mass", "", 1, 1, 1.0}};
     for (const SideColumn column : all_side_columns)
         fields.push_back({info_of(column).name, "", 1, 1, 0.0});
+    fields.push_back(
+        {"region", "[x0, y0, x1, y1]", 4, 4, std::numeric_limits<double>::quiet_NaN()});
     Key key = named_key("discs.species", "discs, length, mass, 1/step",
                         "Species of discs in the order of ids, in place of one radius.")
                   .by_default("none")
@@ -162,7 +196,7 @@ Key species_key() {
     key.get = get_species;
     key.set = set_species;
     key.compare = [](const SceneParameters& a, const SceneParameters& b) {
-        return a.effects.species == b.effects.species;
+        return a.effects.species == b.effects.species && a.regions == b.regions;
     };
     return key;
 }
@@ -265,6 +299,7 @@ std::vector<Key> keys_of_speeds() {
 std::vector<Key> keys_of_generation() {
     return {
         growth_rate_key(),
+        region_key(),
         key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
             [](auto& s) -> auto& { return s.seed; })
             .within({.low = 0})

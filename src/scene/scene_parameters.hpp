@@ -78,6 +78,20 @@ struct Stream {
     double vx = 0, vy = 0;
 };
 
+/// A rectangle in which discs begin at random, whole.
+struct StartRegion {
+    double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
+
+    friend bool operator==(const StartRegion&, const StartRegion&) = default;
+};
+/// Consecutive ids, up to `end`, of discs of one region, or of none of their own.
+struct RegionRun {
+    DiscId end = 0;
+    std::optional<StartRegion> region;
+
+    friend bool operator==(const RegionRun&, const RegionRun&) = default;
+};
+
 /// Each rank writes its own discs, or MPI-IO chooses ranks that write for all.
 enum class Transfers { independent, collective };
 
@@ -167,6 +181,8 @@ struct SceneParameters {
                                    ///< largest diameter grows, over the root mean square speed
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
+    std::optional<StartRegion> region;    ///< of discs that have none of their own
+    std::vector<RegionRun> regions;       ///< of species, by ids; empty if no species has one
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
     FirstNumbers first_numbers;           ///< for columns beside the states

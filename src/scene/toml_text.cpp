@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/toml_text.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -167,7 +169,9 @@ std::string row_text(const Key& key, const Numbers& numbers) {
     auto next = numbers.begin();
     for (const Field& field : key.fields) {
         const std::string list = numbers_text(next, field.most);
+        const bool is_none = field.fallback && std::isnan(*field.fallback) && std::isnan(*next);
         next += static_cast<std::ptrdiff_t>(field.most);
+        if (is_none) continue;
         text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", field.name,
                             field.most > 1 ? '[' + list + ']' : list);
     }

@@ -79,9 +79,6 @@ constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"discs.N", "try: discs.count"},
     {"discs.n", "try: discs.count"},
     {"discs.number", "try: discs.count"},
-    {"discs.region",
-     "discs begin in all of the box; try: discs.list or discs.file, which give their "
-     "places"},
     {"discs.species.restitution", both_partners},
     {"discs.species.friction", both_partners},
     {"time.dt", "a step is the unit of time, and collisions come at their exact times; try: "

@@ -131,6 +131,8 @@ class Stop(ProgramTest):
         self.assertEqual(reason["step"], table["to_step"][first])
         self.assertAlmostEqual(reason["value"] / pressures[first], 1, delta=1e-12)
         self.assertGreater(first, 10)
+        grown = 1 + 2e-4 * reason["step"]
+        self.assertAlmostEqual(stopped["last_packing"], 0.2 * grown ** 2, delta=1e-12)
         self.check_resumed(reason, stopped["state_hash"])
 
     def test_text_and_checkpoint_of_the_last_step(self):

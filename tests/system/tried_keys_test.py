@@ -22,8 +22,6 @@ TRIED = [
     ("discs.N", "5", "try: discs.count", ["discs.count=5"]),
     ("time.dt", "0.1", "a step is the unit of time", ["discs.speed=0.1"]),
     ("time.collisions", "1000", "try: time.stop.collisions", ["time.stop.collisions=1000"]),
-    ("discs.region", "[0, 0, 1, 1]", "try: discs.list or discs.file",
-     ["discs.list=[[1, 1], [3, 3], [5, 5], [7, 7]]", "discs.speed=0.1"]),
     ("box.left", '"periodic"', 'is a table, not a value; try: box.left.kind = "periodic"',
      ["box.left.kind=periodic", "box.right.kind=periodic"]),
     ("effects.gravity", "-9.81", "is a table, not a value; try: effects.gravity.y = -9.81",

@@ -56,6 +56,12 @@ void fill_end(RunResult& result, const Run& run) {
     result.ranks_across = system.engine().most_ranks_across();
 }
 
+double last_packing(const SceneParameters& scene, const RunResult& result) {
+    if (!result.stop_reason) return scene.last_packing();
+    const double growth = scene.effects.growth_at(static_cast<double>(result.last_step));
+    return scene.packing() * (growth * growth);
+}
+
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {
     ensure(ranks.min(std::uint64_t{mine.size()}) == mine.size(), "ranks have different phases");
     result.wall_seconds = ranks.max(result.wall_seconds);

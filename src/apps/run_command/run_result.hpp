@@ -46,6 +46,9 @@ void fill_end(RunResult& result, const Run& run);
 /// Fills in times on the slowest rank, how even they are, and the machine. **Collective.**
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks);
 
+/// The packing at the scene's last step, or where a condition has ended the run.
+double last_packing(const SceneParameters& scene, const RunResult& result);
+
 /// `part` of `whole`; 0 if `whole` is 0.
 double ratio(double part, double whole);
 

@@ -144,10 +144,11 @@ std::string plural(int count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-std::string scene_lines(const SceneParameters& scene) {
+std::string scene_lines(const SceneParameters& scene, const RunResult& result) {
     const std::string grown = scene.last_packing() == scene.packing()
                                   ? ""
-                                  : fmt::format(", {:.4g} at the last step", scene.last_packing());
+                                  : fmt::format(", {:.4g} at the last step",
+                                                last_packing(scene, result));
     std::string text = labelled_line(
         "scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}{}", scene.name,
                              scene.n_discs, radii_text(scene), scene.box, scene.packing(), grown));
@@ -270,7 +271,7 @@ std::string energy_text(const SceneParameters& scene, const RunResult& result) {
 
 std::string summary_text(const SceneParameters& scene, const RunResult& result) {
     const Totals& end = result.end;
-    std::string text = scene_lines(scene) + time_lines(result, scene.steps) +
+    std::string text = scene_lines(scene, result) + time_lines(result, scene.steps) +
                        collision_lines(scene, result);
     text += labelled_line("energy", energy_text(scene, result));
     if (scene.measurements) text += labelled_line("measured", measured_text(scene, result.tables));

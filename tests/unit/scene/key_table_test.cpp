@@ -71,11 +71,12 @@ public:
         for (std::size_t i = 0, n = 1 + below(3); i < n; ++i) {
             const std::string x = std::to_string(10 + 80 * share()),
                               y = std::to_string(10 + 80 * share());
+            if (name == "discs.region") return "[1, 2, " + x + ", " + y + ']';
             list += name == "discs.streams"
                         ? "{region = [1, 2, " + x + ", " + y + "], velocity = [-0.0, " + y + "]}, "
                     : name == "discs.species"
                         ? "{count = 2, radius = " + std::to_string(0.5 + share()) +
-                              ", mass = " + x + spin() + "}, "
+                              ", mass = " + x + spin() + region(x, y) + "}, "
                     : name == "discs.list"       ? '[' + x + ", " + y + ", -0.0, 1e-7], "
                     : name.ends_with("segments") ? "[1, 2, " + x + ", " + y + "], "
                                                  : '[' + x + ", " + y + ", 3], ";
@@ -98,6 +99,9 @@ private:
         for (const std::string_view word : key.words)
             if (below(2) == 0) list += '"' + std::string(word) + "\", ";
         return '[' + list + ']';
+    }
+    std::string region(const std::string& x, const std::string& y) {
+        return below(4) == 0 ? ", region = [0, 0, " + x + ", " + y + "]" : "";
     }
     std::string spin() { return below(2) == 0 ? ", spin = " + std::to_string(share()) : ""; }
 
