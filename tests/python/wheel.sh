@@ -96,7 +96,8 @@ END
 grep -q '_core.cpython-31[2-9]' modules &&
     complain 'a module for one Python only, where the stable ABI would serve all later ones'
 n_simulated=0
-for python in ${PYTHONS:-python3.{9..14}}; do
+all=(python3.{9..14})
+for python in ${PYTHONS:-${all[*]}}; do
     version=$("$python" -c 'import sys; print("%d%d" % sys.version_info[:2])' 2>/dev/null) ||
         continue
     grep -q "_core.cpython-$version-" modules ||
