@@ -106,8 +106,8 @@ add_license() {
 # usable_pythons: those of PYTHONS that can build extensions, or the default; the first of 3.12 and
 # later alone
 usable_pythons() {
-    local python version has_stable=
-    for python in ${PYTHONS:-python3.{9..14}}; do
+    local python version has_stable='' all=(python3.{9..14})
+    for python in ${PYTHONS:-${all[*]}}; do
         version=$("$python" -c '
 import sys, sysconfig
 from pathlib import Path
@@ -144,13 +144,15 @@ END
 
 # build_extensions WORD...: one for each usable Python, with cmake's words of the program
 build_extensions() (
-    local parts=$build/extension_parts tools python version
+    local parts=$build/extension_parts tools python pythons version
     local all=("$@")
+    pythons=$(usable_pythons)
+    [ -n "$pythons" ] || say 'left out: the extension, because there are no headers of Python'
     static_hdf5_for_libraries "$parts"
     [ -z "$old_system" ] || cat "$build/old_parts/link.cmake" >>"$parts/link.cmake"
     build=$extensions
     rm -rf "$build/python" # modules of an earlier build
-    for python in $(usable_pythons); do
+    for python in $pythons; do
         version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
         tools=$build/tools-$version
         say "the extension for Python $version"
