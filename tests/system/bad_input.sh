@@ -153,11 +153,11 @@ for device in /dev/zero /dev/full; do
         --set discs.file="$device"
 done
 # Lines of discs are looked at even where something else is wrong already.
-printf '0 3 3 1\n1 99 7 0 0\n1 4 4 4 4\n' >discs.txt
+printf '1 99 7 0 0\n0 3 3 1\n1 4 4 4 4\n' >discs.txt
 with_file=${good/radius = 1/radius = 1$'\n'file = \"discs.txt\"}
-lines=$'discs.txt:1: expected\ndiscs.txt:3: disc 1 is listed twice'
+lines=$'discs.txt:2: expected\ndiscs.txt:3: disc 1 is listed twice'
 refuse_toml 'a wrong scene and wrong discs' "${with_file/steps = 5/steps = -5}" \
-    $'bad.toml:8: \ndiscs.txt:2: disc 1 at (99, 7)\n'"$lines"
+    $'bad.toml:8: \ndiscs.txt:1: disc 1 at (99, 7)\n'"$lines"
 refuse_toml 'a wrong number of discs and wrong discs' "${with_file/count = 2/count = 0}" \
     $'bad.toml:4: \n'"$lines"
 refuse_toml 'a wrong box and wrong discs' "${with_file/size = 10/size = 1}" $'L < 2 r\n'"$lines"
