@@ -104,11 +104,13 @@ std::string HeapWarning::text_on_flow(double per_step) const {
     const double time = static_cast<double>(scene_.sync_every) /
                         static_cast<double>(scene_.micro_steps);
     if (!(per_step * time > most_where_lasting)) return {};
-    // Above these speeds the scene would be an error, or impacts would lose more than they should.
+    // A flow may still become faster, and its discs fall over each other by about a radius. Above
+    // the limits the scene would be an error, or impacts would lose more than they should.
     const Gravity& gravity = scene_.effects.gravity;
-    const double radius = smallest_radius(scene_), pull = std::hypot(gravity.x, gravity.y),
-                 best = std::min({rounded_up(speed_of_passing()), 2 * radius / time,
-                                  2 * std::sqrt(2 * pull * radius)});
+    const double radius = smallest_radius(scene_),
+                 fallen = std::sqrt(2 * std::hypot(gravity.x, gravity.y) * radius),
+                 best = std::min({rounded_up(std::max(speed_of_passing(), fallen)),
+                                  2 * radius / time, 2 * fallen});
     if (!(scene_.effects.lasting_speed < enough * best)) return {};
     return fmt::format("though contacts last that are slower than {:g}: discs flow past each other "
                        "faster than that, and bounce until the next sync; try: {} = {:.2g}",
