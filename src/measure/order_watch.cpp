@@ -14,7 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// The samples of a run that is as long as planned.
+/// The samples of a run that is as long as planned, at least. A run that a condition may end has
+/// them as close as it can.
 constexpr std::int64_t wanted_samples = 32;
 /// Samples are the time apart in which discs go this many radii.
 constexpr double radii_apart = 8;
@@ -55,7 +56,7 @@ void OrderWatch::start() {
     first_step_ = run_.system.step();
     const double least = std::ceil(radii_apart * scene.radius / usual_speed(run_));
     interval_ = std::max({static_cast<std::int64_t>(std::clamp(least, 1.0, longest_interval)),
-                          (scene.steps - first_step_) / wanted_samples});
+                          (scene.least_last_step() - first_step_) / wanted_samples});
     samples_.clear();
     has_begun_ = true;
 }

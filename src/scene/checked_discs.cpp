@@ -164,6 +164,20 @@ std::string problem_of_limits(const SizeDistribution& sizes) {
                        smallest, largest, share, sizes.polydispersity, smallest_share);
 }
 
+/// Sums over discs are whole multiples of a unit that fits the heaviest (core/exact_sum.hpp).
+void warn_of_lost_masses(const SceneDraft& draft) {
+    constexpr double most = 1e8;
+    SceneParameters& scene = draft.scene;
+    if (scene.effects.species.empty()) return;
+    const auto [lightest, heaviest] = std::ranges::minmax(scene.effects.species, {},
+                                                          &Species::mass);
+    if (!(heaviest.mass > most * lightest.mass)) return;
+    scene.warnings.push_back(fmt::format(
+        "the heaviest disc has {:.3g} times the mass of the lightest; beyond {:g} times kT, P and "
+        "Z lose what light discs add, and flights and collisions stay exact; try: a mass of {:.3g}",
+        heaviest.mass / lightest.mass, most, most * lightest.mass));
+}
+
 constexpr std::array<std::string_view, 5> not_with_sizes = {
     "discs.radius", "discs.species", "discs.list", "discs.columns", "discs.file"};
 
@@ -232,6 +246,7 @@ bool fill_sizes(const SceneDraft& draft) {
         scene.radius = std::max(scene.radius, one.radius);
     if (scene.radius == 0) return false;
     check_sizes(draft);
+    warn_of_lost_masses(draft);
     return draft.problems.size() == n_problems;
 }
 

@@ -39,7 +39,18 @@ bool DataLines::next(std::string_view& line) {
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
-void replace_commas(std::string& text) { std::ranges::replace(text, ',', ' '); }
+void replace_commas(std::string& text) {
+    std::size_t from = std::string::npos; // two commas without a word between them
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == ',') {
+            if (from != std::string::npos) text[from] = '?'; // no number, so an error
+            from = k;
+            text[k] = ' ';
+        } else if (text[k] != ' ' && text[k] != '\t') {
+            from = std::string::npos;
+        }
+    }
+}
 
 bool are_names(const std::vector<std::string_view>& words) {
     return words.size() > 1 && std::ranges::none_of(words, [](std::string_view word) {

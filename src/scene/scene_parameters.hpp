@@ -152,6 +152,11 @@ struct StopConditions {
     std::optional<double> temperature_below, temperature_above;
     std::optional<double> energy_below, energy_above;
     std::optional<double> pressure_below, pressure_above;
+
+    bool are_any() const {
+        return collisions || departed || temperature_below || temperature_above || energy_below ||
+               energy_above || pressure_below || pressure_above;
+    }
 };
 
 struct SceneParameters {
@@ -196,6 +201,9 @@ struct SceneParameters {
     bool contraction = false; ///< in the products and sums of the naive formula
     std::optional<double> accuracy;
     StopConditions stop;
+    /// The last step that is sure to come: what is taken often enough up to there is never taken
+    /// too rarely.
+    std::int64_t least_last_step() const { return stop.are_any() ? 0 : steps; }
 
     Effects effects; ///< times in steps
 

@@ -150,7 +150,8 @@ std::string table_text(std::string_view key, const Value& value) {
                                : whole                       ? fmt::format("{}", *whole)
                                : word && parse_double(*word) ? *word
                                                              : "";
-    if (!number.empty() && key == "effects.gravity") return try_key("y", number);
+    if (!number.empty() && key == "effects.gravity") // downwards, whatever sign was meant
+        return try_key("y", number.starts_with('-') ? number : "-" + number);
     return text + what_there_is(key);
 }
 

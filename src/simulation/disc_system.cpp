@@ -120,7 +120,7 @@ AveragedSystem system_to_average(const SceneParameters& scene, std::uint64_t n_d
     system.drift_y = drift_along(Axis::y, scene.effects);
     system.has_flow = scene.effects.are_sheared();
     system.keeps_energy = keep_energy_of_motion(scene.effects);
-    system.last_step = scene.steps;
+    system.last_step = scene.least_last_step();
     return system;
 }
 

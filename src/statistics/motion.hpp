@@ -69,7 +69,7 @@ struct AveragedSystem {
     Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat; ///< along each axis
     bool has_flow = false;      ///< the kinetic part is relative to a flow, and taken from samples
     bool keeps_energy = true;   ///< energy of motion; if it changes, samples are closer in time
-    std::int64_t last_step = 0; ///< the step at which the run is planned to end
+    std::int64_t last_step = 0; ///< the step that the run is sure to come to
 };
 
 /// Integrals over the steps between two samples.

@@ -184,7 +184,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         {"collisions_per_disc_per_micro_step", collisions_per_disc(scene, result)},
         {"averages", averages_json(result.averages)},
         {"kinetic_energy", result.end.kinetic_energy},
-        {"energy_drift", energy_drift(result)},
+        {"energy_drift", number_or_null(energy_drift(result))},
         {"momentum", {result.end.momentum_x, result.end.momentum_y}},
         {"drift_velocity", drift_velocity(scene, result.end)},
         {"wall_seconds", result.wall_seconds},

@@ -104,6 +104,8 @@ double busy_seconds(const PhaseSeconds& phases) {
 }
 
 double energy_drift(const RunResult& result) {
+    const bool began_at_rest = result.start.energy() == 0 && result.end.energy() != 0;
+    if (began_at_rest) return std::numeric_limits<double>::quiet_NaN();
     return ratio(result.end.energy() - result.start.energy(), result.start.energy());
 }
 
@@ -127,7 +129,7 @@ std::string reason_without_error(const Estimate& estimate, const Averages& avera
     if (estimate.is_changing) return "still changing: a trend is not an error";
     if (std::isfinite(estimate.error)) return {};
     if (averages.steps == 0) return "nothing is averaged: no step came after the first one";
-    if (std::isnan(estimate.value)) return "the scene's effects leave it without a meaning";
+    if (std::isnan(estimate.value)) return "it has no meaning in this scene";
     if (std::isinf(estimate.value)) return "no disc met another one";
     return fmt::format("the {} averaged steps make {} blocks, and an error takes {}",
                        averages.steps, averages.n_blocks, fewest_blocks);
@@ -259,17 +261,20 @@ double guarded_share(const RunResult& result) {
 }
 
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result) {
-    // Without the key it is as short as collapse allows. Where contacts last, they take the energy
-    // at the next sync.
-    if (scene.effects.contact.contact_time == 0 || scene.effects.lasting_speed > 0) return {};
+    // Where contacts last, they take the energy at the next sync.
+    if (scene.effects.lasting_speed > 0) return {};
     constexpr std::uint64_t fewest = 100; // of fewer the share is a matter of chance
     const double share = guarded_share(result);
     if (!(share > 0.01) || result.end.guarded_collisions < fewest) return {};
+    const bool is_named = scene.effects.contact.contact_time > 0;
     return fmt::format(
         "{} collisions took no energy, because a disc had collided within the contact time: {:.2g} "
-        "% of what restitution should take; try: a smaller effects.contact.contact_time, or none, "
-        "so that the contact time follows the discs",
-        result.end.guarded_collisions, 100 * share);
+        "% of what restitution should take; try: {}",
+        result.end.guarded_collisions, 100 * share,
+        is_named ? "a smaller effects.contact.contact_time, or none, so that the contact time "
+                   "follows the discs"
+                 : "a small effects.contact.contact_time, which costs more collisions, or "
+                   "effects.lasting_contacts where discs come to rest");
 }
 
 } // namespace carrom

@@ -263,6 +263,8 @@ std::string energy_text(const SceneParameters& scene, const RunResult& result) {
     for (const OtherEnergy& energy : other_energies_of(scene.effects))
         others += fmt::format(", {:.17g} {}", result.end.*energy.value, energy.words);
     const std::string what = others.empty() ? "," : " of motion" + others + "; the sum has";
+    if (std::isnan(energy_drift(result)))
+        return fmt::format("{:.17g}{} changed from 0", result.end.kinetic_energy, what);
     return fmt::format("{:.17g}{} changed by {:.4g} of itself", result.end.kinetic_energy, what,
                        energy_drift(result));
 }

@@ -62,11 +62,12 @@ void check_growth(const SceneDraft& draft) {
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
     if (growth <= most || most < 1) return; // missing room at the start is reported elsewhere
-    draft.refuse({"effects.growth.rate"},
-                 fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
-                             "there is room for them up to step {:.0f}",
-                             scene.steps, scene.radius * growth, scene.last_packing(),
-                             std::floor((most - 1) / scene.effects.growth)));
+    draft.refuse(
+        {"effects.growth.rate"},
+        fmt::format("after {} steps discs of radius {:g} would cover {:.4g} times the box; "
+                    "there is room for them up to step {:.0f}",
+                    scene.steps, scene.radius * growth, scene.last_packing(),
+                    std::floor((most - 1) / scene.effects.growth)));
 }
 
 } // namespace
