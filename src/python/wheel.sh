@@ -176,10 +176,10 @@ build_extensions() (
 # `lib` is four folders above the program
 bundle() {
     local program=$1/carrom/bin/carrom libraries=$1/carrom/libraries path package
-    local licenses=$1/carrom/licenses extensions=()
-    mapfile -t extensions < <(find "$1/carrom" -maxdepth 1 -name '_core*.so')
+    local licenses=$1/carrom/licenses modules=()
+    mapfile -t modules < <(find "$1/carrom" -maxdepth 1 -name '_core*.so')
     mkdir -p "$libraries" "$licenses"
-    for path in $(for_each_line libraries_of "$program" "${extensions[@]}"); do
+    for path in $(for_each_line libraries_of "$program" "${modules[@]}"); do
         if [ -n "$old_system" ] && is_of_gcc "$path"; then
             cp -L "$old_system/usr/lib/$(gcc -print-multiarch)/$(basename "$path")" "$libraries/"
             cp "$old_system/usr/share/doc/libgcc-s1/copyright" "$licenses/gcc-of-debian-11.txt"
@@ -194,10 +194,10 @@ bundle() {
     for package in "${compiled_in[@]}"; do add_license "$package" "$licenses"; done
     patchelf --set-rpath "\$ORIGIN/../libraries:\$ORIGIN/../../../.." "$program"
     for path in "$libraries"/*; do patchelf --set-rpath "\$ORIGIN" "$path"; done
-    for path in "${extensions[@]}"; do
+    for path in "${modules[@]}"; do
         patchelf --set-rpath "\$ORIGIN/libraries:\$ORIGIN/../../.." "$path"
     done
-    patchelf --replace-needed libmpich.so.12 libmpi.so.12 "$program" "${extensions[@]}"
+    patchelf --replace-needed libmpich.so.12 libmpi.so.12 "$program" "${modules[@]}"
 }
 
 # stage FOLDER: the Python package with program and extensions inside, as a project of its own

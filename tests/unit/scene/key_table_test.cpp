@@ -232,6 +232,7 @@ TEST_CASE("What is written of a scene reads as the same scene, whatever it names
         }
         if (!problems.empty()) continue;
         const SceneParameters scene = read_scene(box, "s.toml", overrides);
+        if (scene.radius == 0) continue; // the lines of a file give it, with the number of discs
         const std::string text = scene_text(scene);
         CAPTURE(overrides, text);
         const auto faults = problems_in(text);

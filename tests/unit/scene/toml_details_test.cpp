@@ -108,7 +108,7 @@ TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
         return std::vector<double>{static_cast<double>(scene.n_discs), scene.box.x, scene.radius};
     };
     CHECK(partly("count = 2\nradius = 1\n[box]\nsize = 10") == std::vector<double>{2, 10, 1});
-    CHECK(partly("count = 0\nradius = 1\n[box]\nsize = 10") == std::vector<double>{0, 0, 0});
+    CHECK(partly("count = 0\nradius = 1\n[box]\nsize = 10") == std::vector<double>{0, 10, 1});
     CHECK(partly("count = 2\nradius = 8\n[box]\nsize = 10") == std::vector<double>{2, 0, 0});
     CHECK(partly("count = 2\nradius = 1\n[box]\nsize = nan") == std::vector<double>{2, 0, 0});
 }
