@@ -354,6 +354,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         later_ends;           ///< partners of a column's discs, and where each disc's end
     double cascade_begin = 0; ///< the begin of the present collision cascade, if there is one
     std::uint64_t cascade = 0;
+    double rush_begin = 0; ///< the begin of the present rush, and the collisions before it
+    std::uint64_t rush_first = 0;
     BlockOutcome* outcome = nullptr;
     StressTerms stress_terms;       ///< terms that wait to be added to the outcome's sums
     double bound_squared = 0;       ///< square of the speed bound
