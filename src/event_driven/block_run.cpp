@@ -9,17 +9,6 @@
 
 namespace carrom {
 
-namespace {
-
-/// More collisions of a block, and per disc, within `Dynamics::cascade_interval` are a cascade.
-constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
-/// More collisions within this many micro-steps are a rush: time goes on, but at that rate no
-/// micro-step would end. A disc in a slot a rounding wider than itself is in one.
-constexpr double rush_interval = 0x1p-16;
-constexpr std::uint64_t rush_count = 5000000, rush_count_per_disc = 50000;
-
-} // namespace
-
 double block_reach(const BlockWindow& window, double diameter, const Box& box) {
     const double travel = window.speed_bound * window.duration();
     return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box.longest() +
@@ -235,19 +224,9 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& event) {
-    if (event.time > cascade_begin + Dynamics::cascade_interval) {
-        cascade_begin = event.time;
-        cascade = 0;
-        if (event.time > rush_begin + rush_interval) {
-            rush_begin = event.time;
-            rush_first = outcome->n_carried;
-        } else if (outcome->n_carried - rush_first >
-                   rush_count + rush_count_per_disc * discs.size()) [[unlikely]] {
-            give_up(event);
-        }
-    }
     ++outcome->n_carried;
-    if (++cascade > cascade_count + cascade_count_per_disc * discs.size()) give_up(event);
+    if (cascade_watch.add(event.time, Dynamics::cascade_interval, discs.size())) [[unlikely]]
+        give_up(event);
     const bool is_corner = event.q == x_wall &&
                            dynamics.wall_time(discs[event.p], Axis::y) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall across x changes vy

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "event_driven/block_run.hpp"
+#include "event_driven/cascade_watch.hpp"
 #include "event_driven/event_queue.hpp"
 #include "event_driven/flight_filter.hpp"
 
@@ -351,11 +352,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the one that it has met
     std::vector<std::uint32_t> later,
-        later_ends;           ///< partners of a column's discs, and where each disc's end
-    double cascade_begin = 0; ///< the begin of the present collision cascade, if there is one
-    std::uint64_t cascade = 0;
-    double rush_begin = 0; ///< the begin of the present rush, and the collisions before it
-    std::uint64_t rush_first = 0;
+        later_ends; ///< partners of a column's discs, and where each disc's end
+    CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;
     StressTerms stress_terms;       ///< terms that wait to be added to the outcome's sums
     double bound_squared = 0;       ///< square of the speed bound

@@ -64,8 +64,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
     too_fast = 0;
     n_hit = 0;
-    cascade_begin = rush_begin = -1;
-    cascade = rush_first = 0;
+    cascade_watch = {};
 }
 
 /// Lists the cells of the block and its halo, and the rank's discs in them.

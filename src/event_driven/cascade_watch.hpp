@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sees that a block's collisions follow each other so closely that the run would never end.
+#pragma once
+
+#include <cstdint>
+
+namespace carrom {
+
+class CascadeWatch {
+public:
+    /// Counts a collision. True if there have been too many of them in too short a time: a cascade
+    /// within `interval` micro-steps, or a rush. In a rush time goes on, but at that rate no
+    /// micro-step would end, as for a disc in a slot that is a rounding wider than itself.
+    bool add(double time, double interval, std::uint64_t n_discs) {
+        if (time > cascade_begin_ + interval) {
+            cascade_begin_ = time;
+            cascade_ = 0;
+            if (time > rush_begin_ + rush_interval) {
+                rush_begin_ = time;
+                rush_ = 0;
+            }
+        }
+        ++cascade_;
+        ++rush_;
+        return cascade_ > 100000 + 1000 * n_discs || rush_ > 5000000 + 50000 * n_discs;
+    }
+
+private:
+    static constexpr double rush_interval = 0x1p-16;
+
+    double cascade_begin_ = -1, rush_begin_ = -1;
+    std::uint64_t cascade_ = 0, rush_ = 0;
+};
+
+} // namespace carrom

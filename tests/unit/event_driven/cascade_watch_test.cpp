@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "event_driven/cascade_watch.hpp"
+
+#include "catch.hpp"
+
+using namespace carrom;
+
+namespace {
+
+/// Collisions of ten discs, so many micro-steps apart, until the watch ends them or for ten
+/// million.
+std::uint64_t collisions_until_end(double apart) {
+    CascadeWatch watch;
+    std::uint64_t n = 0;
+    while (n < 10000000 && !watch.add(static_cast<double>(n) * apart, 0x1p-40, 10)) ++n;
+    return n;
+}
+
+} // namespace
+
+TEST_CASE("Collisions at one time, or without end in a slot, are seen; frequent ones are not") {
+    CHECK(collisions_until_end(0) == 110000);
+    // A disc of speed 0.01 in a slot that is 2e-15 wider than itself.
+    CHECK(collisions_until_end(2e-13) == 5500000);
+    // A million collisions in a micro-step take a second of time and end.
+    CHECK(collisions_until_end(1e-6) == 10000000);
+    CHECK(collisions_until_end(1e-11) == 10000000);
+}
