@@ -177,6 +177,13 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     return block;
 }
 
+/// Whether discs have left by open sides. Averages of those that are there then change.
+bool BlockAverages::lost_discs() const {
+    if (system_.keeps_discs || blocks_.empty()) return false;
+    const auto n_in = [](const Block& block) { return block.motion.n_discs / block.steps(); };
+    return n_in(blocks_.back()) < n_in(blocks_.front()) * (1 - 1e-9);
+}
+
 template <class Value>
 Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
     Estimate result;
@@ -186,7 +193,7 @@ Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
     for (const Block& block : blocks_) terms.push_back(value(block));
     const BlockedMean blocked = blocked_mean(terms);
     result.is_conserved = blocked.is_constant;
-    result.is_changing = blocked.is_changing;
+    result.is_changing = blocked.is_changing || (lost_discs() && !blocked.is_constant);
     if (result.is_changing) result.first = terms.front(), result.last = terms.back();
     if (result.is_conserved || result.is_changing || std::isnan(blocked.error)) return result;
     result.error = blocked.error;

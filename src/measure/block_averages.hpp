@@ -60,6 +60,7 @@ private:
     void add(std::int64_t step, const Block& block);
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);
+    bool lost_discs() const;
     template <class Value> Estimate estimate(const Block& whole, const Value& value) const;
     void fill_pressures(Averages& result, const Block& whole) const;
     void fill_counted_pressures(Averages& result, const Block& whole,
