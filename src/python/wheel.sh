@@ -143,14 +143,14 @@ END
 }
 
 # build_extensions WORD...: one for each usable Python, with cmake's words of the program
-build_extensions() (
+build_extensions() {
     local parts=$build/extension_parts tools python pythons version
     local all=("$@")
     pythons=$(usable_pythons)
     [ -n "$pythons" ] || say 'left out: the extension, because there are no headers of Python'
     static_hdf5_for_libraries "$parts"
     [ -z "$old_system" ] || cat "$build/old_parts/link.cmake" >>"$parts/link.cmake"
-    build=$extensions
+    local build=$extensions
     rm -rf "$build/python" # modules of an earlier build
     for python in $pythons; do
         version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
@@ -169,7 +169,7 @@ build_extensions() (
             -DHDF5_hdf5_LIBRARY_RELEASE="$parts/libhdf5_mpich.a"
         build_targets carrom_python
     done
-)
+}
 
 # bundle STAGE: copies the libraries of the program and the extensions beside them with their
 # licences, and lets all find each other and the environment's MPICH from where pip puts them: its
