@@ -85,9 +85,10 @@ TEST_CASE("Discs that grow need room until the last step") {
           Approx(50 * 3.5 * 3.5 * 3.14159265358979 / 1e4));
     CHECK_FALSE(read_scene(good, "s.toml", {"effects.growth.rate=0"}).effects.are_any());
     CHECK(has(problems_with({"effects.growth.rate=-0.1"}), "must be"));
-    CHECK(has(problems_with({"effects.growth.rate=1"}),
-              "after 10 steps discs of radius 11 would cover 1.901 times the box; there is room for "
-              "them up to step 6"));
+    CHECK(
+        has(problems_with({"effects.growth.rate=1"}),
+            "after 10 steps discs of radius 11 would cover 1.901 times the box; there is room for "
+            "them up to step 6"));
     // Two discs that are wider than a periodic box allows, long before they cover it.
     const Texts two{"discs.count=2", "box.left.kind=periodic", "box.right.kind=periodic"};
     const auto two_growing = [&](const char* rate) {
