@@ -145,7 +145,7 @@ def test_wrong_calls_say_what_is_wrong(
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(temporary))
-    with pytest.raises(carrom.InputError, match="'output' must be a table"):
+    with pytest.raises(carrom.InputError, match="'output' is a table, not a value"):
         carrom.run(gas() | {"output": 5})
     with pytest.raises(carrom.InputError, match="no such key 'ä\U0001f600'"):
         carrom.run(gas() | {"ä\U0001f600": 5})
