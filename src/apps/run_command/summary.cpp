@@ -210,7 +210,7 @@ std::string average_lines(const SceneParameters& scene, const RunResult& result)
     const TensorEstimate& tensor = averages.pressure_tensor;
     if (!std::isnan(tensor.xx.value) || !std::isnan(tensor.yy.value))
         text += labelled_line("tensor", tensor_text(tensor));
-    if (!scene.effects.are_any())
+    if (!scene.effects.are_any() && scene.n_discs > 1)
         text += labelled_line("pressure", counted_pressure_text(averages));
     text += labelled_line("speeds", speeds_text(scene, averages));
     if (!result.watched.empty()) text += labelled_line("watched", watched_text(result.watched));
