@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "catch.hpp"
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/run_command/report.hpp"
@@ -76,6 +77,9 @@ TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
     result.last_step = 0;
     result.start.kinetic_energy = 0;
     CHECK(ns_per_disc_step(result) == 0);
+    CHECK(std::isnan(energy_drift(result))); // the energy at the end is no share of 0
+    CHECK(summary_text(small_scene(), result).find("changed from 0") != std::string::npos);
+    result.end = {};
     CHECK(energy_drift(result) == 0);
     CHECK(collisions_per_disc(small_scene(), result) == 0);
 }
