@@ -104,6 +104,11 @@ std::string HeapWarning::text_on_flow(double per_step) const {
     const double time = static_cast<double>(scene_.sync_every) /
                         static_cast<double>(scene_.micro_steps);
     if (!(per_step * time > most_where_lasting)) return {};
+    // Elsewhere discs come to rest, and such a burst ends.
+    const Effects& effects = scene_.effects;
+    if (!(effects.is_periodic_x() && effects.gravity.x != 0) &&
+        !(effects.is_periodic_y() && effects.gravity.y != 0))
+        return {};
     // A flow may still become faster, and its discs fall over each other by about a radius. Above
     // the limits the scene would be an error, or impacts would lose more than they should.
     const Gravity& gravity = scene_.effects.gravity;
