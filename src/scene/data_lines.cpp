@@ -40,15 +40,12 @@ bool DataLines::next(std::string_view& line) {
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
 void replace_commas(std::string& text) {
-    std::size_t from = std::string::npos; // two commas without a word between them
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        if (text[k] == ',') {
-            if (from != std::string::npos) text[from] = '?'; // no number, so an error
-            from = k;
-            text[k] = ' ';
-        } else if (text[k] != ' ' && text[k] != '\t') {
-            from = std::string::npos;
-        }
+    bool is_empty = true; // what stands between the last comma, or the begin, and here
+    for (char& c : text) {
+        if (c == ',')
+            c = std::exchange(is_empty, true) ? '?' : ' ';
+        else if (c != ' ' && c != '\t')
+            is_empty = false;
     }
 }
 

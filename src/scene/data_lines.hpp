@@ -40,7 +40,8 @@ private:
 
 /// `line` without a comment, in a file of discs.
 std::string_view without_comment(std::string_view line);
-/// Replaces the commas in `text`, so that it can be split at blanks.
+/// Replaces the commas in `text`, so that it can be split at blanks. A field without a word becomes
+/// a part of one that is no number.
 void replace_commas(std::string& text);
 
 /// Whether the words are names of columns: more than one, and none of them a number.

@@ -238,6 +238,79 @@ from_step = 480
         self.assertIn("let output.measurements.every_steps and from_step be multiples of 16",
                       printed)
 
+    def test_runs_that_a_condition_ends(self):
+        """A gas that cools has no error of kT, wherever the run ends; one in equilibrium has."""
+        gas = BOX + "[discs]\ncount = 400\npacking = 0.2\nspeed = 0.1\n[time]\nsteps = 20000\n"
+        lossy = '[effects.contact]\nkind = "restitution"\nrestitution = 0.9\n'
+        for condition in ("kT_below=0.0005", "collisions=8000"):
+            with self.subTest(condition):
+                report, printed = self.measure(gas + lossy, "--set", f"time.stop.{condition}")
+                self.assertLess(report["steps"], 2000)
+                self.assertIsNone(report["temperature"]["error"])
+                self.assertGreater(report["temperature"]["first"],
+                                   5 * report["temperature"]["last"])
+                self.assertEqual(len(report["watched"]["energy"]["quarters"]), 4)
+                self.assertIn("still changing", printed)
+        report, _ = self.measure(gas, "--set", "time.stop.collisions=20000")
+        self.assertGreater(report["pressure"]["error"], 0)
+
+    def test_boxes_that_discs_leave(self):
+        """The discs that stay longest are the slowest, so kT falls; and a gas blown out does."""
+        gas = """[box]
+size = 20
+left.kind = "open"
+right.kind = "open"
+[discs]
+count = 10
+radius = 0.5
+speed = 0.5
+seed = 2
+[time]
+steps = 500
+sync_every = 4
+"""
+        for words in ((), ("--set", "effects.gravity.y=-0.01", "--set", "discs.count=40")):
+            with self.subTest(words):
+                report, printed = self.measure(gas, *words)
+                for name in ("temperature", "pressure", "compressibility"):
+                    self.assertIsNone(report[name]["error"], name)
+                self.assertIn("kT, P", printed)
+
+    def test_one_disc_has_no_pressure_from_counts(self):
+        """It keeps its speed along each axis: the theory of equilibrium was 3 to 8 % off."""
+        for seed in (1, 3):
+            report, printed = self.measure("[box]\nsize = 10\n[discs]\ncount = 1\nradius = 0.5\n"
+                                           f"seed = {seed}\n[time]\nsteps = 2000\n")
+            for name in ("wall_pressure", "virial_pressure"):
+                self.assertIsNone(report["averages"][name]["value"], name)
+            self.assertNotIn("from collisions with walls", printed)
+
+    def test_masses_that_sums_cannot_hold_together(self):
+        """Beyond a ratio of 1e8 the run says so; up to there kT is E / N, and Z that of 1e6."""
+        text = "[box]\nsize = 10\n[discs]\nlist = [[2, 5, 0.1, 0, 0.5, 1], " \
+            "[5, 5, 0, 0, 0.5, {}], [8, 5, -0.3, 0, 0.5, 1]]\n[time]\nsteps = 300\n"
+        for mass, warns in ((1e6, False), (1e8, False), (2e8, True), (1e12, True)):
+            report, printed = self.measure(text.format(mass))
+            self.assertEqual("kT, P and Z lose what light discs add" in printed, warns, mass)
+            if not warns:
+                self.assertAlmostEqual(report["temperature"]["value"], 0.05 / 3, delta=1e-4)
+                self.assertAlmostEqual(report["compressibility"]["value"], 1.2933, delta=2e-4)
+        species = "[box]\nsize = 20\n[discs]\nspecies = [{count = 60, radius = 0.5}, " \
+            "{count = 1, radius = 2, mass = 1e12}]\ntemperature = 0.1\n[time]\nsteps = 1\n"
+        self.assertIn("1e+12 times the mass", self.measure(species)[1])
+
+    def test_energy_from_rest(self):
+        """Kicks, and a wall that moves in: there is no share of an energy that was 0."""
+        rest = "[box]\nsize = 10\n[discs]\nlist = [[3, 3, 0, 0], [6, 6, 0, 0]]\nradius = 0.5\n" \
+            "[time]\nsteps = 40\nsync_every = 4\n"
+        for effect in ('[effects.thermostat]\nkind = "kicks"\nstrength = 0.1\n',
+                       '[box.left]\nkind = "oscillating"\namplitude = 3\nperiod = 20\n'):
+            with self.subTest(effect):
+                text = rest.replace("[[3, 3", "[[1, 3") if "left" in effect else rest
+                report, _ = self.measure(text + effect)
+                self.assertGreater(report["kinetic_energy"], 0)
+                self.assertIsNone(report["energy_drift"])
+
 
 if __name__ == "__main__":
     main()

@@ -191,6 +191,30 @@ class DoubtfulScenes(ProgramTest):
         self.assertNotIn("simultaneous_collisions", self.report("apart.json"))
         self.assertNotIn("at one time", run.err)
 
+    def test_slots_a_rounding_wider_than_a_disc(self):
+        """Between two lines, and between a line and a wall: no micro-step would ever end."""
+        slots = {"lines": ("[10, 10, 0.01, 0.3]", "[9, 2, 9, 18], "
+                           "[11.000000000000002, 2, 11.000000000000002, 18]"),
+                 "wall": ("[1.0000000000000002, 10, 0.01, 0.3]",
+                          "[2.0000000000000009, 2, 2.0000000000000009, 18]")}
+        for name, (disc, segments) in slots.items():
+            self.write(f"{name}.toml", f"""
+                [box]
+                size = 20
+                [discs]
+                radius = 1
+                list = [{disc}, [5, 5, 0.1, 0.2]]
+                [time]
+                steps = 1
+                [effects.obstacles]
+                segments = [{segments}]
+                restitution = 0.9
+                """)
+            for ranks in (1, 2):
+                with self.subTest(name, ranks=ranks):
+                    self.run_program(ranks, "run", f"{name}.toml", "--quiet", code=3, patience=60,
+                                     says="disc 0 collides without end")
+
     def test_unlike_masses(self):
         for mass, is_warned in ((200, True), (0.005, True), (90, False)):
             self.write("heap.toml", HEAP.format(mass))

@@ -62,6 +62,8 @@ WRONG = {
     "picture.png": ("\x00\x01\x02\n", 1, "holds bytes that are no text"),
     "long.txt": ("0 1 2 0 0\n" + "1" * 5000 + "\n", 2, "a line of more than 4096 characters"),
     "rest.txt": ("0 1 2\n1 3 4\n", None, "have no velocity; try: discs.temperature or discs.speed"),
+    "empty_field.csv": ("x,y,vx,vy\n1,1,0,0\n3,3,,0,1\n", 3, "'?0' is not a number"),
+    "first_field.csv": ("x,y,vx,vy\n,1,1,0,0\n", 2, "'?1' is not a number"),
     "radius.txt": ("0.25 0.5 1\n", 1, "'0.25' is not the id of a disc; lines are 'id x y'"),
 }
 

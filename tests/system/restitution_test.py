@@ -170,6 +170,49 @@ class Restitution(ProgramTest):
         self.assertLess(self.report("r.json")["pair_collisions"], 2000)
         self.assertLess(max(abs(vx) for vx, _ in ends), 0.05)
 
+    def test_wedges_end(self):
+        """A disc is driven between a rubbing obstacle and a wall, and one flies into a corner of
+        two lines: both collide without end, and the runs end and say what the guard spares.
+        """
+        self.write("driven.toml", """
+            [box]
+            size = [16, 12]
+            [discs]
+            radius = 0.677
+            list = [[4, 11, -1, 0]]
+            [time]
+            steps = 3
+            [effects.obstacles]
+            discs = [[2.462, 10.423, 0.5]]
+            restitution = 0
+            tangential_restitution = 0.3
+            velocity = 0.4
+            """)
+        for ranks in (1, 2):
+            run = self.run_program(ranks, "run", "driven.toml", "--report", f"{ranks}.json",
+                                   patience=60)
+            self.assertRegex(run.err, r"warning: \d+ collisions took no energy")
+        self.assertEqual(self.hash_of("1.json"), self.hash_of("2.json"))
+        self.assertLess(self.report("1.json")["wall_collisions"], 3000000)
+        self.write("corner.toml", """
+            [box]
+            size = 20
+            [discs]
+            radius = 0.5
+            list = [[4, 10, 0.5, 0]]
+            [time]
+            steps = 500
+            [effects.obstacles]
+            segments = [[1, 9, 19, 9.9999], [1, 11, 19, 10.0001]]
+            restitution = 0.3
+            """)
+        energies = []
+        for words in ((), ("--set", "effects.contact.contact_time=1e-9")):
+            run = self.run_program(1, "run", "corner.toml", "--report", "c.json", *words)
+            self.assertIn("collisions took no energy", run.err)
+            energies.append(self.report("c.json")["kinetic_energy"])
+        self.assertLess(energies[1], energies[0] / 3)  # what the warning advises helps
+
 
 if __name__ == "__main__":
     main()

@@ -3,30 +3,10 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
+from completion import offers_after
 
 import carrom
-
-SESSION = """
-import json, sys, warnings
-from IPython.core.interactiveshell import InteractiveShell
-
-shell = InteractiveShell.instance()
-shell.run_cell("import carrom")
-shell.run_cell(f"run = carrom.open({sys.argv[1]!r}, check=False)")
-warnings.simplefilter("ignore")
-offers = {}
-for text in sys.argv[2:]:
-    completions = shell.Completer.completions(text, len(text))
-    offers[text] = [completion.text.lstrip(".") for completion in completions]
-print(json.dumps(offers))
-"""
 
 WANTED = {
     'run.tables["': {"thermo", "displacement", "radial_distribution"},
@@ -43,12 +23,7 @@ WANTED = {
 
 @pytest.fixture(scope="module")
 def offers(run: carrom.Run) -> dict[str, list[str]]:
-    pytest.importorskip("IPython", reason="IPython is not installed")
-    environment = os.environ | {"PYTHONPATH": str(Path(carrom.__file__).parents[1])}
-    command = [sys.executable, "-c", SESSION, str(run.folder), *WANTED]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
-    found: dict[str, list[str]] = json.loads(done.stdout.splitlines()[-1])
-    return found
+    return offers_after(f"run = carrom.open({str(run.folder)!r}, check=False)", WANTED)
 
 
 @pytest.mark.parametrize("text", WANTED)

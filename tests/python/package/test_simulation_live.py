@@ -6,14 +6,12 @@ from __future__ import annotations
 import ast
 import inspect
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from completion import offers_after
 from conftest import PERIODIC, gas, measured
 
 import carrom
@@ -233,24 +231,7 @@ def test_stubs_are_those_of_the_extension() -> None:
                     assert f"{argument}" in signature, (name, argument)
 
 
-SESSION = """
-import json, sys, warnings
-from IPython.core.interactiveshell import InteractiveShell
-
-shell = InteractiveShell.instance()
-shell.run_cell("import carrom")
-shell.run_cell(f"sim = carrom.Simulation({sys.argv[1]}); sim.run(20)")
-warnings.simplefilter("ignore")
-offers = {}
-for text in sys.argv[2:]:
-    completions = shell.Completer.completions(text, len(text))
-    offers[text] = [completion.text.lstrip(".") for completion in completions]
-print(json.dumps(offers))
-"""
-
-
 def test_names_complete() -> None:
-    pytest.importorskip("IPython", reason="IPython is not installed")
     wanted = {
         "sim.": {"run", "positions", "velocities", "images", "every", "averages", "report"},
         'sim.averages["': {"Z", "kT", "mean_speed", "virial_pressure"},
@@ -259,10 +240,8 @@ def test_names_complete() -> None:
         'sim.report["': {"state_hash", "averages", "changes"},
         "sim.frame.": {"x", "v", "image", "to_pandas"},
     }
-    environment = os.environ | {"PYTHONPATH": str(Path(carrom.__file__).parents[1])}
-    command = [sys.executable, "-c", SESSION, repr(measured(**PERIODIC)), *wanted]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
-    offers = json.loads(done.stdout.splitlines()[-1])
+    scene = repr(measured(**PERIODIC))
+    offers = offers_after(f"sim = carrom.Simulation({scene}); sim.run(20)", wanted)
     for text, names in wanted.items():
         assert names <= set(offers[text]), text
     assert not any(name.startswith("_") for name in offers["sim."])
