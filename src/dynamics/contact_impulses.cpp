@@ -22,13 +22,12 @@ constexpr double sweeps_at_most = 20;
 /// are left with wrong ones meet until the next sync, which takes longer than the sweeps.
 constexpr double sweeps_of_flow = 400;
 
-/// Whether gravity pulls along periodic sides, so that discs may flow on without end.
+} // namespace
+
 bool may_flow_on(const Effects& effects) {
     return (effects.gravity.x != 0 && effects.is_periodic_x()) ||
            (effects.gravity.y != 0 && effects.is_periodic_y());
 }
-
-} // namespace
 
 /// In the mean until the next sync. `turning` is the spin times the radius.
 struct ContactImpulses::Body {

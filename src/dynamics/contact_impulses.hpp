@@ -32,6 +32,9 @@
 
 namespace carrom {
 
+/// Whether gravity pulls along periodic sides, so that discs may flow on without end.
+bool may_flow_on(const Effects& effects);
+
 /// The impulse of a contact, from which the next sync begins. `b` is a disc's id, or below 0 for
 /// walls and obstacles.
 struct KeptImpulse {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/contact_guard.hpp"
+#include "dynamics/contact_impulses.hpp"
 #include "scene/key.hpp"
 
 namespace carrom {
@@ -103,12 +104,8 @@ std::string HeapWarning::text_on_rest(double per_step) const {
 std::string HeapWarning::text_on_flow(double per_step) const {
     const double time = static_cast<double>(scene_.sync_every) /
                         static_cast<double>(scene_.micro_steps);
-    if (!(per_step * time > most_where_lasting)) return {};
-    // Elsewhere discs come to rest, and such a burst ends.
-    const Effects& effects = scene_.effects;
-    if (!(effects.is_periodic_x() && effects.gravity.x != 0) &&
-        !(effects.is_periodic_y() && effects.gravity.y != 0))
-        return {};
+    // Where discs cannot flow on they come to rest, and a burst of collisions ends.
+    if (!may_flow_on(scene_.effects) || !(per_step * time > most_where_lasting)) return {};
     // A flow may still become faster, and its discs fall over each other by about a radius. Above
     // the limits the scene would be an error, or impacts would lose more than they should.
     const Gravity& gravity = scene_.effects.gravity;
