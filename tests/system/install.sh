@@ -43,7 +43,8 @@ for library in fmt tomlplusplus CLI11 nlohmann_json highway xxhash random123; do
 done
 
 # The list of parts: CycloneDX's form, with every library that CMake looked for.
-python3 - "$prefix/share/doc/carrom/carrom.cdx.json" "$CARROM_SOURCE_DIR/CMakeLists.txt" <<'CHECK' ||
+bill=$prefix/share/doc/carrom/carrom.cdx.json
+python3 - "$bill" "$CARROM_SOURCE_DIR/CMakeLists.txt" <<'CHECK' ||
 import json, re, sys
 bill = json.load(open(sys.argv[1], encoding="utf-8"))
 assert (bill["bomFormat"], bill["specVersion"]) == ("CycloneDX", "1.5"), bill
