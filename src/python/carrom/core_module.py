@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from carrom.errors import ERROR_OF_CODE, MissingPackageError, ProgramError, SceneError
+from carrom.held_core import end_left
 from carrom.program import checkouts
 from carrom.words import in_python
 
@@ -39,9 +40,15 @@ def load() -> Any:
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     core = _imported()
     core.make_errors_by(error_of)
-    atexit.register(core.end_session)
-    core.thread = threading.get_ident()
+    atexit.register(_end, core)
+    core.thread, core.process = threading.get_ident(), os.getpid()
     return core
+
+
+def _end(core: Any) -> None:
+    """End MPI with the last simulation, in the process that has started it."""
+    end_left()
+    core.end_session(os.getpid() != core.process)
 
 
 def _imported() -> Any:
