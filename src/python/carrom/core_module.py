@@ -21,8 +21,10 @@ from carrom.words import in_python
 
 _NAME = "carrom._core"
 _ADVICE = (
-    "install a wheel that holds it, or build it: cmake -S . -B build-python -DCARROM_PYTHON=ON "
-    "-DPython_EXECUTABLE=$(which python3); cmake --build build-python --target carrom_python"
+    "install a wheel that holds it, or build it in a checkout: pip install nanobind; cmake -S . "
+    "-B build-python -DCARROM_PYTHON=ON -DPython_EXECUTABLE=$(which python3); cmake --build "
+    "build-python --target carrom_python; then work in the checkout, or let CARROM_CORE be the "
+    "path of build-python/python/carrom/_core*.so"
 )
 
 
