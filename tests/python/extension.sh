@@ -24,7 +24,15 @@ if [ -z "${CARROM_CORE:-}" ]; then
         { tail -n 5 configured; grep -q 'Python' configured && skip_test 'no headers of Python'; }
     "$2" --build "$build" --target carrom_python --parallel 2 >built 2>&1 ||
         { tail -n 20 built; complain 'the extension is not built'; finish; }
-    CARROM_CORE=$(echo "$build"/python/carrom/_core*.so)
+    CARROM_CORE=$("$python" - "$build/python/carrom" <<'END'
+import importlib.machinery
+import sys
+from pathlib import Path
+
+names = [Path(sys.argv[1], f"_core{end}") for end in importlib.machinery.EXTENSION_SUFFIXES]
+print(next(name for name in names if name.is_file()))
+END
+    )
 fi
 export CARROM_CORE PYTHONDONTWRITEBYTECODE=1
 tests=$CARROM_SOURCE_DIR/tests/python/package

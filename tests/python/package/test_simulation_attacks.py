@@ -26,7 +26,7 @@ def run_python(code: str, *, status: int = 0) -> list[str]:
     """Run code in a Python of its own and return the lines that it prints."""
     environment = os.environ | {"PYTHONPATH": str(Path(carrom.__file__).parents[1])}
     command = [sys.executable, "-c", textwrap.dedent(code)]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600)
     assert done.returncode == status, done.stderr
     assert "Exception ignored" not in done.stderr
     return done.stdout.splitlines()
@@ -249,7 +249,7 @@ def test_workers_of_multiprocessing_begin_anew(tmp_path: Path) -> None:
     )
     environment = os.environ | {"PYTHONPATH": str(Path(carrom.__file__).parents[1])}
     command = [sys.executable, str(tmp_path / "work.py")]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600)
     assert done.stdout.split() == ["True"], done.stderr
 
 
