@@ -71,6 +71,7 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
     depends_on_x_ = depends(scene.box.x, 0);
     depends_on_y_ = depends(0, scene.box.y);
     acts_at_syncs_ = allowance.acts_at_syncs;
+    acts_before_flights_ = allowance.acts_before_flights;
     energy_given_ = energy_given;
     wall_speed_ = largest_wall_speed(effects_);
     wall_pull_ = largest_wall_pull(effects_);
@@ -108,6 +109,8 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     energy_given_before_ = std::exchange(energy_given_, energy_given);
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
+    swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
+                            static_cast<double>(micro_steps_done_));
     const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
