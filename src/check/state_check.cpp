@@ -109,16 +109,14 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     energy_given_before_ = std::exchange(energy_given_, energy_given);
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
-    swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
-                            static_cast<double>(micro_steps_done_));
     const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     note_speeds();
-    if (were_rewritten()) { // they have flown straight since the sync
-        const std::int64_t sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
-        for (Known& known : known_) known.free_from = std::max(known.free_from, sync);
-    }
+    if (were_rewritten()) // they have flown straight since the sync
+        for (Known& known : known_)
+            known.free_from = std::max(known.free_from,
+                                       micro_steps_done_ / scene_.sync_every * scene_.sync_every);
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
     fail_if_found(first_in_obstacle(now), log);

@@ -152,7 +152,7 @@ private:
     std::vector<OtherEnergy> energies_;
     bool depends_on_x_ = false, depends_on_y_ = false; ///< they do, or what discs get on their way
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
-    bool surfaces_rub_ = false;  ///< walls or obstacles rub: spins change there
+    bool surfaces_rub_ = false; ///< walls or obstacles rub: spins change there
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;

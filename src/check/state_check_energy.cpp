@@ -171,9 +171,12 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
+/// How the frame of gravity that changes has moved; and where effects make discs faster, what is known
+/// of the fastest grows with them. **Collective.**
 void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
+    swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
+                            static_cast<double>(micro_steps_done_));
     double square = 0;
     for (const Known& known : known_) square = std::max(square, squared_speed_of(known.disc));
     if (effects_.are_sheared()) {
@@ -254,8 +257,7 @@ double StateCheck::resting_gain(const Known& known) const {
 /// than it came, so this is the impulse times the wall's speed, less what the
 /// restitution takes. The guard of discs at rest is in resting_gain.
 double StateCheck::work_of_walls(const Known& known) const {
-    return 1.01 * speed_of_walls() * known.wall_impulse /
-           static_cast<double>(scene_.micro_steps);
+    return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
 /// Of walls that oscillate, and of all walls in a frame that falls from the last inspection on.

@@ -161,7 +161,7 @@ private:
     double radius_;
     std::array<double, 4> away_{};             ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
-    std::array<double, 2> gravity_, sways_; ///< the steady part, and the amplitudes of the other
+    std::array<double, 2> gravity_, sways_;    ///< the steady part, and the amplitudes of the other
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
     std::array<double, 4> rest_times_{}; ///< how long a disc at rest is away from such a wall

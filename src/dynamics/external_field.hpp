@@ -97,10 +97,10 @@ enum class FieldKind { none, trap, sine, grid };
 /// `[effects.field]`; times in steps in a scene, in micro-steps in a dynamics.
 struct ExternalField {
     FieldKind kind = FieldKind::none;
-    double stiffness_x = 0, stiffness_y = 0;   ///< of a trap: force for each length
-    std::optional<double> centre_x, centre_y;  ///< otherwise the middle of the box
-    double amplitude = 0; ///< energy of a sine, or of a number of 1 on a grid
-    Axis axis = Axis::x;  ///< along which a sine changes
+    double stiffness_x = 0, stiffness_y = 0;  ///< of a trap: force for each length
+    std::optional<double> centre_x, centre_y; ///< otherwise the middle of the box
+    double amplitude = 0;                     ///< energy of a sine, or of a number of 1 on a grid
+    Axis axis = Axis::x;                      ///< along which a sine changes
     std::int64_t waves = 1;
     double phase = 0;
     std::string file;   ///< with the numbers of a grid; relative to the scene

@@ -38,7 +38,8 @@ struct ValueAndSlope {
 /// and itself. Uses Newton's rule, and halving if that leaves the bracket or its steps
 /// do not get shorter by half.
 template <class Function>
-double root_in_bracket(double low, double high, bool rises, double origin, const Function& function) {
+double root_in_bracket(double low, double high, bool rises, double origin,
+                       const Function& function) {
     double s = low + (high - low) / 2, last_step = high - low;
     for (;;) {
         const auto [value, slope] = function(s);

@@ -63,9 +63,7 @@ private:
     double pull_of(const Arc& arc) const {
         return pull + (sine * (1 - arc.versine) + cosine * arc.sine);
     }
-    double bend_of(const Arc& arc) const {
-        return cosine * (1 - arc.versine) - sine * arc.sine;
-    }
+    double bend_of(const Arc& arc) const { return cosine * (1 - arc.versine) - sine * arc.sine; }
 };
 
 /// Times between which something is monotone: a beginning, at most three roots, and an end.
@@ -112,8 +110,9 @@ double first_contact(const SwayingFlight& flight, double end, double origin) {
         const double from = pieces.begin(k), to = pieces.end(k);
         const bool falls_then = flight.falls_at(to);
         if (falls || falls_then) {
-            const double turn = falls == falls_then ? from
-                                                    : root_in_bracket(from, to, falls, origin, speed);
+            const double turn = falls == falls_then
+                                    ? from
+                                    : root_in_bracket(from, to, falls, origin, speed);
             const double top = falls ? from : turn, bottom = falls_then ? to : turn;
             if (distance(top).value <= 0) return top;
             if (distance(bottom).value < 0)

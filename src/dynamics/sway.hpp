@@ -59,7 +59,7 @@ private:
 
     double rate_ = 0, period_ = 1; ///< rate: 2 pi / period
     std::array<double, 2> amplitudes_{};
-    std::array<double, 2> turns_{};  ///< at the scene's start
+    std::array<double, 2> turns_{}; ///< at the scene's start
     std::array<Phase, 2> at_sync_{};
 };
 

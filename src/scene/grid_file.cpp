@@ -70,8 +70,6 @@ private:
 
 } // namespace
 
-std::string read_rows(const std::string& path, std::size_t most) {
-    return Rows(path, most).read();
-}
+std::string read_rows(const std::string& path, std::size_t most) { return Rows(path, most).read(); }
 
 } // namespace carrom

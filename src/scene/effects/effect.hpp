@@ -36,7 +36,7 @@ struct CheckAllowance {
     bool collisions_take_energy = false;
     bool walls_give_energy = false; ///< an amount that only the run knows
     bool acts_at_syncs = false; ///< velocities change there, by an energy that the engine adds up
-    bool acts_before_flights = false; ///< and again right before the flights that follow
+    bool acts_before_flights = false;  ///< and again right before the flights that follow
     bool surfaces_give_energy = false; ///< in collisions: see EffectDeclaration::work_in_collision
 };
 

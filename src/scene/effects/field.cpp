@@ -100,13 +100,16 @@ Values rows_of_field(const FieldValues& values) {
 }
 
 Key key_of_values() {
-    Key declared = named_key("effects.field.values", "1",
-                             "The numbers themselves, one row for each y. A run stores those of its "
-                             "file here, so that a restart needs no file.")
+    Key declared = named_key(
+                       "effects.field.values", "1",
+                       "The numbers themselves, one row for each y. A run stores those of its "
+                       "file here, so that a restart needs no file.")
                        .with_rows({{"", "[V, V, ...]", 1, most_values}})
                        .by_default("those of the file")
                        .needs(field_kinds("\"grid\"", {FieldKind::grid}));
-    declared.get = [](const SceneParameters& s) { return Value{rows_of_field(s.effects.field.values)}; };
+    declared.get = [](const SceneParameters& s) {
+        return Value{rows_of_field(s.effects.field.values)};
+    };
     declared.set = [](SceneParameters& s, const Value& value) {
         take_rows_of_field(s.effects.field.values, std::get<Values>(value.data));
     };
@@ -120,7 +123,7 @@ Key key_of_strengths() {
                        .with_rows({{"", "[strength, ...]", 1, most_strengths}})
                        .by_default("1 for all")
                        .needs(field_kinds("another word than \"none\"",
-                                    {FieldKind::trap, FieldKind::sine, FieldKind::grid}));
+                                          {FieldKind::trap, FieldKind::sine, FieldKind::grid}));
     declared.is_one_row = true;
     declared.get = [](const SceneParameters& s) {
         const std::vector<double>& all = s.effects.field.strengths;
@@ -247,14 +250,14 @@ void check_rows_of_field(const SceneDraft& draft) {
         n += row.size();
     });
     draft.refuse_rows("effects.field.values", [&](const Numbers& row, std::size_t) -> std::string {
-        return row.size() == columns ? ""
-                                     : fmt::format("{} numbers, and the first row has {}",
-                                                   row.size(), columns);
+        return row.size() == columns
+                   ? ""
+                   : fmt::format("{} numbers, and the first row has {}", row.size(), columns);
     });
     if (n > most_values)
-        draft.refuse({"effects.field.values"},
-                     fmt::format("'effects.field.values' has {} numbers; {} at most", n,
-                                 most_values));
+        draft.refuse(
+            {"effects.field.values"},
+            fmt::format("'effects.field.values' has {} numbers; {} at most", n, most_values));
 }
 
 void check_strengths(const SceneDraft& draft) {
@@ -356,15 +359,19 @@ EffectDeclaration field() {
                     return std::sqrt(2 * s.effects.field.depth(s.box) *
                                      s.effects.field.largest_strength());
                 },
+            .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
+                if (!has_field(s)) return nullptr;
+                return std::make_unique<FieldAtSyncs>(s);
+            },
             .common_motion =
                 [](const Effects& e, Axis axis) {
                     return CommonMotion{.is_stopped = e.field.acts_along(axis)};
                 },
             .reason_without_z =
                 [](const Effects& e) {
-                    return std::string(
-                        e.field.is_any() ? "no Z, because the density differs from place to place"
-                                         : "");
+                    return std::string(e.field.is_any()
+                                           ? "no Z, because the density differs from place to place"
+                                           : "");
                 }};
 }
 

@@ -101,18 +101,15 @@ std::vector<Rule> rules_of_gravity() {
              "contacts with walls are found on parabolas and one sine",
              {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
              [](const SceneParameters& s) {
-                 return s.effects.gravity.sways() &&
-                        (s.effects.drag != 0 || has_oscillating(s));
+                 return s.effects.gravity.sways() && (s.effects.drag != 0 || has_oscillating(s));
              }),
-        rule("gravity that changes", "obstacles",
-             "contacts with bodies are found on straight lines and parabolas",
-             {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
-             [](const SceneParameters& s) {
-                 return s.effects.gravity.sways() && has_obstacles(s);
-             }),
+        rule(
+            "gravity that changes", "obstacles",
+            "contacts with bodies are found on straight lines and parabolas",
+            {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
+            [](const SceneParameters& s) { return s.effects.gravity.sways() && has_obstacles(s); }),
         rule("gravity that changes", "contacts that last",
-             "these are pressed by one force from sync to sync",
-             {"effects.lasting_contacts.speed"},
+             "these are pressed by one force from sync to sync", {"effects.lasting_contacts.speed"},
              [](const SceneParameters& s) {
                  return s.effects.gravity.sways() && s.effects.lasting_speed > 0;
              }),
@@ -171,11 +168,11 @@ void check_period(const SceneDraft& draft) {
     if (!draft.knows_syncs() || !sways_too_fast(scene)) return;
     const double longest = std::floor(period / least_syncs *
                                       static_cast<double>(scene.micro_steps));
-    draft.refuse({"effects.gravity.period"},
-                 fmt::format("'effects.gravity.period' = {} is less than {} times between syncs; {}",
-                             period, least_syncs,
-                             longest >= 1
-                                 ? fmt::format("time.sync_every = {} or less will do", longest)
+    draft.refuse(
+        {"effects.gravity.period"},
+        fmt::format("'effects.gravity.period' = {} is less than {} times between syncs; {}", period,
+                    least_syncs,
+                    longest >= 1 ? fmt::format("time.sync_every = {} or less will do", longest)
                                  : fmt::format("time.micro_steps = {} or more will do",
                                                std::ceil(least_syncs / period))));
 }
@@ -222,43 +219,41 @@ bool do_surfaces_rub(const Effects& effects) {
 namespace effects {
 
 EffectDeclaration gravity() {
-    return {.tables = {{"effects.gravity", "Uniform gravity."}},
-            .keys = keys_of_gravity(),
-            .rules = rules_of_gravity(),
-            .derive = shorten_sync,
-            .check_times = check_period,
-            .check_room = check_fall,
-            .summary = summary_of_gravity,
-            .allowance =
-                [](const Effects& e) {
-                    return CheckAllowance{.collisions_take_energy = e.gravity.is_any() &&
-                                                                    e.drag != 0,
-                                          .walls_give_energy = e.gravity.sways() &&
-                                                               do_surfaces_rub(e)};
-                },
-            .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
-                if (!e.gravity.is_steady()) return std::nullopt;
-                return OtherEnergy{.name = "potential_energy",
-                                   .words = "of height",
-                                   .value = &Totals::potential_energy,
-                                   .of_disc = energy_of_height,
-                                   .largest = [](const Effects& at, const Box& box) {
-                                       return (std::fabs(at.gravity.x) + std::fabs(at.gravity.y)) *
-                                              box.longest();
-                                   }};
+    return {
+        .tables = {{"effects.gravity", "Uniform gravity."}},
+        .keys = keys_of_gravity(),
+        .rules = rules_of_gravity(),
+        .derive = shorten_sync,
+        .check_times = check_period,
+        .check_room = check_fall,
+        .summary = summary_of_gravity,
+        .allowance =
+            [](const Effects& e) {
+                return CheckAllowance{.collisions_take_energy = e.gravity.is_any() && e.drag != 0,
+                                      .walls_give_energy = e.gravity.sways() && do_surfaces_rub(e)};
             },
-            .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
-            .usual_speed =
-                [](const SceneParameters& s) {
-                    const Gravity& g = s.effects.gravity;
-                    return std::sqrt(2 * (g.largest_x() + g.largest_y()) * s.box.longest());
-                },
-            .common_motion =
-                [](const Effects& e, Axis axis) {
-                    const Gravity& g = e.gravity;
-                    return CommonMotion{.is_driven =
-                                            along(axis, g.largest_x(), g.largest_y()) != 0};
-                }};
+        .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
+            if (!e.gravity.is_steady()) return std::nullopt;
+            return OtherEnergy{.name = "potential_energy",
+                               .words = "of height",
+                               .value = &Totals::potential_energy,
+                               .of_disc = energy_of_height,
+                               .largest = [](const Effects& at, const Box& box) {
+                                   return (std::fabs(at.gravity.x) + std::fabs(at.gravity.y)) *
+                                          box.longest();
+                               }};
+        },
+        .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
+        .usual_speed =
+            [](const SceneParameters& s) {
+                const Gravity& g = s.effects.gravity;
+                return std::sqrt(2 * (g.largest_x() + g.largest_y()) * s.box.longest());
+            },
+        .common_motion =
+            [](const Effects& e, Axis axis) {
+                const Gravity& g = e.gravity;
+                return CommonMotion{.is_driven = along(axis, g.largest_x(), g.largest_y()) != 0};
+            }};
 }
 
 } // namespace effects

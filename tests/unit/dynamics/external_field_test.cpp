@@ -50,7 +50,8 @@ TEST_CASE("Fields: the spline goes through its numbers, and is smooth") {
             const FieldSpline spline(values, is_periodic, !is_periodic);
             const double hx = spacing(n, is_periodic, box.x), hy = spacing(6, !is_periodic, box.y);
             for (std::size_t k = 0; k < values.numbers.size(); ++k) {
-                const double x = hx * static_cast<double>(k % n), y = hy * static_cast<double>(k / n);
+                const double x = hx * static_cast<double>(k % n),
+                             y = hy * static_cast<double>(k / n);
                 CHECK(spline.at(x, y, box).energy == Approx(values.numbers[k]).margin(1e-13));
                 const FieldPoint before = spline.at(x - 1e-9, y - 1e-9, box),
                                  after = spline.at(x + 1e-9, y + 1e-9, box);
@@ -90,8 +91,8 @@ TEST_CASE("Fields: a sine on a grid is the sine, to the fourth power of the spac
         grid.values = values;
         grid.spline = FieldSpline(values, true, true);
         for (double x = 0; x < box.x; x += 0.01)
-            worst[fine] = std::max(worst[fine], std::fabs(grid.at(x, 1, box).energy -
-                                                          sine.at(x, 1, box).energy));
+            worst[fine] = std::max(
+                worst[fine], std::fabs(grid.at(x, 1, box).energy - sine.at(x, 1, box).energy));
         CHECK(grid.largest_curvature(box) == Approx(sine.largest_curvature(box)).epsilon(0.03));
     }
     CHECK(worst[0] < 2e-4);

@@ -96,8 +96,8 @@ TEST_CASE("Sway: a frame at rest at a sync falls by the double integral of a sin
         Sway sway(g);
         sway.begin_interval(sync);
         const Swayed y = sway.at(1, time);
-        const Long w = turn / g.period, a = g.amplitude_y,
-                   first = w * Long(sync) + g.phase_y, last = first + w * time;
+        const Long w = turn / g.period, a = g.amplitude_y, first = w * Long(sync) + g.phase_y,
+                   last = first + w * time;
         const Long speed = a / w * (std::cos(first) - std::cos(last)),
                    way = a / w * std::cos(first) * time -
                          a / (w * w) * (std::sin(last) - std::sin(first));
@@ -145,9 +145,9 @@ TEST_CASE("Sway: contacts with walls are the first roots, and none is missed") {
 TEST_CASE("Sway: a disc at a wall leaves it, and comes back when it is pressed") {
     Gravity g;
     g.amplitude_y = 0.01, g.period = 80;
-    Sway sway(g); // pulls up for half a period
-    CHECK(sway.contact_delay(1, 1, 0, -0.1, 0, 0) == 0);  // it comes nearer
-    CHECK(sway.contact_delay(1, 1, 0, 0.1, 0, 0) > 10);   // it flies up
+    Sway sway(g);                                        // pulls up for half a period
+    CHECK(sway.contact_delay(1, 1, 0, -0.1, 0, 0) == 0); // it comes nearer
+    CHECK(sway.contact_delay(1, 1, 0, 0.1, 0, 0) > 10);  // it flies up
     CHECK(sway.contact_delay(1, 1, -1e-17, 1e-3, -0.02, 0) > 0.09);
     sway.begin_interval(40); // and down for the other half
     const double back = sway.contact_delay(1, 1, 0, 1e-3, 0, 0);
