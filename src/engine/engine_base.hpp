@@ -61,6 +61,9 @@ protected:
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
+    /// Effects have changed velocities since then, before flights. No own disc is faster than
+    /// `largest_speed`. **Collective.**
+    virtual void take_speed(double largest_speed) = 0;
     /// Frees what windows keep from one to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
@@ -116,6 +119,8 @@ private:
     void sync();
     double restart_states();
     double let_effects_act();
+    void let_effects_begin();
+    double largest_speed_of_all_states() const;
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

@@ -121,8 +121,8 @@ void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample
     const double px = unit * sample.momentum_x, py = unit * sample.momentum_y;
     const Tensor squares = shifted((unit * unit) * sample.motion, px, py, sample.mass, ax, ay);
     Tensor flown = (flights.weight / (slowing * slowing)) * squares;
-    const double rx = flights.rest_x, ry = flights.rest_y;
-    flown += sample.mass * Tensor{rx * rx, rx * ry, ry * ry};
+    const double rx = flights.rest_x, ry = flights.rest_y, more = flights.more_y;
+    flown += sample.mass * Tensor{rx * rx, rx * ry, ry * ry + more * more};
     sample.stress += flown;
     sample.energy += flown.xx + flown.yy;
 }
