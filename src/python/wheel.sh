@@ -85,8 +85,9 @@ END
     g++ -std=c++20 -O2 -fPIC -c "$parts/toml.cpp" -o "$parts/toml.o"
     place=$old/usr/lib/$(gcc -print-multiarch)
     cat >"$parts/link.cmake" <<END
-add_link_options(--sysroot=$old -B$place -L$place -static-libstdc++
-                 -Wl,--unresolved-symbols=ignore-in-shared-libs $parts/newer.o $parts/toml.o)
+add_link_options(--sysroot=$old -B$place -L$place -static-libstdc++ $parts/newer.o $parts/toml.o)
+# The program alone, because an extension takes Python's functions from where it is loaded.
+string(APPEND CMAKE_EXE_LINKER_FLAGS " -Wl,--unresolved-symbols=ignore-in-shared-libs")
 END
     old_system=$old
 }
