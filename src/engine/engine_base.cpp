@@ -163,7 +163,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    discs_.forget_images();
+    if (time_ != 0) discs_.forget_images(); // a sync has just done so
     if (n_micro_done_ == last_micro_step_) drop_scratch(); // leaves memory for what follows a run
 }
 
@@ -171,7 +171,10 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
     double largest_speed = restart_states();
     dynamics_.begin_interval(last_sync());
-    if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
+    if constexpr (Dynamics::is_periodic) {
+        discs_.set_periods(dynamics_.periods());
+        discs_.note_wrapped();
+    }
     if (sync_action_.has_effects()) largest_speed = let_effects_act();
     finish_sync(largest_speed);
     redistributed_time_ -= time_;
@@ -284,7 +287,7 @@ template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
         measure_overlaps(population(), discs_.grid(), time_,
                          touching_of(dynamics_, time_, discs_.periods()), communicator_,
                          tuning_.threads, totals);
-    discs_.forget_images();
+    forget_images();
 }
 
 template <class Dynamics> LocalView EngineBase<Dynamics>::local_view(double reach) {
