@@ -171,8 +171,8 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// How the frame of gravity that changes has moved; and where effects make discs faster, what is known
-/// of the fastest grows with them. **Collective.**
+/// Where effects make discs faster, what is known of the fastest grows with them. And gravity that
+/// changes has moved its frame. **Collective.**
 void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
     swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),

@@ -164,7 +164,7 @@ def splitting(program, is_short):
     """The energy of a free disc oscillates by up to (w t)^2 / 4 of itself. In a fluid collisions
     change the phase at which it is, so that it wanders.
     """
-    for turn in (0.2, 0.4) if is_short else (0.05, 0.1, 0.2, 0.4, 0.8):
+    for turn in (0.2, 0.4) if is_short else (0.025, 0.05, 0.1, 0.2, 0.4):
         rate = turn / 16 # a sync in 16 micro-steps of one step
         shares = []
         for steps in range(64, 64 * 9, 64):

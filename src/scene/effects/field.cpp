@@ -33,7 +33,7 @@ namespace {
 constexpr std::size_t most_values = std::size_t{1} << 18, most_strengths = 4096;
 /// w t by default at most, for the strongest curvature; from where a warning is due; and where no
 /// orbit is like the true one.
-constexpr double usual_turn = 0.1, large_turn = 0.5, largest_turn = 1;
+constexpr double usual_turn = 0.05, large_turn = 0.5, largest_turn = 1;
 
 class FieldAtSyncs final : public SyncEffect {
 public:
