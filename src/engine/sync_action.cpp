@@ -21,6 +21,8 @@ void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& n
     SyncDiscs at{species_};
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
+    if (discs.columns().has(SideColumn::direction))
+        at.directions = discs.columns()[SideColumn::direction];
     at.n_syncs = n_syncs;
     at.in_parts = [&](const SyncDiscs::Part& part) {
         const std::size_t n = at.discs.size();
