@@ -183,12 +183,11 @@ def polydisperse(folder):
 
 def active(folder):
     """Clusters whose discs push inwards, and how the density of cells spreads."""
-    result = run("active", folder, [1000, 20_000])
+    result = run("active", folder, [500, 6000])
     figure, discs, right = beside()
-    carrom.plot.frame(result, 20_000, ax=discs, colour="direction")
-    for step, colour in ((0, GREY), (5_000, "#6090d0"), (20_000, BLUE)):
-        shown = [frame for frame in result.frames if step - 3_000 < frame.step <= step or
-                 frame.step == step]
+    carrom.plot.frame(result, 6000, ax=discs, colour="direction")
+    for step, colour in ((0, GREY), (2000, "#6090d0"), (6000, BLUE)):
+        shown = [frame for frame in result.frames if step - 1500 < frame.step <= step]
         counts = np.concatenate([np.histogram2d(*frame.x.T, bins=(12, 10),
                                                 range=((0, 62), (0, 54)))[0].ravel()
                                  for frame in shown])

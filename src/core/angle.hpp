@@ -9,7 +9,7 @@ namespace carrom {
 /// The angle in [-pi, pi], in radians, that differs from `angle` by whole turns.
 double wrapped_angle(double angle);
 
-/// Cosine and sine of an angle in [-pi, pi], to within 1e-15. It takes a fiftieth of the time of
+/// Cosine and sine of an angle in [-pi, pi], to within 2e-15. It takes a fiftieth of the time of
 /// `rounded_sine`, whose last bit is right, too.
 Direction direction_of(double angle);
 
