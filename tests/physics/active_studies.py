@@ -25,8 +25,9 @@ import statistics
 import literature
 from driven_studies import EVENTS, PERIODIC, box_of, run
 
-BETWEEN = 3 # variance over mean of homogeneous discs and of two phases
+BETWEEN = 2 # variance over mean of homogeneous discs and of two phases
 LANGEVIN = {"effects.thermostat.kind": '"langevin"'}
+ALONG_Y = {f"box.{side}.kind": '"periodic"' for side in ("bottom", "top")}
 IDEAL = {"effects.contact.kind": '"none"'}
 
 
@@ -82,8 +83,8 @@ def free(program, is_short):
 def swim(program, is_short):
     """P = n (kT + m gamma u^2 / (2 b)) with the density n far from walls, whatever the inertia.
 
-    Discs wait at walls, so n is smaller than the mean. They do not meet: this is the limit of low
-    density. The box is 16 run lengths wide, and averages begin when its profile has settled.
+    Discs wait at the two walls, so n is smaller than the mean. They do not meet: this is the limit
+    of low density. The box is 16 run lengths wide, and averages begin when its profile has settled.
     """
     kt, gamma, speed, memory = 0.001, 0.1, 0.1, 0.04
     count, steps = (500, 4_000) if is_short else (2000, 10_000)
@@ -91,7 +92,7 @@ def swim(program, is_short):
     for diffusion, tumbles in ((memory, 0),) if is_short else ((memory, 0), (0, memory)):
         found = []
         for seed in range(1, 9):
-            report = run(program, EVENTS | LANGEVIN | IDEAL | {
+            report = run(program, ALONG_Y | EVENTS | LANGEVIN | IDEAL | {
                 "box.size": 40, "discs.count": count, "discs.radius": 0.01,
                 "discs.temperature": kt, "discs.seed": seed, "time.steps": steps,
                 "time.sync_every": 1, "effects.thermostat.rate": gamma,
@@ -103,15 +104,11 @@ def swim(program, is_short):
                 "output.measurements.every_steps": 20, "output.measurements.from_step": steps // 2,
                 "output.measurements.bins": 20})
             tables = report["measurements"]
-            pressure = statistics.fmean(
-                tables["wall_pressure"][side][0] for side in ("left", "right", "bottom", "top"))
-            # Strips run along the whole side, whose ends are at walls: the middle of one profile
-            # times that of the other, over the mean, is the density in the middle of the box.
-            middle = [statistics.fmean(tables[f"density_{axis}"]["density"][5:15])
-                      for axis in ("x", "y")]
-            mean = statistics.fmean(tables["density_x"]["density"])
-            found.append((pressure / (middle[0] * middle[1] / mean * ideal),
-                          pressure / (mean * ideal)))
+            pressure = statistics.fmean(tables["wall_pressure"][side][0]
+                                        for side in ("left", "right"))
+            density = tables["density_x"]["density"]
+            found.append((pressure / (statistics.fmean(density[5:15]) * ideal),
+                          pressure / (statistics.fmean(density) * ideal)))
         (share, error), (of_mean, _) = map(literature.mean, zip(*found))
         yield {"rotational_diffusion": diffusion, "tumble_rate": tumbles,
                "kT_over_ideal": kt / ideal, "over_mean_density": of_mean, "share": share,
