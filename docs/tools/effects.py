@@ -43,8 +43,11 @@ PICTURES = {
     "rough": (40, "--colour spin --fastest 0.08"),
     "shaker": (2_000, ""),
     "single_file": (2_000, "--view 0 -1 45 3"),
+    "swirled": (400, ""),
     "tiny": (5, ""),
+    "trap": (400, ""),
     "vibrated": (80_000, "--view 0 0 120 90 --magnify 2.5"),
+    "washboard": (200, ""),
 }
 
 

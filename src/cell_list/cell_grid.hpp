@@ -157,6 +157,10 @@ public:
         return run_from(halo_.starts(), halo_.first_cell(column), first_row, last_row);
     }
     bool has_halo_in(int column) const { return halo_.has_column(column); }
+    /// The first row from `row` on with halo discs in a column that has some, or the end of rows.
+    int next_halo_row(int column, int row) const {
+        return halo_.next_row(column, row, geometry().n_rows);
+    }
 
     /// Finds the cell of an own disc by a search. Loops over discs go over the cells instead.
     struct Cell {

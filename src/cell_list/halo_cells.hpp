@@ -3,6 +3,7 @@
 // near the ends of a strip. All threads of a rank sort together.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,6 +28,14 @@ public:
     }
     /// The place of the column's first cell in `starts`.
     std::uint32_t first_cell(int column) const { return column_[static_cast<std::size_t>(column)]; }
+    /// The first row from `row` on with discs in a column that has some, or `n_rows`.
+    int next_row(int column, int row, int n_rows) const {
+        if (row >= n_rows) return n_rows;
+        const std::uint32_t* const of_rows = &start_[first_cell(column)];
+        const std::uint32_t* const next = std::upper_bound(of_rows + row + 1, of_rows + n_rows + 1,
+                                                           of_rows[row]);
+        return std::min(static_cast<int>(next - of_rows) - 1, n_rows);
+    }
     /// The first slots of cells, and the end.
     const RawVector<std::uint32_t>& starts() const { return start_; }
     LocalIndex disc_in(std::uint32_t slot) const { return order_[slot]; }

@@ -71,6 +71,7 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
     depends_on_x_ = depends(scene.box.x, 0);
     depends_on_y_ = depends(0, scene.box.y);
     acts_at_syncs_ = allowance.acts_at_syncs;
+    acts_before_flights_ = allowance.acts_before_flights;
     energy_given_ = energy_given;
     wall_speed_ = largest_wall_speed(effects_);
     wall_pull_ = largest_wall_pull(effects_);
@@ -112,10 +113,10 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     note_speeds();
-    if (were_rewritten()) { // they have flown straight since the sync
-        const std::int64_t sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
-        for (Known& known : known_) known.free_from = std::max(known.free_from, sync);
-    }
+    if (were_rewritten()) // they have flown straight since the sync
+        for (Known& known : known_)
+            known.free_from = std::max(known.free_from,
+                                       micro_steps_done_ / scene_.sync_every * scene_.sync_every);
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
     fail_if_found(first_in_obstacle(now), log);

@@ -15,10 +15,13 @@
 // that take some. Growing discs push each other: the work is the impulse times the speed at
 // which surfaces grow. How much energy thermal and moving walls give is not known beforehand,
 // so the energy of discs that have met such a wall is not checked. Oscillating walls give or
-// take at most the impulse times their largest speed. Energies include masses and spins.
+// take at most the impulse times their largest speed. Gravity that changes in time is seen from a
+// frame that falls with its changing part from the last inspection on: there it does nothing, and
+// walls move. Energies include masses and spins.
 // Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,6 +33,7 @@
 #include "check/surroundings.hpp"
 #include "core/disc_state.hpp"
 #include "dynamics/obstacles.hpp"
+#include "dynamics/sway.hpp"
 #include "engine/collision.hpp"
 #include "engine/engine.hpp"
 #include "engine/totals.hpp"
@@ -95,8 +99,8 @@ private:
     Finding first_other_total(std::span<const DiscState> own,
                               const std::vector<SharedEnergy>& mine);
     SharedEnergy shared_energy_of(std::size_t i) const;
-    double energy_of(std::span<const DiscState> own) const;
-    double twice_energy(const Known& known) const;
+    double energy_of(std::span<const DiscState> own, bool in_swaying_frame = false) const;
+    double twice_energy(const DiscState& seen, double spin) const;
     double mass_of(DiscId id) const { return species_.of(id).mass; }
     double diameter_of(const DiscState& p, const DiscState& q) const {
         return growth_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);
@@ -109,6 +113,8 @@ private:
     double largest_energy_of_place() const;
     double other_energy(const DiscState& seen, double spin) const;
     double energy_of_way(std::size_t i) const;
+    double speed_of_walls() const;
+    DiscState in_swaying_frame(const DiscState& seen) const;
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
@@ -120,7 +126,11 @@ private:
         return static_cast<double>(micro_steps_done_ / interval - micro_step / interval);
     }
     /// Whether effects at syncs have changed velocities since the last inspection.
-    bool were_rewritten() const { return acts_at_syncs_ && n_syncs_since(micro_steps_before_) > 0; }
+    bool were_rewritten() const {
+        return acts_at_syncs_ &&
+               (n_syncs_since(micro_steps_before_) > 0 ||
+                (acts_before_flights_ && micro_steps_before_ % scene_.sync_every == 0));
+    }
     void note_speeds();
     bool may_have_met_seam(std::size_t i) const;
 
@@ -132,6 +142,7 @@ private:
     Effects effects_; ///< times in micro-steps
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;
+    std::array<Swayed, 2> swayed_{}; ///< by gravity that changes, since the last inspection
     double total_mass_ = 0, smallest_mass_ = 1;
     double wall_speed_ = 0, wall_pull_ = 0; ///< for oscillating walls: the largest speed, and the
                                             ///< largest acceleration with which one presses a disc
@@ -141,8 +152,8 @@ private:
     std::vector<OtherEnergy> energies_;
     bool depends_on_x_ = false, depends_on_y_ = false; ///< they do, or what discs get on their way
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
-    bool surfaces_rub_ = false;  ///< walls or obstacles rub: spins change there
-    bool acts_at_syncs_ = false; ///< an effect does so: see CheckAllowance
+    bool surfaces_rub_ = false; ///< walls or obstacles rub: spins change there
+    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

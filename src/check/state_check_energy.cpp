@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -31,8 +32,7 @@ Finding StateCheck::first_other_motion() const {
     const FallingFrame flight(effects_);
     const double time = flight.clock_at(stretch()), left = flight.slowing_at(time);
     const Gravity& pull = flight.acceleration();
-    const double gained = std::hypot(pull.x, pull.y) *
-                          (time + static_cast<double>(scene_.sync_every));
+    const double gained = pull.largest() * (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
         const DiscState &disc = now.disc, &then = before_[i].disc;
@@ -46,8 +46,8 @@ Finding StateCheck::first_other_motion() const {
                     1};
         if (now.walls + now.pairs > 0) continue;
         const double seam = effects_.periods(scene_.box).speed;
-        double wx = disc.vx - (then.vx * left + pull.x * time);
-        const double wy = disc.vy - (then.vy * left + pull.y * time);
+        double wx = disc.vx - (then.vx * left + pull.x * time + swayed_[0].speed);
+        const double wy = disc.vy - (then.vy * left + pull.y * time + swayed_[1].speed);
         if (seam != 0) // a disc is shown with the velocity of its image in the box
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
@@ -101,7 +101,8 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     const double n = static_cast<double>(scene_.n_discs);
     const double bound = energy_bound + energy_bound_per_collision *
                                             (2 * static_cast<double>(n_pair_collisions_) / n);
-    const double energy = energy_of(own);
+    const bool sways = effects_.acceleration().sways();
+    const double energy = energy_of(own, sways);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
         double gain = 0; // few discs add to it, so rounding does not matter
@@ -123,7 +124,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
         scale = (were_rewritten() ? std::max(energy_, energy) : energy_) +
                 total_mass_ * k * k * largest_energy_of_place();
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
-        energy_ = energy;
+        energy_ = sways ? energy_of(own) : energy;
     }
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
@@ -135,8 +136,9 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
 /// A disc's energy before and after, without what effects explain.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
-    SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
-                           twice_energy(known)};
+    SharedEnergy energy = {first_id_ + i,
+                           twice_energy(before_[i].disc, before_[i].spin) * energy_left(),
+                           twice_energy(in_swaying_frame(known.disc), known.spin)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
     energy.before += 2 * energy_of_way(i);
     if (surfaces_give_energy_) { // surfaces are where they should be but for rounding
@@ -169,9 +171,12 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
+/// How the frame of gravity that changes has moved; and where effects make discs faster, what is known
+/// of the fastest grows with them. **Collective.**
 void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
+    swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
+                            static_cast<double>(micro_steps_done_));
     double square = 0;
     for (const Known& known : known_) square = std::max(square, squared_speed_of(known.disc));
     if (effects_.are_sheared()) {
@@ -201,10 +206,18 @@ double StateCheck::other_energy(const DiscState& seen, double spin) const {
 
 /// Energies of places are counted from far enough below that the rounding of places is small
 /// against them.
-double StateCheck::twice_energy(const Known& known) const {
-    const double mass = mass_of(known.disc.id);
-    return mass * squared_speed_of(known.disc) +
-           2 * (other_energy(known.disc, known.spin) + 2 * mass * largest_energy_of_place());
+double StateCheck::twice_energy(const DiscState& seen, double spin) const {
+    const double mass = mass_of(seen.id);
+    return mass * squared_speed_of(seen) +
+           2 * (other_energy(seen, spin) + 2 * mass * largest_energy_of_place());
+}
+
+DiscState StateCheck::in_swaying_frame(const DiscState& seen) const {
+    if (!effects_.acceleration().sways() || seen.has_departed()) return seen;
+    DiscState disc = seen;
+    disc.x -= swayed_[0].way, disc.y -= swayed_[1].way;
+    disc.vx -= swayed_[0].speed, disc.vy -= swayed_[1].speed;
+    return disc;
 }
 
 /// What effects have given to a disc on its way beside the change of such an energy, and what that
@@ -232,7 +245,7 @@ double StateCheck::energy_of_way(std::size_t i) const {
 /// A disc that is pulled to a wall leaves it with a least speed (ContactGuard::least_departure).
 double StateCheck::resting_gain(const Known& known) const {
     const Gravity g = effects_.acceleration();
-    const double pull = std::max(std::fabs(g.x), std::fabs(g.y));
+    const double pull = std::max(g.largest_x(), g.largest_y());
     const SizeAndMass& body = species_.of(known.disc.id);
     const double leaving =
         ContactGuard(effects_, body.radius).least_departure(pull + wall_pull_, body.radius);
@@ -244,12 +257,20 @@ double StateCheck::resting_gain(const Known& known) const {
 /// than it came, so this is the impulse times the wall's speed, less what the
 /// restitution takes. The guard of discs at rest is in resting_gain.
 double StateCheck::work_of_walls(const Known& known) const {
-    return 1.01 * wall_speed_ * known.wall_impulse / static_cast<double>(scene_.micro_steps);
+    return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
+}
+
+/// Of walls that oscillate, and of all walls in a frame that falls from the last inspection on.
+double StateCheck::speed_of_walls() const {
+    const Gravity g = effects_.acceleration();
+    if (!g.sways()) return wall_speed_;
+    const double amplitude = std::hypot(g.amplitude_x, g.amplitude_y);
+    return wall_speed_ + amplitude * std::min(stretch(), g.period / std::numbers::pi);
 }
 
 /// Summed over all discs. **Collective.**
 double StateCheck::work_of_walls() const {
-    if (wall_speed_ == 0) return 0;
+    if (speed_of_walls() == 0) return 0;
     double work = 0;
     for (const Known& known : known_) work += work_of_walls(known);
     double sum = 0;
@@ -260,14 +281,14 @@ double StateCheck::work_of_walls() const {
 double StateCheck::energy_left() const { return energy_left_by(effects_, stretch()); }
 
 /// In the scene's units. With effects the discs are as the box sees them.
-double StateCheck::energy_of(std::span<const DiscState> own) const {
+double StateCheck::energy_of(std::span<const DiscState> own, bool in_swaying_frame) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
     DiscStates seen;
     std::vector<double> spins;
     if (scene_.effects.are_any()) {
         for (const Known& known : known_) {
-            seen.push_back(known.disc);
+            seen.push_back(in_swaying_frame ? this->in_swaying_frame(known.disc) : known.disc);
             spins.push_back(known.spin);
         }
         // Between sheared sides a sync changes stored states, and the engine knows the difference.

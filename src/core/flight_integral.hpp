@@ -3,8 +3,8 @@
 //
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from it
 // by the laws of gravity and drag (core/frame.hpp). So the integral since the last sync is a known
-// function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b. Where a sync changes
-// no velocity the integral may go on over many of them.
+// function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b, and more_y^2 for yy
+// where gravity turns. Where a sync changes no velocity the integral may go on over many of them.
 //
 // The integral over a path with collisions is then a sum over events. A collision at time t that
 // changes v into v' adds the integral up to t with v and takes away the one with v'; where the
@@ -19,6 +19,7 @@ struct FlightIntegral {
     double weight = 0;
     double shift_x = 0, shift_y = 0;
     double rest_x = 0, rest_y = 0;
+    double more_y = 0;
 };
 
 } // namespace carrom

@@ -127,6 +127,9 @@ public:
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
     /// Removes the images of own discs from the halo.
     void forget_images();
+    /// All own discs are in the box, and none is displaced. So until the next migration only those
+    /// that were near its sides when they were sorted can need another image.
+    void note_wrapped() { has_images_ = true; }
 
     /// The places that a rank with a halo of `reach` sees, in a box of this extent. It
     /// matters along axes that are not periodic.

@@ -11,8 +11,10 @@ namespace carrom {
 namespace {
 
 /// An eighth of a period at most, in which the wall's pull changes little.
-double rest_time_at(const Boundary& side, const ContactGuard& guard, double gravity,
-                    double radius) {
+double rest_time_at(const Boundary& side, const ContactGuard& guard, double gravity, double sway,
+                    double period, double radius) {
+    if (sway != 0)
+        return std::min(guard.rest_time(std::fabs(gravity) + std::fabs(sway), radius), period / 8);
     if (side.amplitude == 0) return 0;
     const double rate = 2 * std::numbers::pi / side.period;
     const double pull = std::fabs(gravity) + side.amplitude * (rate * rate);
@@ -24,13 +26,16 @@ double rest_time_at(const Boundary& side, const ContactGuard& guard, double grav
 Boundaries::Boundaries(const Box& box, double radius, const Effects& effects)
     : sides_(effects.boundaries), guard_(effects, radius), drag_(effects.drag),
       thermal_seed_(effects.thermal_seed), box_(box), radius_(radius),
-      gravity_{effects.acceleration().x, effects.acceleration().y}, fall_(effects) {
+      gravity_{effects.acceleration().x, effects.acceleration().y},
+      sways_{effects.acceleration().amplitude_x, effects.acceleration().amplitude_y},
+      fall_(effects) {
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
         if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;
         oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side),
                                           gravity_[side / 2], 8 * 0x1p-52 * box.longest());
-        rest_times_[side] = rest_time_at(sides_[side], guard_, gravity_[side / 2], radius);
+        rest_times_[side] = rest_time_at(sides_[side], guard_, gravity_[side / 2], sways_[side / 2],
+                                         effects.acceleration().period, radius);
         rubbing_[side] = Rubbing(effects.boundaries[side].surface, effects.contact);
     }
     moved_ = away_;
@@ -38,6 +43,7 @@ Boundaries::Boundaries(const Box& box, double radius, const Effects& effects)
 
 void Boundaries::begin_interval(std::int64_t n) {
     const auto time = static_cast<double>(n);
+    fall_.begin_interval(time);
     for (std::size_t side = 0; side < 4; ++side) {
         moved_[side] = away_[side] + speeds_[side] * time;
         oscillations_[side].begin_interval(time);
@@ -70,9 +76,13 @@ Extent Boundaries::walls_between(double begin, double end) const {
     // radius begin at the side itself, two of the largest radii inside that disc's line. A disc
     // that an oscillating wall hits is at most as fast as the wall, and gets no further than this
     // takes it from the wall's highest place.
+    // Where the pull changes, a wall that moves in may become faster meanwhile. Then a disc that it
+    // hits is at most as far as a constant pull of the largest size takes the wall.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
-        return std::fabs(pull_at(side)) * eighth + (is_open(side) ? 2 * radius_ : 0) +
+        const double pull = sways_along(side) ? 8 * largest_pull_at(side)
+                                              : std::fabs(pull_at(side));
+        return pull * eighth + (is_open(side) ? 2 * radius_ : 0) +
                (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
     // A wall that moves in, and from which all discs fall away, may have hit discs
@@ -96,6 +106,9 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
 
 double Boundaries::delay_to(const DiscState& disc, std::size_t side, const Body& body) const {
     const Approach line = approach(disc, side, body);
+    if (sways_along(side)) [[unlikely]] // no side oscillates then
+        return fall_.sway().contact_delay(side / 2, sign_of(side), line.distance, line.rate,
+                                          line.pull, disc.tau);
     if (!oscillations_[side].is_any()) [[likely]]
         return delay_of(line, disc.tau);
     const double from_wall = sign_of(side) *
@@ -119,7 +132,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
     const double rest = time - disc.tau, fallen_for = rest / fall_.slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
         auto [distance, rate, pull] = approach(disc, side, body);
-        const double towards = std::min(pull, 0.0);
+        const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_any();
         if (oscillates) [[unlikely]] { // from the wall's highest place, which may come at once
             distance -= oscillations_[side].amplitude();
@@ -161,6 +174,18 @@ void Boundaries::reverse(DiscState& disc, Axis axis, const Body& body, double* s
     rebound(disc, side, never, 0, body, spin);
 }
 
+/// The acceleration that presses a disc at rest against the side. Where it changes, the larger one
+/// of now and of the end of a contact.
+double Boundaries::pressure_at(std::size_t side, double time) const {
+    const double sign = sign_of(side), steady = -sign * pull_at(side);
+    if (!sways_along(side)) [[likely]]
+        return steady;
+    const auto swaying = [&](double at) {
+        return -sign * fall_.sway().at(side / 2, at).acceleration;
+    };
+    return steady + std::max(swaying(time), swaying(time + rest_times_[side]));
+}
+
 Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double time,
                          const Body& body, double* spin) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
@@ -189,7 +214,7 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
     // A disc that is pulled back stays away for a contact at least, because one at rest would
     // otherwise bounce without end.
     const double pull = oscillates ? oscillations_[side].pressure_at(time, time + rest_times_[side])
-                                   : -sign * pull_at(side);
+                                   : pressure_at(side, time);
     if (pull > 0)
         away = std::max(away, guard_.least_departure(pull, radius) / fall_.slowing_at(time));
     const double before = normal;

@@ -106,13 +106,25 @@ private:
     /// open side. For an oscillating wall this and the next two functions describe its line.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
-        return (place + speeds_[side] * time) - fall_.fallen(pull_at(side), time);
+        const double fallen = fall_.fallen(pull_at(side), time);
+        if (!sways_along(side)) [[likely]]
+            return (place + speeds_[side] * time) - fallen;
+        return (place + speeds_[side] * time) - (fallen + fall_.sway().at(side / 2, time).way);
     }
+    /// Whether the pull at the side changes in time.
+    bool sways_along(std::size_t side) const { return fall_.sway().acts_along(side / 2); }
     /// The acceleration of discs near the wall towards it, relative to the wall. Drag
     /// brakes discs that a moving wall pushes.
     double pull_at(std::size_t side) const { return gravity_[side / 2] - drag_ * speeds_[side]; }
+    /// The largest size that it has at any time.
+    double largest_pull_at(std::size_t side) const {
+        return std::fabs(pull_at(side)) + std::fabs(sways_[side / 2]);
+    }
     double wall_velocity(std::size_t side, double time) const {
-        return speeds_[side] - pull_at(side) * fall_.falling_time(time);
+        const double velocity = speeds_[side] - pull_at(side) * fall_.falling_time(time);
+        if (!sways_along(side)) [[likely]]
+            return velocity;
+        return velocity - fall_.sway().at(side / 2, time).speed;
     }
     double oscillating_velocity(std::size_t side, double time) const {
         return wall_velocity(side, time) + oscillations_[side].at(time).velocity;
@@ -131,9 +143,13 @@ private:
                  double* spin) const;
     /// The velocity of the surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
-        return sides_[side].surface.velocity / fall_.slowing_at(time) -
-               gravity_[1 - side / 2] * fall_.falling_time(time);
+        const double velocity = sides_[side].surface.velocity / fall_.slowing_at(time) -
+                                gravity_[1 - side / 2] * fall_.falling_time(time);
+        if (!fall_.sway().is_any()) [[likely]]
+            return velocity;
+        return velocity - fall_.sway().at(1 - side / 2, time).speed;
     }
+    double pressure_at(std::size_t side, double time) const;
     /// The direction t of rubbing.hpp along +x or +y.
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
@@ -145,7 +161,7 @@ private:
     double radius_;
     std::array<double, 4> away_{};             ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
-    std::array<double, 2> gravity_;
+    std::array<double, 2> gravity_, sways_;    ///< the steady part, and the amplitudes of the other
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
     std::array<double, 4> rest_times_{}; ///< how long a disc at rest is away from such a wall

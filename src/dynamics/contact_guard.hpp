@@ -45,8 +45,7 @@ public:
     /// For discs of at most `radius`.
     ContactGuard(const Effects& effects, double radius)
         : contact_time_(effects.contact.contact_time) {
-        const double pull = std::hypot(effects.acceleration().x, effects.acceleration().y) +
-                            largest_wall_pull(effects);
+        const double pull = effects.acceleration().largest() + largest_wall_pull(effects);
         rest_speed_ = std::max(rest_factor * least_departure(pull, radius), effects.lasting_speed);
     }
 

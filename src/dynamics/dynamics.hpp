@@ -73,6 +73,7 @@ public:
         space_.begin_interval(n);
         bodies_.begin_interval(n);
         sides_.begin_interval(n);
+        flight_.begin_interval(static_cast<double>(n));
     }
 
     // Questions about the scene.

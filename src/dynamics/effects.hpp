@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,6 +20,7 @@
 #include "core/extent.hpp"
 #include "core/image.hpp"
 #include "core/side_columns.hpp"
+#include "dynamics/external_field.hpp"
 #include "dynamics/species.hpp"
 
 namespace carrom {
@@ -89,8 +91,18 @@ inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "
 /// Uniform gravity: an acceleration.
 struct Gravity {
     double x = 0, y = 0;
+    // Beside these, amplitude sin(2 pi t / period + phase), t since the scene's start (sway.hpp):
+    double amplitude_x = 0, amplitude_y = 0;
+    double period = 1;
+    double phase_x = 0, phase_y = 0; ///< as angles
 
-    bool is_any() const { return x != 0 || y != 0; }
+    bool is_steady() const { return x != 0 || y != 0; }
+    bool sways() const { return amplitude_x != 0 || amplitude_y != 0; }
+    bool is_any() const { return is_steady() || sways(); }
+    /// The largest sizes along x and y.
+    double largest_x() const { return std::fabs(x) + std::fabs(amplitude_x); }
+    double largest_y() const { return std::fabs(y) + std::fabs(amplitude_y); }
+    double largest() const { return std::hypot(largest_x(), largest_y()); }
     friend bool operator==(const Gravity&, const Gravity&) = default;
 };
 
@@ -185,6 +197,7 @@ struct Effects {
     Thermostat thermostat{};
     Activity activity{};
     OwnNumbers own{};
+    ExternalField field{};
 
     /// Of discs in free flight, beside drag: what all fields together give them.
     Gravity acceleration() const { return gravity; }
@@ -212,7 +225,8 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any();
+               growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any() ||
+               field.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

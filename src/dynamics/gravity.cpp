@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/gravity.hpp"
 
+#include <array>
+#include <cstddef>
+
 #include "dynamics/drag.hpp"
 
 namespace carrom {
@@ -75,6 +78,7 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
     if (!(time > 0)) return {};
     const double q = drag_ * time, weight = time * (1 - 0.5 * q);
     if (!gravity_.is_any()) return {weight, 0, 0, 0, 0};
+    if (sway_.is_any()) return swaying_flight_integral_at(time);
     double of_squares = 0; // divided by s^3
     if (q < 0x1p-6) {
         for (int k = 10; k >= 3; --k) of_squares = 1.0 / k + q * of_squares;
@@ -86,14 +90,49 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
     return {weight, shift * gravity_.x, shift * gravity_.y, rest * gravity_.x, rest * gravity_.y};
 }
 
+namespace {
+
+/// Nodes and weights of Gauss's rule with eight points from -1 to 1. In the eighth of a period that
+/// a flight lasts its error is below a rounding.
+constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.5255324099163290,
+                                               0.7966664774136267, 0.9602898564975363},
+                                gauss_weights = {0.3626837833783620, 0.3137066458778873,
+                                                 0.2223810344533745, 0.1012285362903763};
+
+} // namespace
+
+/// With the frame's velocity u and its mean over the time, the rest is the integral of the products
+/// of u less its mean, a sum of squares: the matrix is the product of a triangular one with itself.
+FlightIntegral FallingFrame::swaying_flight_integral_at(double time) const {
+    const Frame end = moving_at(time);
+    const double mean_x = end.x / time, mean_y = end.y / time;
+    double xx = 0, xy = 0, yy = 0;
+    for (std::size_t k = 0; k < gauss_nodes.size(); ++k)
+        for (const double sign : {-1.0, 1.0}) {
+            const Frame then = moving_at(time * (0.5 + sign * 0.5 * gauss_nodes[k]));
+            const double ux = then.vx - mean_x, uy = then.vy - mean_y,
+                         weight = 0.5 * time * gauss_weights[k];
+            xx += weight * (ux * ux), xy += weight * (ux * uy), yy += weight * (uy * uy);
+        }
+    FlightIntegral integral{time, mean_x, mean_y, std::sqrt(xx), 0};
+    if (integral.rest_x > 0) integral.rest_y = xy / integral.rest_x;
+    integral.more_y = std::sqrt(std::max(yy - integral.rest_y * integral.rest_y, 0.0));
+    return integral;
+}
+
 Frame FallingFrame::moving_at(double time) const {
-    return {true,
-            fallen(gravity_.x, time),
-            fallen(gravity_.y, time),
-            gravity_.x * time,
-            gravity_.y * time,
-            slowing_at(time),
-            time};
+    Frame frame{true,
+                fallen(gravity_.x, time),
+                fallen(gravity_.y, time),
+                gravity_.x * time,
+                gravity_.y * time,
+                slowing_at(time),
+                time};
+    if (!sway_.is_any()) return frame;
+    const Swayed x = sway_.at(0, time), y = sway_.at(1, time);
+    frame.x += x.way, frame.y += y.way;
+    frame.vx += x.speed, frame.vy += y.speed;
+    return frame;
 }
 
 } // namespace carrom

@@ -10,6 +10,8 @@
 // discs share the fall. The parabola's time bounds a contact from one side, and Newton's rule
 // approaches the contact from there without passing it. This takes no bracket and a handful
 // of steps. All is + - * / and sqrt in a fixed order: the same bits on every machine.
+//
+// Gravity that changes in time moves the frame in another way (sway.hpp), without drag.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +23,7 @@
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/never.hpp"
+#include "dynamics/sway.hpp"
 
 namespace carrom {
 
@@ -55,7 +58,10 @@ class FallingFrame {
 public:
     /// `effects` per micro-step.
     explicit FallingFrame(const Effects& effects)
-        : gravity_(effects.acceleration()), drag_(effects.drag) {}
+        : gravity_(effects.acceleration()), drag_(effects.drag), sway_(gravity_) {}
+
+    /// From now on times count from micro-step `n` of the scene.
+    void begin_interval(double n) { sway_.begin_interval(n); }
 
     double clock_at(double micro_steps) const;
     double micro_steps_at(double clock) const;
@@ -93,20 +99,24 @@ public:
     }
     /// Turns a state advanced to `time` into one in a frame that starts there at rest in the box.
     void restart(DiscState& disc, double time) const { disc = at(time).in_box(disc, time); }
-    /// How far the frame jumps along `axis` at a sync at `time`.
+    /// How far the frame jumps along `axis` at a sync at `time`, at most.
     double jump_at(Axis axis, double time) const {
-        return std::fabs(fallen(along(axis, gravity_.x, gravity_.y), time));
+        return std::fabs(fallen(along(axis, gravity_.largest_x(), gravity_.largest_y()), time));
     }
     /// The frame's speed at most, in its own clock.
     double speed_gained_at(double time) const {
-        return (std::fabs(gravity_.x) + std::fabs(gravity_.y)) * falling_time(time);
+        return (gravity_.largest_x() + gravity_.largest_y()) * falling_time(time);
     }
+    /// The part of gravity that changes.
+    const Sway& sway() const { return sway_; }
 
 private:
     Frame moving_at(double time) const;
+    FlightIntegral swaying_flight_integral_at(double time) const;
 
     Gravity gravity_;
     double drag_;
+    Sway sway_;
 };
 
 } // namespace carrom

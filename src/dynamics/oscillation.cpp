@@ -2,64 +2,23 @@
 #include "dynamics/oscillation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "dynamics/gravity.hpp"
 #include "dynamics/never.hpp"
+#include "dynamics/sine_series.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 /// A disc comes within the wall's reach at most twice; the other visits allow for rounding.
 constexpr int most_visits = 8;
 /// A search begins this many periods before a disc comes within reach, and ends as many after.
 constexpr double margin = 1.0 / 16;
 /// In periods; far beyond any sync.
 constexpr double latest = 0x1p40;
-
-/// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The terms behind are below 2^-63.
-constexpr std::array<double, 8> sine_terms = {
-    -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
-    -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
-constexpr std::array<double, 7> cosine_terms = {
-    1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
-    1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
-
-template <std::size_t n> double series(const std::array<double, n>& terms, double square) {
-    double sum = terms[n - 1];
-    for (std::size_t k = n - 1; k-- > 0;) sum = terms[k] + square * sum;
-    return sum;
-}
-
-double whole_turns_off(double turns) { return turns - std::floor(turns); }
-
-struct ValueAndSlope {
-    double value, slope;
-};
-
-/// The root of a function with different signs at the ends, to a rounding of `origin`
-/// and itself. Uses Newton's rule, and halving if that leaves the bracket or its steps
-/// do not get shorter by half.
-template <class Function>
-double root_between(double low, double high, bool rises, double origin, const Function& function) {
-    double s = low + (high - low) / 2, last_step = high - low;
-    for (;;) {
-        const auto [value, slope] = function(s);
-        if (value == 0) return s;
-        ((value < 0) == rises ? low : high) = s;
-        double next = s - value / slope;
-        if (!(next > low && next < high && std::fabs(next - s) <= last_step / 2))
-            next = low + (high - low) / 2;
-        last_step = std::fabs(next - s);
-        if (!(last_step > 0x1p-52 * (origin + next))) return next;
-        s = next;
-    }
-}
 
 /// The turns from -1/4 to 1/4 with this sine, by halving.
 double turns_of_sine(double sine) {
@@ -180,11 +139,11 @@ double Oscillation::first_contact(const Flight& flight, double begin, double end
         if (falls || falls_then) {
             const double turn = falls == falls_then
                                     ? from
-                                    : root_between(from, to, falls, flight.time, rate);
+                                    : root_in_bracket(from, to, falls, flight.time, rate);
             const double top = falls ? from : turn, bottom = falls_then ? to : turn;
             if (distance(top).value <= 0) return top;
             if (distance(bottom).value < 0)
-                return root_between(top, bottom, false, flight.time, distance);
+                return root_in_bracket(top, bottom, false, flight.time, distance);
         }
         from = to;
         falls = falls_then;

@@ -22,6 +22,7 @@ class RestingFrame {
 public:
     explicit RestingFrame(const Effects& /*effects*/) {}
 
+    static void begin_interval(double /*n*/) {}
     static constexpr double clock_at(double micro_steps) { return micro_steps; }
     static constexpr double micro_steps_at(double clock) { return clock; }
     static constexpr bool is_any() { return false; }

@@ -97,6 +97,12 @@ public:
     /// Changes velocities, spins and directions of discs, and nothing else of them. **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
 
+    /// Whether `begin` does anything.
+    virtual bool begins() const { return false; }
+    /// Like `act`, right before the flights that go on from a sync or from the scene's start. What
+    /// outputs show at a sync is the state between `act` and `begin`. **Collective.**
+    virtual void begin(const SyncDiscs& /*at*/) {}
+
     /// What the effect needs at the next sync beside the states of discs, equal on all ranks. A
     /// checkpoint has it, and a restart gives it back.
     virtual std::vector<std::int64_t> kept() const { return {}; }

@@ -157,10 +157,11 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
     const std::int64_t stop = std::min(last_step, step_after_sync) * micro_steps_;
     while (n_micro_done_ < stop) {
         const std::int64_t next_sync = last_sync() + sync_every_;
+        if (n_micro_done_ == last_sync() && sync_action_.begins()) let_effects_begin();
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    discs_.forget_images();
+    if (time_ != 0) discs_.forget_images(); // a sync has just done so
     if (n_micro_done_ == last_micro_step_) drop_scratch(); // leaves memory for what follows a run
 }
 
@@ -168,7 +169,10 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
     double largest_speed = restart_states();
     dynamics_.begin_interval(last_sync());
-    if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
+    if constexpr (Dynamics::is_periodic) {
+        discs_.set_periods(dynamics_.periods());
+        discs_.note_wrapped();
+    }
     if (sync_action_.has_effects()) largest_speed = let_effects_act();
     finish_sync(largest_speed);
     redistributed_time_ -= time_;
@@ -227,8 +231,20 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     sync_action_.act(
         discs_, n_micro_done_ / sync_every_,
         {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_});
+    return largest_speed_of_all_states();
+}
+
+/// Once for the flights to the next sync, also if a run stops here and a restart goes on.
+template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
+    const PhaseClock::Scope scope(phases_, Phase::sync);
+    discs_.forget_halo(); // it has the velocities of before
+    sync_action_.begin(discs_, n_micro_done_ / sync_every_);
+    take_speed(largest_speed_of_all_states());
+}
+
+template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_states() const {
     double fastest = 0;
-    const DiscStates& discs = discs_.all();
+    const std::span<const DiscState> discs = own();
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
     for (std::size_t i = 0; i < discs.size(); ++i)
         fastest = std::max(fastest, dynamics_.squared_speed(discs[i]));
@@ -269,7 +285,7 @@ template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
         measure_overlaps(population(), discs_.grid(), time_,
                          touching_of(dynamics_, time_, discs_.periods()), communicator_,
                          tuning_.threads, totals);
-    discs_.forget_images();
+    forget_images();
 }
 
 template <class Dynamics> LocalView EngineBase<Dynamics>::local_view(double reach) {

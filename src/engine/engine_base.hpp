@@ -24,7 +24,10 @@ public:
     void advance_towards(std::int64_t last_step) final;
     void add_to(Totals& totals) override;
     LocalView local_view(double reach) final;
-    void forget_images() final { discs_.forget_images(); }
+    void forget_images() final {
+        discs_.forget_images();
+        if (time_ == 0) discs_.note_wrapped();
+    }
 
     std::int64_t micro_steps_done() const final { return n_micro_done_; }
     std::span<const DiscState> own() const final { return discs_.own(); }
@@ -58,6 +61,9 @@ protected:
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
+    /// Effects have changed velocities since then, before flights. No own disc is faster than
+    /// `largest_speed`. **Collective.**
+    virtual void take_speed(double largest_speed) = 0;
     /// Frees what windows keep from one to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
@@ -113,6 +119,8 @@ private:
     void sync();
     double restart_states();
     double let_effects_act();
+    void let_effects_begin();
+    double largest_speed_of_all_states() const;
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

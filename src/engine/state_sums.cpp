@@ -105,7 +105,7 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
             if (disc.has_departed()) return 0;
             return energy.of_disc({disc.x, disc.y, disc.vx * unit, disc.vy * unit,
                                    spins.empty() ? 0 : spins[i] * unit, species_table.of(disc.id),
-                                   setting.sync_interval / unit},
+                                   setting.sync_interval / unit, disc.id},
                                   setting.effects, setting.box);
         };
         double largest = 0;

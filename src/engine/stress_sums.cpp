@@ -32,7 +32,8 @@ void StressSums::add_flight(double mass, const DiscState& disc, const FlightInte
     const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y,
                  weight = integral.weight;
     const double term_xx = mass * (weight * vx * vx + integral.rest_x * integral.rest_x),
-                 term_yy = mass * (weight * vy * vy + integral.rest_y * integral.rest_y);
+                 term_yy = mass * (weight * vy * vy + integral.rest_y * integral.rest_y +
+                                   integral.more_y * integral.more_y);
     xx.add(term_xx);
     xy.add(mass * (weight * vx * vy + integral.rest_x * integral.rest_y));
     yy.add(term_yy);
@@ -46,6 +47,7 @@ void StressTerms::add_flight(double mass, const DiscState& disc, const FlightInt
     if (integral.rest_x != 0 || integral.rest_y != 0)
         add(-mass * integral.rest_x, -mass * integral.rest_y, {integral.rest_x, integral.rest_y},
             sum);
+    if (integral.more_y != 0) add(0, -mass * integral.more_y, {0, integral.more_y}, sum);
 }
 
 /// The sum counts the mean of xy and yx, because rough discs make them differ.

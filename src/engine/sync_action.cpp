@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/sync_action.hpp"
 
+#include <algorithm>
+
 #include <omp.h>
 
 #include "core/errors.hpp"
@@ -17,15 +19,14 @@ SyncAction::SyncAction(const SceneParameters& scene, const SpeciesTable& species
                  : 0),
       communicator_(communicator), n_threads_(n_threads) {}
 
-void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes) {
+SyncDiscs SyncAction::at_sync(StripDiscs& discs, std::int64_t n_syncs) const {
     SyncDiscs at{species_};
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
     if (discs.columns().has(SideColumn::direction))
         at.directions = discs.columns()[SideColumn::direction];
     at.n_syncs = n_syncs;
-    at.in_parts = [&](const SyncDiscs::Part& part) {
-        const std::size_t n = at.discs.size();
+    at.in_parts = [this, n = at.discs.size()](const SyncDiscs::Part& part) {
 #pragma omp parallel num_threads(n_threads_)
         {
             const auto thread = static_cast<std::size_t>(omp_get_thread_num()),
@@ -38,13 +39,30 @@ void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& n
     };
     at.largest_over_ranks = [this](double value) { return communicator_.max(value); };
     at.gather_over_ranks = [this](std::span<const std::byte> mine) { return gathered(mine); };
-    if (communicator_.is_root()) follow(at, notes);
+    return at;
+}
 
+template <class What> void SyncAction::change(const SyncDiscs& at, const What& what) {
     energy_given_ -= energy_of(at);
     if (shear_ != 0) add_flow(at, -1);
-    for (const auto& effect : effects_) effect->act(at);
+    for (const auto& effect : effects_) what(*effect);
     if (shear_ != 0) add_flow(at, 1);
     energy_given_ += energy_of(at);
+}
+
+void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes) {
+    SyncDiscs at = at_sync(discs, n_syncs);
+    if (communicator_.is_root()) follow(at, notes);
+    change(at, [&at](SyncEffect& effect) { effect.act(at); });
+}
+
+bool SyncAction::begins() const {
+    return std::ranges::any_of(effects_, [](const auto& effect) { return effect->begins(); });
+}
+
+void SyncAction::begin(StripDiscs& discs, std::int64_t n_syncs) {
+    const SyncDiscs at = at_sync(discs, n_syncs);
+    change(at, [&at](SyncEffect& effect) { effect.begin(at); });
 }
 
 std::vector<std::int64_t> SyncAction::kept() const {

@@ -31,6 +31,11 @@ public:
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.
     /// Adds to `energy_given()` and to what `notes` names. **Collective.**
     void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);
+    /// Whether some effect acts before flights, too.
+    bool begins() const;
+    /// Called before the flights after a sync, or from the scene's start on; all states are at that
+    /// time. Adds to `energy_given()`. **Collective.**
+    void begin(StripDiscs& discs, std::int64_t n_syncs);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
     /// included, per micro-step. For checks: its last bits depend on the machine shape.
     double energy_given() const { return energy_given_; }
@@ -41,6 +46,8 @@ public:
     void go_on(std::span<const std::int64_t> kept);
 
 private:
+    SyncDiscs at_sync(StripDiscs& discs, std::int64_t n_syncs) const;
+    template <class What> void change(const SyncDiscs& at, const What& what);
     void follow(SyncDiscs& at, const SyncNotes& notes) const;
     PairEvent event_of(const PairImpulse& pair, std::int64_t micro_step) const;
     std::vector<std::byte> gathered(std::span<const std::byte> mine) const;

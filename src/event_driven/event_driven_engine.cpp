@@ -358,6 +358,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double l
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 
+template <class Dynamics> void EventDrivenEngine<Dynamics>::take_speed(double largest_speed) {
+    largest_speed_ = largest_speed;
+    is_largest_known_ = false;
+}
+
 template <class Dynamics> void EventDrivenEngine<Dynamics>::drop_scratch() {
     Base::drop_scratch();
     std::vector<Block>().swap(blocks_);

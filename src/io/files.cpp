@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/files.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -164,8 +166,48 @@ void refuse_special(const std::string& path) {
         throw FileError("is not a plain file");
 }
 
+namespace {
+
+/// Paths by handle, each with a slash at its end.
+std::map<int, std::string>& held_folders() {
+    static std::map<int, std::string> all;
+    return all;
+}
+
+/// The rest of a path below a held folder, which may be written "folder//name".
+const char* below(const std::string& path, std::size_t n_letters_of_folder) {
+    const std::size_t first = path.find_first_not_of('/', n_letters_of_folder);
+    return path.c_str() + std::min(first, path.size());
+}
+
+} // namespace
+
+HeldFolder::HeldFolder(const std::string& path)
+    : number_(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (number_ >= 0) held_folders()[number_] = path + '/';
+}
+
+HeldFolder::~HeldFolder() {
+    if (number_ < 0) return;
+    held_folders().erase(number_);
+    ::close(number_);
+}
+
 void rename_durably(const std::string& from, const std::string& to) {
-    if (std::rename(from.c_str(), to.c_str()) != 0) fail_with_errno("cannot be renamed");
+    int folder = AT_FDCWD;
+    std::string held;
+    for (const auto& [number, path] : held_folders())
+        if (to.starts_with(path) && from.starts_with(path)) folder = number, held = path;
+    // Where a folder has taken this one's name, `from` lies in that, and is not found.
+    const std::size_t n = held.size();
+    const bool is_done = ::renameat(folder, held.empty() ? from.c_str() : below(from, n), folder,
+                                    held.empty() ? to.c_str() : below(to, n)) == 0;
+    const int reason = errno;
+    if (!held.empty() && (!leads_to(held, folder) || (!is_done && reason == ENOENT)))
+        throw FileError("its folder, or its newest part, was moved, removed or replaced while the "
+                        "run wrote there; bring it back, then go on by --resume");
+    errno = reason;
+    if (!is_done) fail_with_errno("cannot be renamed");
     Descriptor(folder_of(to), O_RDONLY | O_DIRECTORY).sync();
 }
 

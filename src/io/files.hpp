@@ -74,7 +74,21 @@ void reserve(const std::string& path);
 /// Throws if a rename to `path` would replace anything but a plain file or a link, such as
 /// a device, a pipe or a folder, or if the system would see another name, cut at a NUL.
 void refuse_special(const std::string& path);
-/// Renames and syncs the folder, so that the new name lasts.
+/// The folder that a path names now. While this exists, `rename_durably` gives names below `path`
+/// in this folder alone, whatever takes the path's name meanwhile. For the thread that writes.
+class HeldFolder {
+public:
+    explicit HeldFolder(const std::string& path);
+    ~HeldFolder();
+    HeldFolder(const HeldFolder&) = delete;
+    HeldFolder& operator=(const HeldFolder&) = delete;
+
+private:
+    int number_;
+};
+
+/// Renames and syncs the folder, so that the new name lasts. Throws if the folder is held and
+/// its path has come to name another one.
 void rename_durably(const std::string& from, const std::string& to);
 /// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";

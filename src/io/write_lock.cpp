@@ -55,7 +55,8 @@ bool WriteLock::is_lost() const { return file_ >= 0 && !leads_to(path_, file_); 
 
 WriteLock::WriteLock(WriteLock&& other) noexcept
     : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
-      problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)) {}
+      problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)),
+      folder_(std::move(other.folder_)) {}
 
 /// Returns true if there is nothing to wait for.
 bool WriteLock::try_once() {
@@ -84,6 +85,7 @@ bool WriteLock::try_once() {
     if (::ftruncate(file, 0) == 0) [[maybe_unused]]
         const ssize_t n = ::pwrite(file, text.data(), text.size(), 0);
     file_ = file;
+    folder_ = std::make_unique<HeldFolder>(folder_of(path_));
     return true;
 }
 

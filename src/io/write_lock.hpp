@@ -7,7 +7,10 @@
 // with `flock`. On a file system without locks there is no protection.
 #pragma once
 
+#include <memory>
 #include <string>
+
+#include "io/files.hpp"
 
 namespace carrom {
 
@@ -32,7 +35,8 @@ private:
     bool try_once();
 
     std::string path_, holder_, problem_;
-    int file_ = -1; ///< open while the lock is held
+    int file_ = -1;                      ///< open while the lock is held
+    std::unique_ptr<HeldFolder> folder_; ///< where the lock lies, while it is held
 };
 
 } // namespace carrom

@@ -44,8 +44,10 @@ public:
                                is_between(disc.y, extent_.y_low, extent_.y_high, radius,
                                           scene_.effects.is_periodic_y());
         if (!is_inside)
-            return fmt::format("lies outside of the box, [{}, {}] x [{}, {}], or in a wall",
-                               extent_.x_low, extent_.x_high, extent_.y_low, extent_.y_high);
+            return fmt::format("lies outside of the box, [{}, {}{} x [{}, {}{}, or in a wall",
+                               extent_.x_low, extent_.x_high,
+                               scene_.effects.is_periodic_x() ? ')' : ']', extent_.y_low,
+                               extent_.y_high, scene_.effects.is_periodic_y() ? ')' : ']');
         if (!scene_.effects.obstacles.are_any()) return {};
         const auto overlap = obstacles_.deepest_overlap(disc.x, disc.y, radius,
                                                         2 * std::max(2e-12 * radius, rounding_));

@@ -49,7 +49,7 @@ double thermal_speed(const SceneParameters& scene, const Totals& totals) {
 
 double driven_speed(const SceneParameters& scene) {
     double speed = std::sqrt(
-        2 * (std::fabs(scene.effects.gravity.x) + std::fabs(scene.effects.gravity.y)) *
+        2 * (scene.effects.gravity.largest_x() + scene.effects.gravity.largest_y()) *
         scene.box.longest());
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.speed));

@@ -76,6 +76,8 @@ inline constexpr std::array words_of<TextOutput>{Word{"none", TextOutput::none},
                                                  Word{"ends", TextOutput::first_and_last},
                                                  Word{"every_step", TextOutput::every_step}};
 
+template <> inline constexpr std::array words_of<Axis>{Word{"x", Axis::x}, Word{"y", Axis::y}};
+
 template <class T> inline constexpr bool is_list = false;
 template <class T> inline constexpr bool is_list<std::vector<T>> = true;
 template <class T> inline constexpr bool is_optional = false;

@@ -224,14 +224,19 @@ template <class D>
 HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float touching_squared,
                                    std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const FlightLanes lanes = grid.lanes();
-    const int reach = grid.geometry().n_reach;
+    const int reach = grid.geometry().n_reach, n_rows = grid.geometry().n_rows;
     const int first_column = HWY_MAX(column - reach, 0),
               last_column = HWY_MIN(column + reach, grid.geometry().n_columns - 1);
     for (int other = first_column; other <= last_column; ++other) {
         if (!grid.has_halo_in(other)) continue;
-        for (int row = 0; row < grid.geometry().n_rows; ++row) {
+        for (int row = 0; row < n_rows; ++row) {
             const SlotRange run = grid.halo_run(other, row - reach, row + reach);
-            if (run.begin == run.end) continue;
+            if (run.begin == run.end) { // as in all rows but those at the ends of a periodic box
+                const int next = grid.next_halo_row(other, row + reach + 1);
+                if (next == n_rows) break;
+                row = next - reach - 1;
+                continue;
+            }
             const SlotRange cell = grid.run(column, row, row);
             for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot)
                 n_pairs = write_halo_pairs(d, Broadcast(d, lanes, slot, touching_squared), slot,
@@ -286,10 +291,9 @@ HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D
                                               room(pairs, n_pairs, run.end - run.begin), n_pairs);
     }
     for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column) {
-        if (!grid.has_halo_in(column)) continue; // nearly all columns have none
-        n_pairs = write_halo_pairs(d, flight, first, grid,
-                                   grid.halo_run(column, cells.first_row, cells.last_row), pairs,
-                                   n_pairs);
+        const SlotRange run = grid.halo_run(column, cells.first_row, cells.last_row);
+        if (run.begin == run.end) continue; // nearly all have none
+        n_pairs = write_halo_pairs(d, flight, first, grid, run, pairs, n_pairs);
     }
     return n_pairs;
 }

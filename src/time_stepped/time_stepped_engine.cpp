@@ -362,6 +362,12 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double l
                             static_cast<double>(this->sync_every_));
 }
 
+/// Discs fly by their new velocities to where they are sorted.
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::take_speed(double largest_speed) {
+    refreshed_speed_ = communicator_.max(largest_speed);
+    largest_speed_ = std::max(largest_speed_, refreshed_speed_);
+}
+
 std::unique_ptr<Engine> make_time_stepped_engine(const SceneParameters& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning) {

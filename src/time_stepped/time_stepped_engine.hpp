@@ -44,6 +44,7 @@ private:
     void advance_to(std::int64_t target) override;
     void migrate() override;
     void finish_sync(double largest_speed) override;
+    void take_speed(double largest_speed) override;
 
     void run_window(int n_left);
     Window redistribute(int n_left);

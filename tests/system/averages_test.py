@@ -106,6 +106,15 @@ discs = [[0, 0, 40], [50, 50, 20]]
         self.assertIn("no kT, P or Z: along x and y the only disc", printed)
         self.assertEqual(self.column("thermo", "temperature"), [])
 
+    def test_discs_of_one_velocity_have_no_heat(self):
+        """kT is 0, not what rounding leaves of the drift."""
+        for velocity in ("0.7, 0.2", "1e-3, 3.1", "0.1, 0.3"):
+            discs = ", ".join(f"[{x}, 2, {velocity}]" for x in (2, 8, 15))
+            text = BOX + f"[discs]\nradius = 0.5\nlist = [{discs}]\n[time]\nsteps = 100\n"
+            report, _ = self.measure(text)
+            self.assertEqual(report["temperature"]["value"], 0)
+            self.assertAlmostEqual(report["pressure"]["value"], 0, delta=1e-16)
+
     def test_common_diffusion(self):
         """Free discs in a bath: <v v> = 2 kT, and no share of it is the centre of mass's."""
         text = BOX + "[discs]\nradius = 0.5\ncount = 4\ntemperature = 1\n[time]\nsteps = 40000\n" \

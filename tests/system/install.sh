@@ -42,6 +42,23 @@ for library in fmt tomlplusplus CLI11 nlohmann_json highway xxhash random123; do
         complain "the licence of $library is not installed"
 done
 
+# The list of parts: CycloneDX's form, with every library that CMake looked for.
+bill=$prefix/share/doc/carrom/carrom.cdx.json
+python3 - "$bill" "$CARROM_SOURCE_DIR/CMakeLists.txt" <<'CHECK' ||
+import json, re, sys
+bill = json.load(open(sys.argv[1], encoding="utf-8"))
+assert (bill["bomFormat"], bill["specVersion"]) == ("CycloneDX", "1.5"), bill
+text = open(sys.argv[2], encoding="utf-8").read()
+assert bill["metadata"]["component"]["version"] == re.search(r"carrom VERSION (\S+)", text)[1]
+names = {part["name"].lower() for part in bill["components"]}
+names |= {"hwy"} if "highway" in names else set()
+looked_for = {name.lower() for name in re.findall(r"find_package\((\w+)", text)} - {"pkgconfig"}
+assert looked_for <= names, looked_for - names
+unknown = [part["name"] for part in bill["components"] if not part.get("version")]
+assert unknown == ["random123"], unknown
+CHECK
+    complain 'carrom.cdx.json lacks a library, or a version'
+
 # The image of Apptainer copies all that a build reads, and no build.
 mkdir "$test_folder/image"
 awk '/^%/ { is_list = $0 == "%files" } is_list && $2 ~ /^\/src\// { print $1 }' \

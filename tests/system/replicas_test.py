@@ -96,6 +96,13 @@ class Replicas(ProgramTest):
         self.assertRegex(run.err, r"temperature +0\.\d+ in each")
         self.assertNotIn("temperature in", run.err)
 
+    def test_folder_of_a_run(self):
+        """The folder of a run is no place for replicas, whose files would stand among its own."""
+        self.run_program(1, "run", *SCENE, "-o", "taken", "--set", "time.steps=3", "--quiet")
+        before = sorted((self.folder / "taken").iterdir())
+        self.replicas(1, 2, "taken", code=2, says="of a run; name another folder with -o")
+        self.assertEqual(before, sorted((self.folder / "taken").iterdir()))
+
     def test_wrong_words(self):
         self.replicas(3, 0, "none", "--set", "discs.colour=red", code=2,
                       says=["must be a whole number from 1 to 10000", "discs.colour"])

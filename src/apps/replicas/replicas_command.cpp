@@ -121,6 +121,11 @@ ExitCode run_replicas(const ReplicasOptions& options, std::vector<Problem> probl
     for (const auto& found : {problems_with({{"--folder", options.folder, Output::folder}}, {}),
                               problems_with_joined_files(options.folder)})
         problems.insert(problems.end(), found.begin(), found.end());
+    if (const std::string trace = trace_of_run(options.folder); !trace.empty())
+        problems.push_back({options.folder, 0,
+                            fmt::format("has {} of a run; name another folder with -o, in which "
+                                        "each replica gets its own",
+                                        trace)});
     RunOptions first = options.run;
     first.overrides.push_back("output.folder=" + options.folder);
     const SceneParameters scene = load_scene_alone(first, problems, ranks);

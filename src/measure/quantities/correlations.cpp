@@ -74,7 +74,7 @@ void check_correlations(const SceneDraft& draft) {
     if (scene.effects.species.size() > most_species)
         draft.refuse({quantities_key},
                      fmt::format("\"correlations\" of {} species; at most {} have tables of their "
-                                 "own",
+                                 "own: give the discs fewer, or take \"diffusion\"",
                                  scene.effects.species.size(), most_species));
 }
 

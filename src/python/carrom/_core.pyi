@@ -16,8 +16,8 @@ thread: int
 def make_errors_by(maker: Callable[[list[str], int], Exception]) -> None:
     """Take the function (lines, exit code) that makes exceptions."""
 
-def end_session() -> None:
-    """End MPI with the last simulation."""
+def end_session(is_forked: bool) -> None:
+    """End MPI with the last simulation; a forked process leaves it to its parent."""
 
 def mpi_library() -> str:
     """Return name and version of the MPI library."""

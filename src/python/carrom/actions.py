@@ -16,6 +16,7 @@ class Actions(Generic[Simulated]):
     def __init__(self) -> None:
         """Have none."""
         self._of: list[tuple[int, Callable[[Simulated], object]]] = []
+        self._owed: list[Callable[[Simulated], object]] = []
 
     def add(self, interval: int, action: Callable[[Simulated], object]) -> None:
         """Call the action at each multiple of `interval`."""
@@ -31,14 +32,22 @@ class Actions(Generic[Simulated]):
         if len(kept) == len(self._of):
             raise ValueError(f"{action!r} is no action of this simulation")
         self._of = kept
+        self._owed = [owed for owed in self._owed if owed is not action]
 
     def next_due(self, step: int, end: int) -> int:
         """Return the next step at which an action is due, or the end."""
         dues = ((step // interval + 1) * interval for interval, _ in self._of)
         return min((end, *dues))
 
-    def call(self, simulation: Simulated, step: int) -> None:
-        """Call those that are due at the step."""
-        for interval, action in list(self._of):
-            if step % interval == 0:
-                action(simulation)
+    def owe(self, step: int) -> None:
+        """Remember which are due at the step that has come."""
+        self._owed = [action for interval, action in self._of if step % interval == 0]
+
+    def call(self, simulation: Simulated) -> None:
+        """Call those that are due.
+
+        If one is stopped by an error, or Ctrl-C comes before it, the others are called when the
+        simulation goes on, so that it has the bits of one that was not stopped.
+        """
+        while self._owed:
+            self._owed.pop(0)(simulation)

@@ -15,13 +15,16 @@ from pathlib import Path
 from typing import Any
 
 from carrom.errors import ERROR_OF_CODE, MissingPackageError, ProgramError, SceneError
+from carrom.held_core import end_left
 from carrom.program import checkouts
 from carrom.words import in_python
 
 _NAME = "carrom._core"
 _ADVICE = (
-    "install a wheel that holds it, or build it: cmake -S . -B build-python -DCARROM_PYTHON=ON "
-    "-DPython_EXECUTABLE=$(which python3); cmake --build build-python --target carrom_python"
+    "install a wheel that holds it, or build it in a checkout: pip install nanobind; cmake -S . "
+    "-B build-python -DCARROM_PYTHON=ON -DPython_EXECUTABLE=$(which python3); cmake --build "
+    "build-python --target carrom_python; then work in the checkout, or let CARROM_CORE be the "
+    "path of build-python/python/carrom/_core*.so"
 )
 
 
@@ -39,9 +42,15 @@ def load() -> Any:
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     core = _imported()
     core.make_errors_by(error_of)
-    atexit.register(core.end_session)
-    core.thread = threading.get_ident()
+    atexit.register(_end, core)
+    core.thread, core.process = threading.get_ident(), os.getpid()
     return core
+
+
+def _end(core: Any) -> None:
+    """End MPI with the last simulation, in the process that has started it."""
+    end_left()
+    core.end_session(os.getpid() != core.process)
 
 
 def _imported() -> Any:

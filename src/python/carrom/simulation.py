@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 import operator
 import os
-import threading
-import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -28,13 +26,16 @@ from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
 from carrom.given_arrays import checked, locked
+from carrom.guarded import Guarded
+from carrom.held_core import HeldCore, check_place
 from carrom.launching import CarromWarning, ProgressLike
 from carrom.live_report import Changes, facts_to_show, report_of
 from carrom.live_results import Averages, LiveTables
 from carrom.memory_frame import LocalDiscs, MemoryFrame
-from carrom.progress import progress_display
+from carrom.progress import progress_display, show_end
 from carrom.scene import SceneLike, flattened, set_words
-from carrom.simulation_source import checkpoint_of, handle_of, source_of
+from carrom.simulation_source import add_up, checkpoint_of, handle_of, source_of
+from carrom.stepping import advance
 from carrom.words import with_arguments
 
 if TYPE_CHECKING:
@@ -42,10 +43,9 @@ if TYPE_CHECKING:
 
 Action = Callable[["Simulation"], object]
 _A = TypeVar("_A", bound=Action)
-_STRETCH = 0.1  # seconds between two looks at Ctrl-C and the bar
 
 
-class Simulation:
+class Simulation(Guarded):
     """A scene as it moves forward in time, in this process.
 
     `sim.run(100)` steps, `sim.positions` are arrays, and `sim.velocities = -sim.velocities` turns
@@ -86,6 +86,7 @@ class Simulation:
         if threads is not None and operator.index(threads) < 1:
             raise ValueError(f"threads must be at least 1, not {threads}")
         core = load()
+        check_place(core)
         self._comm = comm
         handle = None if comm is None else handle_of(comm, core)
         try:
@@ -100,33 +101,41 @@ class Simulation:
         self._begin(made)
 
     def _begin(self, made: _core.Core) -> None:
-        self._made = made
-        self._thread = load().thread
+        self._held = HeldCore(made, load())
         self._first_step = made.step
         self._actions: Actions[Simulation] = Actions()
         self._changes = Changes()
         self._is_running = False
-        facts = made.facts
-        self.method: str = facts["method"]
-        self.box: Array = np.array(facts["box"])
-        self.periodic: tuple[bool, bool] = facts["periodic"]
-        self.last_step = int(facts["steps"])
-        self.n_discs = int(facts["n_discs"])
-        self.radii, self.masses, self.species = map(locked, made.kinds)
+        facts, (radii, masses, species) = made.facts, map(locked, made.kinds)
+        vars(self).update(
+            method=facts["method"],
+            box=locked(np.array(facts["box"])),
+            periodic=facts["periodic"],
+            last_step=int(facts["steps"]),
+            n_discs=int(facts["n_discs"]),
+            radii=radii,
+            masses=masses,
+            species=species,
+        )
         self._warn()
 
     @property
     def _core(self) -> _core.Core:
-        if threading.get_ident() != self._thread:
-            raise CarromError(
-                "a simulation belongs to the thread that made the first one; MPI allows no other"
-            )
-        return self._made
+        return self._held.use()
 
     def _warn(self) -> None:
-        for line in self._made.taken_lines():
+        for line in self._core.taken_lines():
             if line.startswith("warning: "):
                 warnings.warn(line.removeprefix("warning: ").strip(), CarromWarning, stacklevel=4)
+
+    method: str
+    box: Array
+    periodic: tuple[bool, bool]
+    radii: Array
+    masses: Array
+    species: Array
+    last_step: int
+    n_discs: int
 
     # Steps
 
@@ -166,29 +175,12 @@ class Simulation:
         self._is_running = True
         try:
             with progress_display(progress) as show:
-                self._advance(end, show)
+                advance(self._core, self._actions, self, end, show)
+                if self.step == end:
+                    show_end(progress, end)
         finally:
             self._is_running = False
         self._warn()
-
-    def _advance(self, end: int, show: Callable[[str], None]) -> None:
-        core, begin = self._core, time.perf_counter()
-        first = step = int(core.step)
-        stretch = 1 if core.ranks == 1 else end
-        while step < end:
-            before = time.perf_counter()
-            core.advance(min(stretch, self._actions.next_due(step, end) - step))
-            done, step = int(core.step) - step, int(core.step)
-            if done == 0:
-                return  # time.stop has ended the run
-            now = time.perf_counter()
-            if core.ranks == 1:
-                stretch = max(1, min(int(_STRETCH * done / max(now - before, 1e-9)), 10 * stretch))
-            self._actions.call(self, step)
-            if now - begin > 5 * _STRETCH:
-                rate = (step - first) / (now - begin)
-                share = 100 * (step - first) / (end - first)
-                show(f"step {step} of {end} ({share:.1f} %), {rate:.3g} steps/s")
 
     @overload
     def every(self, interval: int) -> Callable[[_A], _A]: ...
@@ -221,7 +213,7 @@ class Simulation:
 
     @positions.setter
     def positions(self, values: npt.ArrayLike) -> None:
-        self.change(positions=values)
+        self._set("positions", values)
 
     @property
     def velocities(self) -> Array:
@@ -230,7 +222,7 @@ class Simulation:
 
     @velocities.setter
     def velocities(self, values: npt.ArrayLike) -> None:
-        self.change(velocities=values)
+        self._set("velocities", values)
 
     @property
     def spins(self) -> Array:
@@ -239,7 +231,7 @@ class Simulation:
 
     @spins.setter
     def spins(self, values: npt.ArrayLike) -> None:
-        self.change(spins=values)
+        self._set("spins", values)
 
     @property
     def directions(self) -> Array:
@@ -300,6 +292,11 @@ class Simulation:
         self._core.change(**given)
         self._changes.note((name for name in given if given[name] is not None), self.step)
 
+    def _set(self, name: str, values: npt.ArrayLike) -> None:
+        if values is None:
+            raise TypeError(f"{name} are real numbers, not None")
+        self.change(**{name: values})
+
     @property
     def local(self) -> LocalDiscs:
         """The discs of this rank. Other ranks need not make the call."""
@@ -309,9 +306,7 @@ class Simulation:
     def _gathered(self, mine: Array) -> Array:
         """Return the numbers of all ranks' discs; those of others are 0 here."""
         if self._core.ranks > 1:
-            if self._comm is None:
-                raise CarromError("arrays of several ranks need comm=, a communicator of mpi4py")
-            mine = self._comm.allreduce(mine)
+            add_up(mine, self._comm)
         return locked(mine)
 
     @property

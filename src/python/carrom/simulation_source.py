@@ -5,16 +5,21 @@ from __future__ import annotations
 
 import contextlib
 import os
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from carrom.checkpoints import Checkpoint
+from carrom.disc_arrays import Array
 from carrom.errors import CarromError
+from carrom.launching import CarromWarning
 from carrom.scene import flattened, is_text, merged, parsed, set_words, to_toml, with_absolute_files
 
 MOST_STEPS = 1_000_000
 """The last step of a scene without `time.steps`."""
+_FILES = ("output.text", "output.collisions", "output.trajectory", "output.checkpoint")
+"""What a scene may ask the program to write."""
 
 
 def checkpoint_of(scene: Any) -> str | None:
@@ -33,10 +38,10 @@ def source_of(scene: Any, overrides: Mapping[str, Any]) -> tuple[str, bool, list
     if isinstance(scene, Mapping):
         whole = merged(scene, overrides)
         text = to_toml(with_absolute_files(whole))
-        return text, False, _steps_if_missing(flattened(whole))
+        return text, False, _for_this_process(flattened(whole))
     if is_text(scene):
         known = flattened(parsed(scene, "scene.toml", words))
-        return scene, False, words + _steps_if_missing(known)
+        return scene, False, words + _for_this_process(known)
     if not isinstance(scene, (str, os.PathLike)):
         raise TypeError(f"a scene is a dictionary, a path or TOML text, not {scene!r}")
     path = Path(scene)
@@ -45,10 +50,26 @@ def source_of(scene: Any, overrides: Mapping[str, Any]) -> tuple[str, bool, list
         with contextlib.suppress(OSError, UnicodeDecodeError, CarromError):
             text = path.read_text(encoding="utf-8")
             known = flattened(parsed(text, path.name, words))
-    return os.fspath(path), True, words + _steps_if_missing(known)
+    return os.fspath(path), True, words + _for_this_process(known)
 
 
-def _steps_if_missing(known: Mapping[str, Any]) -> list[str]:
+def _for_this_process(known: Mapping[str, Any]) -> list[str]:
+    """Return settings that a scene needs here; warn of files that nobody will write."""
+    asked = [
+        group
+        for group in _FILES
+        if any(
+            value is not False and (key == group or key.startswith(group + "."))
+            for key, value in known.items()
+        )
+    ]
+    if asked:
+        warnings.warn(
+            f"{', '.join(asked)}: a simulation in this process writes no files but those of "
+            "sim.checkpoint; carrom.run does",
+            CarromWarning,
+            stacklevel=4,
+        )
     return [] if "time.steps" in known else [f"time.steps={MOST_STEPS}"]
 
 
@@ -66,7 +87,24 @@ def handle_of(comm: Any, core: Any) -> int:
             f"comm is of {theirs}, but Carrom was built with {ours}; two MPI libraries in one "
             "process do not understand each other. try: pip install --no-binary mpi4py mpi4py"
         )
+    if comm == MPI.COMM_NULL:
+        raise CarromError("comm was freed, or this rank has no part in it")
     return int(number)
+
+
+def add_up(array: Array, comm: Any) -> None:
+    """Add to an array those of the other ranks. Collective.
+
+    Raises:
+        CarromError: there is no communicator of mpi4py, or it was freed
+    """
+    if comm is None:
+        raise CarromError("arrays of several ranks need comm=, a communicator of mpi4py")
+    from mpi4py import MPI
+
+    if comm == MPI.COMM_NULL:
+        raise CarromError("comm was freed; it has to last as long as the simulation")
+    comm.Allreduce(MPI.IN_PLACE, array)
 
 
 def _first_words(version: str) -> str:

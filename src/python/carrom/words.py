@@ -13,6 +13,8 @@ _REPLACEMENTS = (
     (re.compile(r"--overwrite\b"), "overwrite=True"),
     (re.compile(r"--set (?=[A-Za-z_])"), ""),
     (re.compile(r"--(threads|steps|accuracy|check)\b"), r"\1"),
+    (re.compile(r"^read_(\w+): "), r"\1: "),  # functions of the library
+    (re.compile(r"^change_discs: "), "change: "),
 )
 
 

@@ -31,7 +31,10 @@ std::shared_ptr<Session> session_of(std::optional<int> communicator) {
     return of_process;
 }
 
-void end_session() { of_process.reset(); }
+void end_session(bool is_forked) {
+    if (is_forked) static_cast<void>(new std::shared_ptr<Session>(std::move(of_process)));
+    of_process.reset();
+}
 
 Core new_core(const std::string& text, bool is_file, const std::vector<std::string>& settings,
               int threads, std::optional<int> communicator) {

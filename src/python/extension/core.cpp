@@ -117,7 +117,8 @@ NB_MODULE(_core, module) {
     module.def(
         "make_errors_by", [](nb::object maker) { error_maker() = std::move(maker); }, "maker"_a,
         "Take the function (lines, exit code) that makes exceptions.");
-    module.def("end_session", end_session, "End MPI with the last simulation.");
+    module.def("end_session", end_session, "is_forked"_a,
+               "End MPI with the last simulation; a forked process leaves it to its parent.");
     module.def("mpi_library", carrom::Session::mpi_library,
                "Return name and version of the MPI library.");
     module.def("new", new_core, "text"_a, "is_file"_a, "settings"_a, "threads"_a,

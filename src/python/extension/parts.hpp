@@ -38,8 +38,9 @@ struct Core {
 /// The session of all ranks of the process, which is made at the first call; or one of the ranks of
 /// a communicator, by its Fortran number.
 std::shared_ptr<Session> session_of(std::optional<int> communicator);
-/// Lets go of the session of all ranks: MPI ends with its last simulation.
-void end_session();
+/// Lets go of the session of all ranks: MPI ends with its last simulation. A forked process leaves
+/// MPI as it is, because it is its parent's.
+void end_session(bool is_forked);
 
 /// A new array of numpy, which owns its numbers.
 template <class Number> nb::object new_array(std::vector<std::size_t> shape, Number*& numbers) {

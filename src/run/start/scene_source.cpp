@@ -14,6 +14,7 @@
 #include "scene/disc_columns.hpp"
 #include "scene/disc_file.hpp"
 #include "scene/disc_reader.hpp"
+#include "scene/effects/effect.hpp"
 #include "stored_scene/discs_from.hpp"
 
 namespace carrom {
@@ -120,6 +121,13 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     return from;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) all.push_back(line);
+    return all;
+}
+
 /// What the file of discs says of its columns and number, the same on every rank. A file that
 /// cannot be opened is a problem here only if nothing else would need it. **Collective.**
 std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems& of_root,
@@ -136,10 +144,20 @@ std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems
         for (const std::string& setting : survey.settings) all += setting + '\n';
     }
     ranks.broadcast(all);
-    std::vector<std::string> settings;
-    std::istringstream lines(all);
-    for (std::string line; std::getline(lines, line);) settings.push_back(line);
-    return settings;
+    return lines_of(all);
+}
+
+/// What files of effects say, the same on every rank. **Collective.**
+std::vector<std::string> settings_of_effects(const SceneParameters& scene, Problems& of_root,
+                                             const Communicator& ranks) {
+    std::string all;
+    if (ranks.is_root())
+        append(of_root, problems_of([&] {
+                   for (const std::string& setting : settings_of_effect_files(scene))
+                       all += setting + '\n';
+               }));
+    ranks.broadcast(all);
+    return lines_of(all);
 }
 
 } // namespace
@@ -165,6 +183,9 @@ SceneParameters read_with_files(SceneSource& source, std::vector<std::string> se
         settings.insert(settings.end(), of_file.begin(), of_file.end());
         if (!of_file.empty()) read_again();
     }
+    const std::vector<std::string> of_effects = settings_of_effects(scene, of_root, ranks);
+    settings.insert(settings.end(), of_effects.begin(), of_effects.end());
+    if (!of_effects.empty()) read_again();
     const bool has_file = takes_discs_of_file(scene) || takes_discs_from(scene);
     if (has_columns_beside(scene) && has_file) {
         source.text.columns = load_columns(scene, source.stream.get(), ranks);

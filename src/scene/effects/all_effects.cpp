@@ -34,6 +34,7 @@ CheckAllowance allowance_of(const Effects& effects) {
         all.collisions_take_energy |= one.collisions_take_energy;
         all.walls_give_energy |= one.walls_give_energy;
         all.acts_at_syncs |= one.acts_at_syncs;
+        all.acts_before_flights |= one.acts_before_flights;
         all.surfaces_give_energy |= one.surfaces_give_energy;
     }
     return all;
@@ -120,6 +121,16 @@ std::string reason_without_temperature(const Effects& effects, std::uint64_t n_d
                        has_x   ? "y"
                        : has_y ? "x"
                                : "x and y");
+}
+
+std::vector<std::string> settings_of_effect_files(const SceneParameters& scene) {
+    std::vector<std::string> all;
+    for (const EffectDeclaration& effect : all_effects()) {
+        if (!effect.settings_of_file) continue;
+        const std::vector<std::string> some = effect.settings_of_file(scene);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
 }
 
 SyncEffects sync_effects_of(const SceneParameters& scene) {

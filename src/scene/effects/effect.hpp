@@ -36,6 +36,7 @@ struct CheckAllowance {
     bool collisions_take_energy = false;
     bool walls_give_energy = false; ///< an amount that only the run knows
     bool acts_at_syncs = false; ///< velocities change there, by an energy that the engine adds up
+    bool acts_before_flights = false;  ///< and again right before the flights that follow
     bool surfaces_give_energy = false; ///< in collisions: see EffectDeclaration::work_in_collision
 };
 
@@ -44,6 +45,7 @@ struct ShownDisc {
     double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
     SizeAndMass has;
     double sync_interval = 0; ///< the time between syncs
+    DiscId id = 0;
 };
 
 /// An energy that discs have beside that of their motion. Totals, reports and the self-check add it
@@ -93,6 +95,9 @@ struct EffectDeclaration {
     std::vector<Rule> rules = {};
     /// Defaults that depend on its numbers, before any check.
     void (*derive)(const SceneDraft&) = nullptr;
+    /// What a file that the scene names says, as settings that checkpoints keep, so that restarts
+    /// need no file. Called on rank 0; throws InputError.
+    std::vector<std::string> (*settings_of_file)(const SceneParameters&) = nullptr;
     /// Checks of more than one number: of times, and of what depends on a right box and discs.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
@@ -158,6 +163,8 @@ Drift drift_along(Axis axis, const Effects& effects);
 /// Why kT, P and Z are undefined for so many discs; empty if they are defined. One disc that
 /// nothing stops along an axis has no velocity there but the common one.
 std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs);
+/// What all files of effects say. Called on rank 0; throws InputError.
+std::vector<std::string> settings_of_effect_files(const SceneParameters& scene);
 /// In the order in which they act.
 SyncEffects sync_effects_of(const SceneParameters& scene);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform gravity (dynamics/gravity.hpp).
+// Uniform gravity (dynamics/gravity.hpp), which may change in time (dynamics/sway.hpp).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,12 +16,39 @@ namespace carrom {
 
 namespace {
 
+/// Syncs follow each other at least so often in a period.
+constexpr double least_syncs = 8;
+
+const Need swaying{"without 'effects.gravity.amplitude_x' or 'effects.gravity.amplitude_y'",
+                   [](const SceneParameters& s) { return s.effects.gravity.sways(); }};
+
 std::vector<Key> keys_of_gravity() {
     return {
         key("effects.gravity.x", "length/step^2", "Acceleration along x.",
             [](auto& s) -> auto& { return s.effects.gravity.x; }),
         key("effects.gravity.y", "length/step^2", "Acceleration along y.",
             [](auto& s) -> auto& { return s.effects.gravity.y; }),
+        key("effects.gravity.amplitude_x", "length/step^2",
+            "A: beside its steady part gravity has A sin(2 pi t / period + phase_x) along x.",
+            [](auto& s) -> auto& { return s.effects.gravity.amplitude_x; }),
+        key("effects.gravity.amplitude_y", "length/step^2",
+            "The same along y. With equal amplitudes, and phase_x a quarter turn (1.5708) above "
+            "phase_y, it turns counterclockwise.",
+            [](auto& s) -> auto& { return s.effects.gravity.amplitude_y; }),
+        key("effects.gravity.period", "steps",
+            "Period of the part that changes; eight times between syncs at least.",
+            [](auto& s) -> auto& { return s.effects.gravity.period; })
+            .within({.low = 0, .excludes_low = true})
+            .needs(swaying)
+            .required(),
+        key("effects.gravity.phase_x", "radians", "Its phase along x at step 0.",
+            [](auto& s) -> auto& { return s.effects.gravity.phase_x; })
+            .within({-100, 100})
+            .needs(swaying),
+        key("effects.gravity.phase_y", "radians", "Its phase along y at step 0.",
+            [](auto& s) -> auto& { return s.effects.gravity.phase_y; })
+            .within({-100, 100})
+            .needs(swaying),
     };
 }
 
@@ -70,6 +97,22 @@ std::vector<Rule> rules_of_gravity() {
                  return s.effects.gravity.y != 0 && s.effects.is_periodic_y() &&
                         !s.effects.are_sheared() && !are_stopped(s, 0);
              }),
+        rule("gravity that changes", "drag, or walls that oscillate",
+             "contacts with walls are found on parabolas and one sine",
+             {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
+             [](const SceneParameters& s) {
+                 return s.effects.gravity.sways() && (s.effects.drag != 0 || has_oscillating(s));
+             }),
+        rule(
+            "gravity that changes", "obstacles",
+            "contacts with bodies are found on straight lines and parabolas",
+            {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
+            [](const SceneParameters& s) { return s.effects.gravity.sways() && has_obstacles(s); }),
+        rule("gravity that changes", "contacts that last",
+             "these are pressed by one force from sync to sync", {"effects.lasting_contacts.speed"},
+             [](const SceneParameters& s) {
+                 return s.effects.gravity.sways() && s.effects.lasting_speed > 0;
+             }),
         rule("gravity along periodic sides", "sheared sides",
              "nothing stops discs in a flow without walls",
              {"effects.gravity.x", "effects.gravity.y"},
@@ -97,6 +140,11 @@ bool falls_too_far(const SceneParameters& scene, double g) {
     return std::fabs(g) * fall > 0.5 * scene.box.longest();
 }
 
+bool sways_too_fast(const SceneParameters& scene) {
+    const Gravity& g = scene.effects.gravity;
+    return g.sways() && least_syncs * steps_between_syncs(scene) > g.period;
+}
+
 /// Strong gravity needs syncs that follow each other sooner than they do by default. Where one in
 /// each micro-step is too late, check_fall says so.
 void shorten_sync(const SceneDraft& draft) {
@@ -104,9 +152,29 @@ void shorten_sync(const SceneDraft& draft) {
     const Gravity& g = scene.effects.gravity;
     const std::int64_t by_default = scene.sync_every;
     if (draft.settings.has("time.sync_every") || scene.box == Box()) return;
-    while (scene.sync_every > 1 && (falls_too_far(scene, g.x) || falls_too_far(scene, g.y)))
-        scene.sync_every /= 2;
-    if (falls_too_far(scene, g.x) || falls_too_far(scene, g.y)) scene.sync_every = by_default;
+    const auto are_rare = [&] {
+        return falls_too_far(scene, g.largest_x()) || falls_too_far(scene, g.largest_y()) ||
+               sways_too_fast(scene);
+    };
+    while (scene.sync_every > 1 && are_rare()) scene.sync_every /= 2;
+    if (are_rare()) scene.sync_every = by_default;
+}
+
+void check_period(const SceneDraft& draft) {
+    const SceneParameters& scene = draft.scene;
+    if (!scene.effects.gravity.sways()) return;
+    const double period = scene.effects.gravity.period;
+    limit_contact_time(draft, period / 8, "an eighth of gravity's period");
+    if (!draft.knows_syncs() || !sways_too_fast(scene)) return;
+    const double longest = std::floor(period / least_syncs *
+                                      static_cast<double>(scene.micro_steps));
+    draft.refuse(
+        {"effects.gravity.period"},
+        fmt::format("'effects.gravity.period' = {} is less than {} times between syncs; {}", period,
+                    least_syncs,
+                    longest >= 1 ? fmt::format("time.sync_every = {} or less will do", longest)
+                                 : fmt::format("time.micro_steps = {} or more will do",
+                                               std::ceil(least_syncs / period))));
 }
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the
@@ -114,8 +182,10 @@ void shorten_sync(const SceneDraft& draft) {
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!draft.knows_syncs()) return;
-    for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
-                                 {"effects.gravity.y", scene.effects.gravity.y}}) {
+    const Gravity& all = scene.effects.gravity;
+    for (const auto& [key, g] :
+         {std::pair("effects.gravity.x", all.amplitude_x == 0 ? all.x : all.largest_x()),
+          {"effects.gravity.y", all.amplitude_y == 0 ? all.y : all.largest_y()}}) {
         if (!falls_too_far(scene, g)) continue;
         const double longest = std::floor(std::sqrt(scene.box.longest() / std::fabs(g)) *
                                           static_cast<double>(scene.micro_steps));
@@ -129,48 +199,61 @@ void check_fall(const SceneDraft& draft) {
     }
 }
 
+std::string summary_of_gravity(const Effects& effects) {
+    const Gravity& g = effects.gravity;
+    std::string text = g.is_any() ? fmt::format("gravity ({:g}, {:g})", g.x, g.y) : "";
+    if (g.sways())
+        text += fmt::format(" and amplitudes ({:g}, {:g}) of period {:g}", g.amplitude_x,
+                            g.amplitude_y, g.period);
+    return text;
+}
+
+/// Then what sides give to discs along themselves is not known beforehand.
+bool do_surfaces_rub(const Effects& effects) {
+    return std::ranges::any_of(effects.boundaries,
+                               [](const Boundary& side) { return side.surface.rubs(); });
+}
+
 } // namespace
 
 namespace effects {
 
 EffectDeclaration gravity() {
-    return {.tables = {{"effects.gravity", "Uniform gravity."}},
-            .keys = keys_of_gravity(),
-            .rules = rules_of_gravity(),
-            .derive = shorten_sync,
-            .check_room = check_fall,
-            .summary =
-                [](const Effects& e) {
-                    return e.gravity.is_any()
-                               ? fmt::format("gravity ({:g}, {:g})", e.gravity.x, e.gravity.y)
-                               : "";
-                },
-            .allowance =
-                [](const Effects& e) {
-                    return CheckAllowance{.collisions_take_energy = e.gravity.is_any() &&
-                                                                    e.drag != 0};
-                },
-            .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
-                if (!e.gravity.is_any()) return std::nullopt;
-                return OtherEnergy{.name = "potential_energy",
-                                   .words = "of height",
-                                   .value = &Totals::potential_energy,
-                                   .of_disc = energy_of_height,
-                                   .largest = [](const Effects& at, const Box& box) {
-                                       return (std::fabs(at.gravity.x) + std::fabs(at.gravity.y)) *
-                                              box.longest();
-                                   }};
+    return {
+        .tables = {{"effects.gravity", "Uniform gravity."}},
+        .keys = keys_of_gravity(),
+        .rules = rules_of_gravity(),
+        .derive = shorten_sync,
+        .check_times = check_period,
+        .check_room = check_fall,
+        .summary = summary_of_gravity,
+        .allowance =
+            [](const Effects& e) {
+                return CheckAllowance{.collisions_take_energy = e.gravity.is_any() && e.drag != 0,
+                                      .walls_give_energy = e.gravity.sways() && do_surfaces_rub(e)};
             },
-            .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
-            .usual_speed =
-                [](const SceneParameters& s) {
-                    const Gravity& g = s.effects.gravity;
-                    return std::sqrt(2 * (std::fabs(g.x) + std::fabs(g.y)) * s.box.longest());
-                },
-            .common_motion =
-                [](const Effects& e, Axis axis) {
-                    return CommonMotion{.is_driven = along(axis, e.gravity.x, e.gravity.y) != 0};
-                }};
+        .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
+            if (!e.gravity.is_steady()) return std::nullopt;
+            return OtherEnergy{.name = "potential_energy",
+                               .words = "of height",
+                               .value = &Totals::potential_energy,
+                               .of_disc = energy_of_height,
+                               .largest = [](const Effects& at, const Box& box) {
+                                   return (std::fabs(at.gravity.x) + std::fabs(at.gravity.y)) *
+                                          box.longest();
+                               }};
+        },
+        .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
+        .usual_speed =
+            [](const SceneParameters& s) {
+                const Gravity& g = s.effects.gravity;
+                return std::sqrt(2 * (g.largest_x() + g.largest_y()) * s.box.longest());
+            },
+        .common_motion =
+            [](const Effects& e, Axis axis) {
+                const Gravity& g = e.gravity;
+                return CommonMotion{.is_driven = along(axis, g.largest_x(), g.largest_y()) != 0};
+            }};
 }
 
 } // namespace effects

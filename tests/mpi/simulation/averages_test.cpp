@@ -195,8 +195,9 @@ TEST_CASE("averages: any number of blocks ends as 64 to 127, and stops on the wa
 
 TEST_CASE("averages: discs at rest, or none that collide, give numbers and no error") {
     const Communicator world = Communicator::world();
-    test::TestScene test = test::empty_scene("one disc at rest", 10, 1, 1);
-    test::add_disc(test, 5, 5);
+    test::TestScene test = test::empty_scene("discs at rest", 10, 1, 1);
+    test::add_disc(test, 3, 5);
+    test::add_disc(test, 7, 5);
     DiscSystem system(test::scene_of(test), world.is_root() ? test.discs : std::vector<InputDisc>{},
                       world, {});
     test::Averaging averaging(test, system, world);

@@ -12,7 +12,12 @@ import pytest
 pytestmark = pytest.mark.usefixtures("extension")
 
 SOURCE = Path(os.environ.get("CARROM_SOURCE_DIR", str(Path(__file__).parents[3])))
-FIRST_BLOCKS = ["docs/lessons/python.md", "docs/reference/python.md", "src/python/README.md"]
+FIRST_BLOCKS = [
+    "docs/lessons/python.md",
+    "docs/reference/python.md",
+    "docs/how-to/python-loop.md",
+    "src/python/README.md",
+]
 
 
 @pytest.mark.parametrize("page", FIRST_BLOCKS)
@@ -34,3 +39,5 @@ def test_the_first_block_of_each_page_runs(
         assert f"collide {collisions} times" in text
         assert float(energy) == pytest.approx(200)
         assert printed[1] == "True"
+    if page == "docs/how-to/python-loop.md":
+        assert abs(float(printed[0]) - 1) < 0.01, "the energy of discs and springs"

@@ -166,7 +166,7 @@ def test_other_threads_of_python_run_meanwhile() -> None:
 def run_python(code: str, *arguments: str) -> str:
     environment = os.environ | {"PYTHONPATH": str(Path(carrom.__file__).parents[1])}
     command = [sys.executable, "-c", textwrap.dedent(code), *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -291,6 +291,17 @@ except carrom.SceneError as error:
     assert "not finite" in str(error)
 else:
     sys.exit("no error")
+freed = comm.Dup()
+later = carrom.Simulation(scene, threads=1, comm=freed)
+freed.Free()
+later.run(3)
+assert len(later.local.ids) < 60
+try:
+    later.positions
+except carrom.CarromError as error:
+    assert "comm was freed" in str(error)
+else:
+    sys.exit("no error")
 """
 
 
@@ -306,7 +317,7 @@ def test_ranks_come_to_the_state_of_one(ranks: int) -> None:
     }
     scene = repr(gas(steps=100, **PERIODIC))
     command = [launcher, "-n", str(ranks), sys.executable, "-c", RANKS, scene]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600)
     if "77" in done.stderr and done.returncode != 0:
         pytest.skip("mpi4py is of another MPI library")
     assert done.returncode == 0, done.stderr

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A potential that does not change in time: a harmonic trap, a sine, or numbers on a grid.
+//
+// It acts at syncs, half a kick before each flight from sync to sync and half a kick after it
+// (scene/effects/field.cpp), so that nothing here is asked for a pair of discs.
+//
+// Between the points of a grid the potential is the cubic spline through all numbers (C. de Boor,
+// A Practical Guide to Splines (1978)), a product of cubic B-splines along x and y. It has two
+// continuous derivatives, and the force is the exact derivative of it; otherwise energy would be
+// lost or gained with each cell that a disc crosses. Along a periodic axis the spline goes round.
+// Between walls its second derivative is 0 at both ends, and beyond them it goes on as a line.
+//
+// All is + - * / and sqrt in a fixed order, so the bits are the same on every machine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <carrom/box.hpp>
+
+#include "core/axis.hpp"
+#include "core/disc_state.hpp"
+
+namespace carrom {
+
+/// The potential of a disc of strength 1 at a place, and its derivatives.
+struct FieldPoint {
+    double energy = 0, slope_x = 0, slope_y = 0;
+};
+
+/// The numbers of a potential, row after row: rows go along x, and the first one is at y = 0.
+struct FieldValues {
+    std::size_t columns = 0, rows = 0;
+    std::vector<double> numbers{};
+
+    friend bool operator==(const FieldValues&, const FieldValues&) = default;
+};
+
+/// The spline through numbers on a grid. Copies share the coefficients, 8 bytes a number.
+class FieldSpline {
+public:
+    /// No spline: 0 everywhere.
+    FieldSpline() = default;
+    /// On a periodic axis of n numbers number i is at i L / n; between walls it is at
+    /// i L / (n - 1). An axis with one number has the same potential everywhere.
+    FieldSpline(const FieldValues& values, bool is_periodic_x, bool is_periodic_y);
+
+    bool is_any() const { return data_ != nullptr; }
+    FieldPoint at(double x, double y, const Box& box) const;
+    /// Bounds the second derivatives along any direction, by the coefficients.
+    double largest_curvature(const Box& box) const;
+    /// The largest number less the smallest.
+    double depth() const;
+
+    friend bool operator==(const FieldSpline& a, const FieldSpline& b) {
+        return a.data_ == b.data_ || (a.data_ && b.data_ && *a.data_ == *b.data_);
+    }
+
+private:
+    /// The points along an axis.
+    struct Line {
+        std::size_t n = 0;
+        bool goes_round = false;
+
+        /// The intervals from the one end of the box to the other.
+        double n_intervals() const { return static_cast<double>(goes_round ? n : n - 1); }
+        std::size_t n_padded() const { return n + 3; }
+
+        friend bool operator==(const Line&, const Line&) = default;
+    };
+    struct Data {
+        Line x, y;
+        std::vector<double> coefficients; ///< rows along x, with one before and two after the ends
+        double low = 0, high = 0;
+
+        double at(std::size_t column, std::size_t row) const {
+            return coefficients[row * x.n_padded() + column];
+        }
+        friend bool operator==(const Data&, const Data&) = default;
+    };
+    struct Weights;
+
+    static std::vector<double> coefficients_of(const std::vector<double>& numbers,
+                                               const Line& line);
+    static Weights weights_of(const Line& line, double place, double length);
+
+    std::shared_ptr<const Data> data_;
+};
+
+enum class FieldKind { none, trap, sine, grid };
+
+/// `[effects.field]`; times in steps in a scene, in micro-steps in a dynamics.
+struct ExternalField {
+    FieldKind kind = FieldKind::none;
+    double stiffness_x = 0, stiffness_y = 0;  ///< of a trap: force for each length
+    std::optional<double> centre_x, centre_y; ///< otherwise the middle of the box
+    double amplitude = 0;                     ///< energy of a sine, or of a number of 1 on a grid
+    Axis axis = Axis::x;                      ///< along which a sine changes
+    std::int64_t waves = 1;
+    double phase = 0;
+    std::string file;   ///< with the numbers of a grid; relative to the scene
+    FieldValues values; ///< of a grid
+    FieldSpline spline; ///< through them; derived when a scene is read
+    /// The potential of a disc is that of strength 1 times its strength: of each species, or empty
+    /// if all have 1. `ends` are the ends of ids of species; derived, too.
+    std::vector<double> strengths;
+    std::vector<DiscId> ends;
+
+    bool is_any() const { return kind != FieldKind::none; }
+    bool acts_along(Axis along) const;
+    double strength_of(DiscId id) const;
+    /// For a disc of strength 1.
+    FieldPoint at(double x, double y, const Box& box) const;
+    /// Bounds the second derivative along any direction, for a disc of strength 1.
+    double largest_curvature(const Box& box) const;
+    /// The most that a disc of strength 1 can gain in the box, or about as much.
+    double depth(const Box& box) const;
+    double largest_strength() const;
+
+    friend bool operator==(const ExternalField&, const ExternalField&) = default;
+
+private:
+    FieldPoint of_trap(double x, double y, const Box& box) const;
+    FieldPoint of_sine(double place, double length) const;
+};
+
+} // namespace carrom

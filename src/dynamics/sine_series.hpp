@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sines of small angles, and roots in brackets, by + - * / in a fixed order: the same bits on every
+// machine, which those of other libraries need not have.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace carrom {
+
+inline constexpr double two_pi = 2 * std::numbers::pi;
+
+/// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The terms behind are below 2^-63 for
+/// angles up to pi / 4.
+inline constexpr std::array<double, 8> sine_terms = {
+    -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
+    -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
+inline constexpr std::array<double, 7> cosine_terms = {
+    1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
+    1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
+
+template <std::size_t n> double series(const std::array<double, n>& terms, double square) {
+    double sum = terms[n - 1];
+    for (std::size_t k = n - 1; k-- > 0;) sum = terms[k] + square * sum;
+    return sum;
+}
+
+/// Of a number of turns, the part from 0 to 1.
+inline double whole_turns_off(double turns) { return turns - std::floor(turns); }
+
+struct ValueAndSlope {
+    double value, slope;
+};
+
+/// The root of a function with different signs at the ends, to a rounding of `origin`
+/// and itself. Uses Newton's rule, and halving if that leaves the bracket or its steps
+/// do not get shorter by half.
+template <class Function>
+double root_in_bracket(double low, double high, bool rises, double origin,
+                       const Function& function) {
+    double s = low + (high - low) / 2, last_step = high - low;
+    for (;;) {
+        const auto [value, slope] = function(s);
+        if (value == 0) return s;
+        ((value < 0) == rises ? low : high) = s;
+        double next = s - value / slope;
+        if (!(next > low && next < high && std::fabs(next - s) <= last_step / 2))
+            next = low + (high - low) / 2;
+        last_step = std::fabs(next - s);
+        if (!(last_step > 0x1p-52 * (origin + next))) return next;
+        s = next;
+    }
+}
+
+} // namespace carrom

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of uniform gravity that changes in time: A sin(2 pi t / P + phase) along each axis, with
+// t the time since the scene's start. Both axes have one period, so that the field may swing along
+// a line, or turn.
+//
+// All discs fall alike in it, so it moves the falling frame (gravity.hpp) and nothing else: pairs
+// do not know of it. In the frame a wall is on a parabola and a sine, and a disc meets it at
+//
+//     d + r s + g s^2 / 2 + (S (1 - cos w s) + C (w s - sin w s)) / w^2 = 0,    w = 2 pi / P,
+//
+// where S and C are A times the sine and the cosine of the phase at the disc's time. The third
+// derivative has at most one root in an eighth of a period, so brackets find all roots of the
+// second, then of the first one, and no contact is missed. Nothing subtracts like numbers, however
+// long a period is.
+//
+// Everything holds up to an eighth of a period after a sync, so the reader of scenes lets syncs
+// follow each other at least as often (scene/effects/gravity.cpp).
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace carrom {
+
+struct Gravity;
+
+/// What the changing part does to a frame that was at rest, along one axis.
+struct Swayed {
+    double way = 0, speed = 0, acceleration = 0;
+};
+
+class Sway {
+public:
+    Sway() = default;
+    explicit Sway(const Gravity& gravity);
+
+    bool is_any() const { return rate_ != 0; }
+    bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
+    /// From now on times count from `time` since the scene's start.
+    void begin_interval(double time);
+    /// Since the sync; `time` is at most an eighth of a period, or a little later.
+    Swayed at(std::size_t axis, double time) const;
+    /// Where a wall is met: `distance`, its `rate` and the `pull` of constant gravity are towards
+    /// the inside, in the direction `sign`, at `time`. Like fall_delay; infinite if that is later
+    /// than an eighth of a period after the sync.
+    double contact_delay(std::size_t axis, double sign, double distance, double rate, double pull,
+                         double time) const;
+
+    /// From any time since the scene's start to another one.
+    static std::array<Swayed, 2> between(const Gravity& gravity, double from, double to);
+
+private:
+    /// The amplitude times the sine and the cosine of the phase at a time after the sync.
+    struct Phase {
+        double sine = 0, cosine = 0;
+    };
+
+    Phase phase_at(std::size_t axis, double time) const;
+
+    double rate_ = 0, period_ = 1; ///< rate: 2 pi / period
+    std::array<double, 2> amplitudes_{};
+    std::array<double, 2> turns_{}; ///< at the scene's start
+    std::array<Phase, 2> at_sync_{};
+};
+
+} // namespace carrom

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A folder that another one replaces in the middle of a write: nothing gets a name in the other.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "checkpoint_tools.hpp"
+#include "io/files.hpp"
+
+using namespace carrom;
+using test::TestFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const std::string& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+} // namespace
+
+TEST_CASE("files: a held folder keeps its files when another folder takes its name") {
+    const Communicator world = Communicator::world();
+    const TestFolder test(world);
+    if (!world.is_root()) return;
+    const std::string run = test.file("run"), moved = test.file("moved");
+    fs::create_directories(run + "/deep");
+    auto held = std::make_unique<HeldFolder>(run);
+    replace_file(run + "/deep/a", "mine");
+    replace_file(run + "//b", "mine"); // scenes may write two slashes
+    CHECK(text_of(run + "/deep/a") == "mine");
+    CHECK(text_of(run + "/b") == "mine");
+
+    const auto replace = [&] {
+        fs::rename(run, moved);
+        fs::create_directories(run + "/deep");
+        std::ofstream(run + "/deep/a") << "another's";
+    };
+    // The file is complete in the old folder, or begun in the new one, when it gets its name.
+    CHECK_THROWS_AS(replace_file(run + "/deep/a",
+                                 [&](const std::string& beside) {
+                                     std::ofstream(beside) << "newer";
+                                     replace();
+                                 }),
+                    FileError);
+    CHECK_THROWS_AS(replace_file(run + "/deep/a", "newest"), FileError);
+    CHECK(text_of(run + "/deep/a") == "another's");
+    CHECK(text_of(moved + "/deep/a") == "newer");
+    CHECK(std::distance(fs::directory_iterator(run + "/deep"), {}) == 1);
+
+    held.reset();
+    replace_file(run + "/deep/a", "after the run");
+    CHECK(text_of(run + "/deep/a") == "after the run");
+}
