@@ -4,7 +4,8 @@
 
   build/python/bin/python docs/tools/flows.py build/carrom [NAME ...] [--output docs/pictures]
 
-NAME is heated, shear, sheared, channel, belt or polydisperse. Together they take two minutes.
+NAME is heated, shear, sheared, channel, belt, polydisperse or active. Together they take three
+minutes.
 """
 import os
 import pathlib
@@ -180,7 +181,26 @@ def polydisperse(folder):
     return figure
 
 
-PICTURES = {one.__name__: one for one in (heated, shear, sheared, channel, belt, polydisperse)}
+def active(folder):
+    """Clusters whose discs push inwards, and how the density of cells spreads."""
+    result = run("active", folder, [500, 6000])
+    figure, discs, right = beside()
+    carrom.plot.frame(result, 6000, ax=discs, colour="direction")
+    for step, colour in ((0, GREY), (2000, "#6090d0"), (6000, BLUE)):
+        shown = [frame for frame in result.frames if step - 1500 < frame.step <= step]
+        counts = np.concatenate([np.histogram2d(*frame.x.T, bins=(12, 10),
+                                                range=((0, 62), (0, 54)))[0].ravel()
+                                 for frame in shown])
+        packing = counts * np.pi * 0.50044**2 / (62 * 54 / 120)
+        right.hist(packing, np.linspace(0, 1, 21), density=True, histtype="step", color=colour,
+                   label=f"step {step}")
+    right.set(xlabel="packing of a cell of 5 by 5 diameters", ylabel="density of probability")
+    right.legend()
+    return figure
+
+
+PICTURES = {one.__name__: one for one in
+            (heated, shear, sheared, channel, belt, polydisperse, active)}
 
 
 def main():

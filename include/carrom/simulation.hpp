@@ -82,13 +82,15 @@ public:
     std::vector<Disc> gathered_discs() const;
 
     /// Write numbers of this rank's discs to the places of their ids, and leave those of other
-    /// ranks' discs: x and y of disc `id` to places 2 id and 2 id + 1, its spin to place `id`, its
-    /// collisions with walls and with discs to places 2 id and 2 id + 1. The arrays have room for
-    /// all discs of the scene, else InputError is thrown. Cost: one pass by all threads. Not
-    /// collective.
+    /// ranks' discs: x and y of disc `id` to places 2 id and 2 id + 1, its spin and its direction
+    /// to place `id`, its collisions with walls and with discs to places 2 id and 2 id + 1. The
+    /// arrays have room for all discs of the scene, else InputError is thrown. Cost: one pass by
+    /// all threads. Not collective.
     void read_positions(std::span<double> xy) const;
     void read_velocities(std::span<double> xy) const; ///< length per step
     void read_spins(std::span<double> spins) const;   ///< angle per step
+    /// Angles from the x axis, counterclockwise; 0 unless discs are active.
+    void read_directions(std::span<double> angles) const;
     void read_collisions(std::span<std::int64_t> counts) const;
 
     /// Writes box lengths that discs have flown on through periodic sides, along x and along y, to

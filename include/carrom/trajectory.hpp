@@ -21,6 +21,7 @@ struct TrajectoryFields {
     bool velocities = true;
     bool spins = false;           ///< of rough discs only
     bool collisions = false;      ///< both counters
+    bool directions = false;      ///< of active discs only
     bool single_precision = true; ///< 4 bytes a number, else 8
 };
 

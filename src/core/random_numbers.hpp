@@ -21,7 +21,8 @@ enum class Purpose : std::uint64_t {
     shake = 2,
     velocity = 3,
     thermal_wall = 4,
-    sync = 5
+    sync = 5,
+    direction = 6
 };
 
 /// Four random words for this counter.

@@ -3,9 +3,9 @@
 //
 // Engines migrate, sort, exchange, speculate on and roll back whatever is present, and need not
 // know its meaning. Scenes, checkpoints, restarts and recordings have what is in the table below.
-// A new column takes a name and a line there. One that collisions change takes a line in
-// `side_columns_of`, too, and one in the function of that name that inspects a scene's effects. A
-// run without a column has no memory and no work for it.
+// A new column takes a name and a line there. One that effects need takes a line in the function
+// `side_columns_of` that inspects a scene's effects, and one that collisions change takes another
+// in the one below. A run without a column has no memory and no work for it.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-enum class SideColumn : std::size_t { spin, n_columns };
+enum class SideColumn : std::size_t { spin, direction, n_columns };
 inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_columns);
 
 struct SideColumnInfo {
@@ -30,7 +30,9 @@ struct SideColumnInfo {
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
     {{"spin", "angular_velocity", true, true,
-      "it needs discs that turn, effects.contact.kind = \"rough\""}}};
+      "it needs discs that turn, effects.contact.kind = \"rough\""},
+     {"direction", "direction", false, true,
+      "it needs discs that propel themselves, effects.activity"}}};
 
 constexpr const SideColumnInfo& info_of(SideColumn column) {
     return side_column_table[static_cast<std::size_t>(column)];

@@ -24,6 +24,7 @@ bool Effects::have_open_boundaries() const {
 SideColumnSet side_columns_of(const Effects& effects) {
     SideColumnSet columns;
     if (effects.have_spins()) columns.add(SideColumn::spin);
+    if (effects.activity.is_any()) columns.add(SideColumn::direction);
     return columns;
 }
 

@@ -148,6 +148,18 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
+/// Discs that propel themselves (scene/effects/activity.cpp); per step.
+struct Activity {
+    double speed = 0;                ///< of a free disc whose direction stays
+    double force = 0;                ///< or the force that all discs have, whatever their mass
+    double rotational_diffusion = 0; ///< the mean square of an angle grows by twice this
+    double tumble_rate = 0;          ///< at which discs take any other direction
+    std::uint64_t seed = 3210;
+
+    bool is_any() const { return speed != 0 || force != 0; }
+    friend bool operator==(const Activity&, const Activity&) = default;
+};
+
 /// Numbers of effects that act at syncs alone: the file of such an effect declares them by their
 /// keys (`own_key` in scene/key_members.hpp) and reads them, and nothing else has to know them.
 class OwnNumbers {
@@ -183,6 +195,7 @@ struct Effects {
     /// Slower pairs press each other from sync to sync (contact_impulses.hpp); 0 is none.
     double lasting_speed = 0;
     Thermostat thermostat{};
+    Activity activity{};
     OwnNumbers own{};
     ExternalField field{};
 
@@ -212,7 +225,8 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any() || own.are_any() || field.is_any();
+               growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any() ||
+               field.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

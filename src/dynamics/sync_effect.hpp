@@ -47,10 +47,11 @@ struct PairImpulse {
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
 /// they are taken about the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
-    const SpeciesTable& species;     ///< the radius and the mass of each disc
-    std::span<DiscState> discs = {}; ///< some may have departed: effects leave those alone
-    std::span<double> spins = {};    ///< along the discs; empty unless discs are rough
-    std::int64_t n_syncs = 0;        ///< since the scene's start, this one included
+    const SpeciesTable& species;       ///< the radius and the mass of each disc
+    std::span<DiscState> discs = {};   ///< some may have departed: effects leave those alone
+    std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
+    std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
+    std::int64_t n_syncs = 0;          ///< since the scene's start, this one included
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.
@@ -93,7 +94,7 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Changes velocities and spins of discs, and nothing else of them. **Collective.**
+    /// Changes velocities, spins and directions of discs, and nothing else of them. **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
 
     /// Whether `begin` does anything.

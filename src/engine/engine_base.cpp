@@ -38,9 +38,7 @@ template <class Dynamics>
 SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scene,
                            StoredState& state) {
     SideColumnSet wanted = side_columns_of(dynamics).present();
-    side_columns_of(scene).for_each([&](SideColumn column) {
-        if (!info_of(column).is_of_dynamics) wanted.add(column);
-    });
+    side_columns_of(scene).for_each([&](SideColumn column) { wanted.add(column); });
     SideColumns columns;
     wanted.for_each(
         [&](SideColumn column) { columns.add(column, std::move(state.columns[column])); });

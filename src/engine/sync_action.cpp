@@ -23,6 +23,8 @@ SyncDiscs SyncAction::at_sync(StripDiscs& discs, std::int64_t n_syncs) const {
     SyncDiscs at{species_};
     at.discs = discs.own();
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
+    if (discs.columns().has(SideColumn::direction))
+        at.directions = discs.columns()[SideColumn::direction];
     at.n_syncs = n_syncs;
     at.in_parts = [this, n = at.discs.size()](const SyncDiscs::Part& part) {
 #pragma omp parallel num_threads(n_threads_)

@@ -60,6 +60,15 @@ void Simulation::read_spins(std::span<double> spins) const {
     });
 }
 
+void Simulation::read_directions(std::span<double> angles) const {
+    check_size("read_directions", angles.size(), scene().n_discs);
+    const SideSpans columns = live().run().system().side_columns();
+    const std::span<const double> values = columns[SideColumn::direction];
+    for_each_shown(live().run(), [&](const DiscState& disc, std::size_t i) {
+        angles[disc.id] = values.empty() ? 0 : values[i];
+    });
+}
+
 void Simulation::read_collisions(std::span<std::int64_t> counts) const {
     check_size("read_collisions", counts.size(), 2 * scene().n_discs);
     for_each_shown(live().run(), [&](const DiscState& disc, std::size_t) {

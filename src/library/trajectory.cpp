@@ -22,6 +22,8 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const SceneParameters
     std::vector<Problem> problems;
     if (fields.spins && !scene.effects.have_spins())
         problems.push_back({path, 0, "only rough discs have spins (effects.contact.kind)"});
+    if (fields.directions && !scene.effects.activity.is_any())
+        problems.push_back({path, 0, "only active discs have directions (effects.activity)"});
     if (!problems.empty()) throw InputError(std::move(problems));
     TrajectoryOutput wanted;
     wanted.file = path;
@@ -29,6 +31,7 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const SceneParameters
     wanted.has_collisions = fields.collisions;
     wanted.columns = {};
     if (fields.spins) wanted.columns.add(SideColumn::spin);
+    if (fields.directions) wanted.columns.add(SideColumn::direction);
     wanted.is_single = fields.single_precision;
     return wanted;
 }

@@ -28,8 +28,10 @@ std::string body_problem(double radius, double mass) {
 
 std::string number_problem(const SceneParameters& scene, SideColumn column, double number) {
     std::string text = column_problem(disc_column_of(column), number);
-    if (!text.empty() || column != SideColumn::spin || scene.effects.have_spins()) return text;
-    return "a spin has no meaning without effects.contact.kind = \"rough\"";
+    if (!text.empty() || !info_of(column).is_of_dynamics ||
+        side_columns_of(scene.effects).has(column))
+        return text;
+    return fmt::format("a {} has no meaning here: {}", info_of(column).name, info_of(column).needs);
 }
 
 void check_species(const SceneDraft& draft) {

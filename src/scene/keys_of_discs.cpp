@@ -187,7 +187,7 @@ Key species_key() {
         fields.push_back({info_of(column).name, "", 1, 1, 0.0});
     fields.push_back(
         {"region", "[x0, y0, x1, y1]", 4, 4, std::numeric_limits<double>::quiet_NaN()});
-    Key key = named_key("discs.species", "discs, length, mass, 1/step",
+    Key key = named_key("discs.species", "discs, length, mass, 1/step, radians",
                         "Species of discs in the order of ids, in place of one radius.")
                   .by_default("none")
                   .needs(not_legacy)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/angle.hpp"
 #include "scene/disc_columns.hpp"
 
 namespace carrom {
@@ -25,8 +26,15 @@ void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene) {
     trajectory.has_image = scene.effects.are_periodic() && !scene.effects.are_sheared();
 }
 
+bool has_first_numbers(const SceneParameters& scene, SideColumn column) {
+    return !scene.first_numbers[column].empty() ||
+           (column == SideColumn::direction && scene.effects.activity.is_any());
+}
+
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id) {
     const std::vector<NumberRun>& runs = scene.first_numbers[column];
+    if (runs.empty() && has_first_numbers(scene, column))
+        return random_angle({scene.effects.activity.seed, Purpose::direction, id});
     const auto run = std::upper_bound(
         runs.begin(), runs.end(), id,
         [](DiscId wanted, const NumberRun& one) { return wanted < one.end; });

@@ -230,7 +230,10 @@ struct SceneParameters {
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
-/// A disc's number at the start.
+/// Whether discs may begin with other numbers than 0 in a column.
+bool has_first_numbers(const SceneParameters& scene, SideColumn column);
+/// A disc's number at the start. Directions that the scene does not give are drawn by the seed of
+/// the activity, so that any rank finds any disc's.
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id);
 
 /// The columns beside the states that the scene's discs have: those that the dynamics

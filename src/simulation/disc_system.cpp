@@ -57,7 +57,7 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
             disc.vx = input.vx / k;
             disc.vy = input.vy / k;
             for (const SideColumn column : all_side_columns)
-                if (!scene.first_numbers[column].empty())
+                if (has_first_numbers(scene, column))
                     numbers[column].push_back(first_number(scene, column, input.id) /
                                               (info_of(column).is_rate ? rate_unit : 1));
         }

@@ -76,6 +76,10 @@ class Core:
         """(N,), radians per step; 0 at ids of other ranks' discs."""
 
     @property
+    def directions(self) -> NDArray[np.float64]:
+        """(N,), radians; 0 at ids of other ranks' discs."""
+
+    @property
     def collisions(self) -> NDArray[np.int64]:
         """(N, 2), int64: with walls, with discs; 0 at ids of other ranks' discs."""
 

@@ -125,6 +125,10 @@ class Checkpoint(Frame):
         return np.asarray(self.column("spin") * float(self.micro_steps) + 0.0)
 
     @cached_property
+    def direction(self) -> Array:
+        return self.column("direction")
+
+    @cached_property
     def wall_collisions(self) -> Array:
         return self.column("wall_collisions")
 

@@ -63,6 +63,11 @@ class DiscArrays(ABC):
 
     @cached_property
     @abstractmethod
+    def direction(self) -> Array:
+        """Directions (N,) of active discs, radians from the x axis, counterclockwise."""
+
+    @cached_property
+    @abstractmethod
     def wall_collisions(self) -> Array:
         """Collisions with walls and obstacles since the scene's start, (N,) integers."""
 

@@ -23,10 +23,11 @@ _UNITS = {
     "position": "length",
     "velocity": "length per step",
     "spin": "radians per step",
+    "direction": "radians",
     "radius": "length",
 }
 _FIELDS = {"position": "x", "velocity": "v"}
-_NUMBERS = ("spin", "psi6", "neighbours", "wall_collisions", "pair_collisions")
+_NUMBERS = ("spin", "direction", "psi6", "neighbours", "wall_collisions", "pair_collisions")
 _BODIES = ("radius", "mass", "species", "present")
 
 

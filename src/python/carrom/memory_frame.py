@@ -32,6 +32,8 @@ class _Source(Protocol):
     @property
     def spins(self) -> Array: ...
     @property
+    def directions(self) -> Array: ...
+    @property
     def wall_collisions(self) -> Array: ...
     @property
     def pair_collisions(self) -> Array: ...
@@ -61,6 +63,7 @@ class MemoryFrame(Frame):
         self.box, self.periodic = sim.box, sim.periodic
         self._radius, self._mass, self._species = sim.radii, sim.masses, sim.species
         self.x, self.v, self.spin = sim.positions, sim.velocities, sim.spins
+        self.direction = sim.directions
         self.wall_collisions, self.pair_collisions = sim.wall_collisions, sim.pair_collisions
         with contextlib.suppress(SceneError):  # between sheared sides there are no images
             self.image = sim.images
@@ -84,6 +87,7 @@ class MemoryFrame(Frame):
     x: Array
     v: Array
     spin: Array
+    direction: Array
     image: Array
     wall_collisions: Array
     pair_collisions: Array

@@ -2,8 +2,7 @@
 """`Simulation`: a scene in this process, step by step, with its discs as arrays.
 
 The bits are those of `carrom run`, for any number of threads, however steps are divided into calls.
-What it gives are copies: arrays cannot be written to, so that `sim.positions[0] = ...` is an error
-instead of nothing.
+What it gives are copies: they cannot be written to, so that `sim.positions[0] = ...` is an error.
 """
 
 from __future__ import annotations
@@ -235,6 +234,11 @@ class Simulation(Guarded):
         self._set("spins", values)
 
     @property
+    def directions(self) -> Array:
+        """Directions (N,) of active discs, radians from the x axis, counterclockwise; else 0."""
+        return self._gathered(self._core.directions)
+
+    @property
     def images(self) -> Array:
         """Box lengths (N, 2), whole numbers, that discs have flown on through periodic sides.
 
@@ -267,8 +271,7 @@ class Simulation(Guarded):
 
         What follows is a function of these numbers and the step alone. Discs whose numbers are as
         they were keep all of their bits. Averages begin anew (`averages.first_step` says where);
-        where positions have changed, tables do so, too. It takes about as long as making the
-        simulation from a list of discs.
+        where positions have changed, tables do so, too. It takes as long as making the simulation.
 
         Args:
             positions: (N, 2), lengths
@@ -281,11 +284,10 @@ class Simulation(Guarded):
             ValueError: an array has another shape, a unit or masked elements
             TypeError: an array has no real numbers
         """
-        pairs, numbers = (self.n_discs, 2), (self.n_discs,)
         given = {
-            "positions": checked("positions", "lengths", positions, pairs),
-            "velocities": checked("velocities", "lengths per step", velocities, pairs),
-            "spins": checked("spins", "radians per step", spins, numbers),
+            "positions": checked("positions", "lengths", positions, (self.n_discs, 2)),
+            "velocities": checked("velocities", "lengths per step", velocities, (self.n_discs, 2)),
+            "spins": checked("spins", "radians per step", spins, (self.n_discs,)),
         }
         self._core.change(**given)
         self._changes.note((name for name in given if given[name] is not None), self.step)
@@ -298,8 +300,7 @@ class Simulation(Guarded):
     @property
     def local(self) -> LocalDiscs:
         """The discs of this rank. Other ranks need not make the call."""
-        core = self._core
-        ids = core.ids
+        core, ids = self._core, self._core.ids
         return LocalDiscs(ids, core.positions[ids], core.velocities[ids], core.spins[ids])
 
     def _gathered(self, mine: Array) -> Array:

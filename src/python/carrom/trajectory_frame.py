@@ -38,7 +38,7 @@ class System:
 
 def _number_of_discs(discs: Any, file: Any) -> int:
     names = ("position", "velocity", "image", "collisions", "angular_velocity", "psi6")
-    for name in (*names, "neighbours"):
+    for name in (*names, "neighbours", "direction"):
         if name in discs:
             return int(discs[name]["value"].shape[1])
     raise FileError(f"{file.filename}: its frames have no fields")
@@ -93,6 +93,10 @@ class TrajectoryFrame(Frame):
     @cached_property
     def spin(self) -> Array:
         return self._frames.field("angular_velocity", self._index)
+
+    @cached_property
+    def direction(self) -> Array:
+        return self._frames.field("direction", self._index)
 
     @cached_property
     def image(self) -> Array:

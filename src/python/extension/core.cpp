@@ -62,6 +62,7 @@ void add_properties(nb::class_<Core>& core) {
         .def_prop_ro("positions", positions_of, of_own_discs("(N, 2), lengths").c_str())
         .def_prop_ro("velocities", velocities_of, of_own_discs("(N, 2), lengths per step").c_str())
         .def_prop_ro("spins", spins_of, of_own_discs("(N,), radians per step").c_str())
+        .def_prop_ro("directions", directions_of, of_own_discs("(N,), radians").c_str())
         .def_prop_ro("collisions", collisions_of,
                      of_own_discs("(N, 2), int64: with walls, with discs").c_str())
         .def_prop_ro("images", images_of,

@@ -61,6 +61,7 @@ nb::object ids_of(const Core& core);
 nb::object positions_of(const Core& core);
 nb::object velocities_of(const Core& core);
 nb::object spins_of(const Core& core);
+nb::object directions_of(const Core& core);
 nb::object collisions_of(const Core& core);
 nb::object images_of(const Core& core);
 

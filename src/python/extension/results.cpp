@@ -52,6 +52,12 @@ nb::object spins_of(const Core& core) {
                           [&](std::span<double> spins) { core.simulation.read_spins(spins); });
 }
 
+nb::object directions_of(const Core& core) {
+    return filled<double>({core.simulation.scene().n_discs}, [&](std::span<double> angles) {
+        core.simulation.read_directions(angles);
+    });
+}
+
 nb::object collisions_of(const Core& core) {
     return filled<std::int64_t>(
         {core.simulation.scene().n_discs, 2},

@@ -349,3 +349,27 @@ def test_verify_finds_each_damage(recorded: carrom.Run, tmp_path: Path) -> None:
         del file["carrom/recording"]
     with pytest.raises(carrom.FileError, match=r"no checksums|damaged"):
         carrom.verify(tmp_path / "copy" / "trajectory.h5")
+
+
+def test_active_discs_have_directions_in_frames_and_checkpoints(tmp_path: Path) -> None:
+    scene = gas(**PERIODIC)
+    scene["discs"]["temperature"] = 0.01
+    scene["time"]["sync_every"] = 1
+    scene["effects"] = {
+        "thermostat": {"kind": "langevin", "rate": 0.1, "temperature": 0.01},
+        "activity": {"speed": 0.1, "rotational_diffusion": 0.05},
+    }
+    scene["output"] = {"trajectory": {"every_steps": 10, "precision": "double"}}
+    run = carrom.run(scene, folder=tmp_path / "active", progress=False)
+    first, last = run.frames[0].direction, run.frames[-1].direction
+    assert first.shape == (60,)
+    assert np.abs(first).max() <= np.pi
+    assert len(np.unique(first)) == 60
+    assert np.all(first != last)
+    assert run.checkpoints[-1].direction.tolist() == last.tolist()
+    axes = carrom.plot.frame(run, 20, colour="direction")
+    drawn = next(one for one in axes.collections if one.get_array() is not None)
+    assert drawn.get_clim() == (-np.pi, np.pi)
+    plain = carrom.run(gas(), folder=tmp_path / "plain", progress=False)
+    with pytest.raises(carrom.NoDataError, match="no direction"):
+        _ = plain.checkpoints[-1].direction

@@ -111,7 +111,7 @@ TEST_CASE("Spins at the start come from a file, a list or species") {
                                 "s.toml")) == Texts{"discs begin with other spins there"});
     for (const std::string& text : {from_file("[\"spin\"]") + "radius = 1\n", box + species,
                                     box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, 0.5]]\n"})
-        CHECK(mentions(problems_in(text), "no meaning without effects.contact.kind = \"rough\""));
+        CHECK(mentions(problems_in(text), "effects.contact.kind = \"rough\""));
     CHECK(mentions(problems_in(box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, inf]]\n" + rough),
                    "row 1 of 'discs.list': the spin must be finite"));
 }
@@ -122,7 +122,7 @@ TEST_CASE("Wrong columns are refused where they are named") {
         read_scene(SceneText{"s.toml", from_file("[\"radius\", \"mass\"]"), 0, false, {}}));
     REQUIRE(whole.is_whole);
     CHECK(mentions(problems_in(from_file("[\"radius\", \"colour\"]"), whole),
-                   "\"radius\", \"mass\" or \"spin\", not 'colour'"));
+                   "\"radius\", \"mass\", \"spin\" or \"direction\", not 'colour'"));
     CHECK(mentions(problems_in(from_file("[\"radius\", \"radius\"]"), whole),
                    "'discs.columns' has 'radius' twice"));
     CHECK(mentions(problems_in(from_file("[\"mass\"]") + "radius = 1\n"),

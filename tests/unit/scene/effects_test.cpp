@@ -365,3 +365,36 @@ TEST_CASE("A restart cannot change effects") {
     CHECK(physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", there))
               .empty());
 }
+
+TEST_CASE("Active discs are read, and refused without a friction") {
+    const Texts bath{"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
+                     "effects.thermostat.temperature=0.5"};
+    const auto with = [&](Texts more) {
+        more.insert(more.begin(), bath.begin(), bath.end());
+        return more;
+    };
+    const Texts active = with({"effects.activity.speed=0.2",
+                               "effects.activity.rotational_diffusion=0.01",
+                               "effects.activity.tumble_rate=0.02", "effects.activity.seed=7"});
+    const SceneParameters scene = read_scene(good, "s.toml", active);
+    CHECK(scene.effects.activity == Activity{0.2, 0, 0.01, 0.02, 7});
+    CHECK(has(summary_of(scene.effects),
+              "active discs of speed 0.2, rotational diffusion 0.01, tumble rate 0.02"));
+    CHECK(side_columns_of(scene).has(SideColumn::direction));
+    CHECK_FALSE(side_columns_of(read_scene(good, "s.toml", bath)).has(SideColumn::direction));
+    CHECK(first_number(scene, SideColumn::direction, 1) !=
+          first_number(scene, SideColumn::direction, 2));
+    CHECK(has(reason_without_z(scene.effects), "swim pressure"));
+
+    CHECK(has(problems_with({"effects.activity.speed=0.2"}),
+              "cannot have active discs together with no friction"));
+    CHECK(has(problems_with(with({"effects.activity.tumble_rate=0.02"})),
+              "no meaning without effects.activity.speed or effects.activity.force"));
+    CHECK(has(problems_with(with({"effects.activity.speed=0.2", "effects.activity.force=0.2"})),
+              "effects.activity.speed"));
+    CHECK(has(problems_with(with(
+                  {"effects.activity.speed=0.2", "effects.activity.rotational_diffusion=0.1"})),
+              "acts more than 4 times between two syncs"));
+    CHECK(has(problems_with({"output.folder=t", "output.trajectory.fields=[\"direction\"]"}),
+              "needs discs that propel themselves"));
+}

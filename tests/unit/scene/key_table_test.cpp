@@ -141,6 +141,12 @@ Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
                       "effects.thermostat.temperature=0.01"});
     if (draw.below(8) == 0)
         texts.insert(texts.end(),
+                     {"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
+                      "effects.thermostat.temperature=0.01",
+                      std::string("effects.activity.") + (draw.below(2) == 0 ? "speed" : "force") +
+                          "=0.01"});
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(),
                      {"effects.gravity.y=-0.01", "effects.contact.kind=restitution",
                       "effects.contact.restitution=0.9", "effects.lasting_contacts.speed=0.05"});
     if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");

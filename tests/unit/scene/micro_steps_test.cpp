@@ -41,6 +41,7 @@ TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
     e.obstacles.restitution = 0.6;
     e.species = {{3, 0.5, 2}};
     e.thermostat = {ThermostatKind::langevin, 0.07, 0.08, 0.09, 11};
+    e.activity = {0.1, 0.2, 0.3, 0.4, 13};
     e.thermal_seed = 17;
 
     Effects expected = e;
@@ -60,6 +61,7 @@ TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
     expected.thermostat.strength = 0.07 / 125;
     expected.thermostat.rate = 0.08 / 5;
     expected.thermostat.temperature = 0.09 / 25;
+    expected.activity = {0.1 / 5, 0.2 / 25, 0.3 / 5, 0.4 / 5, 13};
     CHECK(per_micro_step(scene) == expected);
     scene.micro_steps = 1;
     CHECK(per_micro_step(scene) == e);

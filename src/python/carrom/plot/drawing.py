@@ -25,10 +25,12 @@ _LABELS = {
     "vx": "velocity along x (lengths per step)",
     "vy": "velocity along y (lengths per step)",
     "spin": "spin (radians per step, counterclockwise)",
+    "direction": "direction (radians)",
     "strip": "strip",
     "species": "species",
 }
 _TWO_SIDED = ("vx", "vy", "spin")
+_ROUND = ("direction",)
 _NUMBERED = ("strip", "species")
 
 
@@ -112,7 +114,8 @@ def frame(
     Args:
         source: a run, frames, a frame, or a path
         step: the step to show; the last one if None
-        colour: "speed" (the default), "vx", "vy", "spin", "strip", "species", or an array (N,)
+        colour: "speed" (the default), "vx", "vy", "spin", "direction", "strip", "species", or an
+            array (N,)
         color: the same
         view: x0, y0, x1, y1 of the part to show, lengths
         fastest: the number of the strongest colour; 99 in 100 discs are below it if None
@@ -214,6 +217,8 @@ class Picture:
         if self._is(_NUMBERED):
             tab = mpl.colormaps["tab10"]
             return ListedColormap([tab(k % 10) for k in range(self._n_numbers(first))])
+        if self._is(_ROUND):
+            return "hsv"
         return "coolwarm" if self._is(_TWO_SIDED) else "viridis"
 
     def _limits(self, first: Frame) -> tuple[float, float]:
@@ -222,6 +227,8 @@ class Picture:
             return first_colour, last_colour
         if self._is(_NUMBERED):
             return -0.5, self._n_numbers(first) - 0.5
+        if self._is(_ROUND):
+            return -np.pi, np.pi
         values = self._values(first)[first.present]
         strongest = self.style.fastest
         if strongest is None:

@@ -11,7 +11,7 @@ from carrom.errors import CarromError, NoDataError
 from carrom.frame import Frame
 from carrom.runs import Run, open_run
 
-COLOURS = ("speed", "vx", "vy", "spin", "strip", "species")
+COLOURS = ("speed", "vx", "vy", "spin", "direction", "strip", "species")
 """What discs can be coloured by."""
 
 Drawable = Union[Run, Frame, Sequence[Frame], str, "os.PathLike[str]"]
