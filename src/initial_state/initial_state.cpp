@@ -67,16 +67,6 @@ std::vector<InputDisc> triangular_discs(const SceneParameters& scene,
                           [&](std::uint64_t site) { return lattice->site(site); });
 }
 
-/// The generated discs with places, but without velocities.
-std::vector<InputDisc> generated_discs(const SceneParameters& scene,
-                                       const Communicator& communicator, int n_threads) {
-    if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
-    if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
-    // Placing has hundreds of short parallel regions, in each of which all threads have to wake.
-    const std::uint64_t own = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
-    return insert_at_random(scene, communicator, useful_threads(n_threads, own));
-}
-
 std::vector<InputDisc> legacy_discs(const SceneParameters& scene,
                                     const Communicator& communicator) {
     LegacyRandom random(static_cast<unsigned>(scene.seed));
@@ -105,8 +95,17 @@ std::vector<InputDisc> legacy_discs(const SceneParameters& scene,
     return discs;
 }
 
-/// Refuses listed discs that are not clear of all obstacles; the message names the
-/// first few. **Collective.**
+} // namespace
+
+std::vector<InputDisc> generated_places(const SceneParameters& scene,
+                                        const Communicator& communicator, int n_threads) {
+    if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
+    if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
+    // Placing has hundreds of short parallel regions, in each of which all threads have to wake.
+    const std::uint64_t own = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
+    return insert_at_random(scene, communicator, useful_threads(n_threads, own));
+}
+
 void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator) {
     constexpr std::size_t most_named = 5;
@@ -127,30 +126,35 @@ void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDi
     agree_on_problems(communicator, problems);
 }
 
-} // namespace
-
-std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
-                                     const Communicator& communicator, int n_threads) {
+std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream* lines,
+                                      const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::file) {
         std::vector<InputDisc> listed = scene.reads_disc_lines()
                                             ? read_listed_discs(scene, lines, communicator,
                                                                 n_threads)
                                             : listed_discs(scene, communicator);
         refuse_in_obstacles(scene, listed, communicator);
-        if (scene.draws_velocities) give_velocities(scene, listed, communicator);
-        if (scene.velocities == VelocityKind::reversed)
-            for (InputDisc& disc : listed) disc.vx = -disc.vx, disc.vy = -disc.vy;
         return listed;
     }
-    ensure(scene.generator != Generator::compressed, "a compressed start takes an engine");
-    std::vector<InputDisc> discs;
-    if (scene.generator == Generator::legacy) {
-        discs = legacy_discs(scene, communicator);
-        add_streams(scene, discs);
-    } else {
-        discs = generated_discs(scene, communicator, n_threads);
+    ensure(scene.generator != Generator::compressed && scene.groups.empty(),
+           "a compressed start and groups take an engine");
+    if (scene.generator == Generator::legacy) return legacy_discs(scene, communicator);
+    return generated_places(scene, communicator, n_threads);
+}
+
+void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
+                           const Communicator& communicator) {
+    if (scene.generator == Generator::legacy) return add_streams(scene, discs);
+    if (scene.generator != Generator::file || scene.draws_velocities)
         give_velocities(scene, discs, communicator);
-    }
+    if (scene.velocities == VelocityKind::reversed)
+        for (InputDisc& disc : discs) disc.vx = -disc.vx, disc.vy = -disc.vy;
+}
+
+std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
+                                     const Communicator& communicator, int n_threads) {
+    std::vector<InputDisc> discs = initial_places(scene, lines, communicator, n_threads);
+    give_first_velocities(scene, discs, communicator);
     return discs;
 }
 

@@ -37,6 +37,18 @@ void InsertionBox::propose(const Proposers& proposers, std::span<const Notice> u
     }
 }
 
+std::vector<Notice> InsertionBox::gather(const std::vector<InputDisc>& given) const {
+    std::vector<std::vector<Notice>> out(n_ranks());
+    for (const InputDisc& disc : given) {
+        const auto [x, y] = turned(axis_, disc.x, disc.y);
+        const Notice notice{x, y, static_cast<std::uint32_t>(disc.id), Notice::placed};
+        visit_concerned(x, [&](std::size_t rank) { out[rank].push_back(notice); });
+    }
+    std::vector<Notice> all = send_to_owners(communicator_, out).items;
+    std::ranges::sort(all, {}, &Notice::id); // the same grid in every run
+    return all;
+}
+
 /// Makes the proposals `first` to `end` - 1, counted round by round.
 void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t first,
                                   std::uint64_t end, int n_threads, RawVector<Notice>& made) const {

@@ -127,6 +127,17 @@ public:
                ObstacleContact::no_body;
     }
 
+    /// Whether the disc has no place before insertion begins.
+    bool is_random(DiscId id) const {
+        DiscId end = 0;
+        for (const DiscGroup& group : scene_.groups)
+            if (id < (end += group.count)) return group.generator == Generator::random;
+        return true;
+    }
+
+    /// The discs, which have places, that concern this rank. **Collective.**
+    std::vector<Notice> gather(const std::vector<InputDisc>& given) const;
+
     /// Makes the proposals of all ranks, by all threads, and lists those that concern this rank.
     /// What others have found, `updates`, comes with them. **Collective.**
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,

@@ -33,9 +33,11 @@ constexpr double most_placed_in_batches = 0.25;
 class Insertion {
 public:
     Insertion(const SceneParameters& scene, const Communicator& communicator, std::uint64_t start,
-              int n_threads)
+              int n_threads, const std::vector<InputDisc>& given)
         : scene_(scene), communicator_(communicator), n_threads_(n_threads),
-          box_(scene, communicator, start), placed_(box_, n_threads) {}
+          box_(scene, communicator, start), placed_(box_, n_threads) {
+        if (!scene.groups.empty()) placed_.add(box_.gather(given));
+    }
 
     /// Returns the places, or nothing if the discs have jammed. **Collective.**
     std::optional<std::vector<InputDisc>> run() {
@@ -65,7 +67,8 @@ private:
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
         for (std::uint64_t id = first; id < last; ++id)
-            if (const double radius = box_.radius_of(id); radius >= smallest && radius <= largest)
+            if (const double radius = box_.radius_of(id);
+                radius >= smallest && radius <= largest && box_.is_random(id))
                 unplaced_.push_back(static_cast<std::uint32_t>(id));
         placed_.forget_map();
         Rounds rounds;
@@ -205,12 +208,15 @@ private:
 } // namespace
 
 std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
-                                        const Communicator& communicator, int n_threads) {
+                                        const Communicator& communicator, int n_threads,
+                                        const std::vector<InputDisc>& given) {
     for (std::uint64_t start = 0; start < most_starts; ++start)
-        if (auto discs = Insertion(scene, communicator, start, n_threads).run())
+        if (auto discs = Insertion(scene, communicator, start, n_threads, given).run())
             return std::move(*discs);
     const std::string remedy = scene.effects.obstacles.are_any()
                                    ? "leave more room beside the obstacles"
+                               : !scene.groups.empty()
+                                   ? "leave more room in the regions of groups of random discs"
                                    : "set discs.generator to \"lattice\"";
     throw InputError({{scene.name, 0,
                        fmt::format("random insertion of {} discs (packing {:.4g}) found no "

@@ -19,8 +19,11 @@
 namespace carrom {
 
 /// Returns the scene's discs with places and without velocities, each on the rank whose
-/// strip holds it. InputError on every rank if no arrangement is found. **Collective.**
+/// strip holds it. `given` are those that have places already, in any distribution: the discs of
+/// all groups with another generator. InputError on every rank if no arrangement is found.
+/// **Collective.**
 std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
-                                        const Communicator& communicator, int n_threads = 1);
+                                        const Communicator& communicator, int n_threads = 1,
+                                        const std::vector<InputDisc>& given = {});
 
 } // namespace carrom

@@ -53,14 +53,14 @@ DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
     return columns;
 }
 
-std::vector<InputDisc> load_discs(const SceneParameters& scene, std::istream* following,
-                                  const Communicator& ranks, int n_threads) {
+std::vector<InputDisc> load_places(const SceneParameters& scene, std::istream* following,
+                                   const Communicator& ranks, int n_threads) {
     if (!scene.reads_disc_lines() || scene.discs_file.empty())
-        return initial_state(scene, scene.reads_disc_lines() ? following : nullptr, ranks,
-                             n_threads);
+        return initial_places(scene, scene.reads_disc_lines() ? following : nullptr, ranks,
+                              n_threads);
     std::ifstream file;
     let_root(ranks, [&] { file = open_input(discs_path(scene)); });
-    return initial_state(scene, &file, ranks, n_threads);
+    return initial_places(scene, &file, ranks, n_threads);
 }
 
 } // namespace carrom

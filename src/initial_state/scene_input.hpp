@@ -18,14 +18,14 @@ void broadcast(SceneText& text, const Communicator& ranks);
 
 /// The columns of the scene's file of discs beyond places and velocities. They are
 /// incomplete if the file cannot be read; the reader of its lines reports why.
-/// `following`: see load_discs; it stays where it is. **Collective.**
+/// `following`: see load_places; it stays where it is. **Collective.**
 DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
                          const Communicator& ranks);
 
-/// The discs that a scene starts with. `following` is on rank 0 the rest of a legacy
+/// initial_places of the scene. `following` is on rank 0 the rest of a legacy
 /// text after its header, or null if no discs follow. Opens a file of discs itself.
 /// Throws InputError on every rank. **Collective.**
-std::vector<InputDisc> load_discs(const SceneParameters& scene, std::istream* following,
-                                  const Communicator& ranks, int n_threads = 1);
+std::vector<InputDisc> load_places(const SceneParameters& scene, std::istream* following,
+                                   const Communicator& ranks, int n_threads = 1);
 
 } // namespace carrom

@@ -139,8 +139,11 @@ double scale_of(const SceneParameters& scene, const std::vector<InputDisc>& disc
 
 } // namespace
 
-void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                     const Communicator& communicator) {
+namespace {
+
+/// To all discs together.
+void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
+                 const Communicator& communicator) {
     const Motion motion(scene, discs, communicator);
     for (InputDisc& disc : discs) {
         const Velocity drawn = drawn_velocity(scene, disc.id);
@@ -154,6 +157,38 @@ void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs
         disc.vx *= scale;
         disc.vy *= scale;
     }
+}
+
+/// Gives the discs of each group its own temperature or speed.
+void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& discs,
+                          const Communicator& communicator) {
+    std::ranges::sort(discs, {}, &InputDisc::id);
+    SceneParameters of_group = scene;
+    std::vector<InputDisc> part;
+    DiscId end = 0;
+    for (const DiscGroup& group : scene.groups) {
+        const auto first = std::ranges::lower_bound(discs, end, {}, &InputDisc::id);
+        const auto last = std::ranges::lower_bound(discs, end += group.count, {}, &InputDisc::id);
+        if (group.count == 0) continue; // all its discs are frozen
+        of_group.n_discs = group.count;
+        of_group.temperature = scene.temperature;
+        of_group.speed = group.speed.value_or(scene.speed);
+        if (group.temperature) of_group.temperature = group.temperature;
+        if (group.speed) of_group.temperature.reset();
+        part.assign(first, last);
+        give_motion(of_group, part, communicator);
+        std::ranges::copy(part, first);
+    }
+}
+
+} // namespace
+
+void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
+                     const Communicator& communicator) {
+    if (scene.groups.empty())
+        give_motion(scene, discs, communicator);
+    else
+        give_motion_by_group(scene, discs, communicator);
     add_streams(scene, discs);
 }
 

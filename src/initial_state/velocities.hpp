@@ -38,7 +38,8 @@ void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs);
 /// Gives drawn velocities per step to discs, in any distribution over the
 /// ranks. The energy of all discs is N kT with `discs.temperature`, and half their mass times
 /// `discs.speed` squared otherwise, both to rounding. Along periodic axes their momentum is zero to
-/// rounding; a disc that is alone keeps it, because it would be at rest. Streams are added last.
+/// rounding; a disc that is alone keeps it, because it would be at rest. Both hold for each group
+/// of `discs.groups` by itself, with its own temperature or speed. Streams are added last.
 /// **Collective.**
 void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
                      const Communicator& communicator);

@@ -16,7 +16,7 @@
 #include "parallel/meeting.hpp"
 #include "run/start/scene_source.hpp"
 #include "scene/read_scene.hpp"
-#include "simulation/compression.hpp"
+#include "simulation/first_discs.hpp"
 
 namespace carrom {
 
@@ -141,7 +141,7 @@ FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuni
     FirstState first;
     first.scene = with_named_keys(
         [&] { return read_with_files(source, scene.source().settings, ranks); });
-    first.discs = first_discs(first.scene, source.stream.get(), ranks, tuning);
+    first.discs = first_discs_and_frozen(first.scene, source.stream.get(), ranks, tuning);
     return first;
 }
 

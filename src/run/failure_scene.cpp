@@ -49,6 +49,9 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     if (!scene.effects.species.empty())
         around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
     around.first_numbers = {};
+    around.groups.clear();
+    around.freeze.clear(); // the frozen discs are obstacles
+    around.frozen.clear();
     if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
     around.steps = 1;
     const double grown = growth_before(scene, failure);

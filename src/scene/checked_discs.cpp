@@ -8,6 +8,8 @@
 #include "core/box_text.hpp"
 #include "lattices/lattice.hpp"
 #include "lattices/triangular.hpp"
+#include "scene/disc_groups.hpp"
+#include "scene/frozen_discs.hpp"
 #include "scene/limits.hpp"
 #include "scene/scene_draft.hpp"
 #include "scene/start_region.hpp"
@@ -36,6 +38,7 @@ std::string number_problem(const SceneParameters& scene, SideColumn column, doub
 
 void check_species(const SceneDraft& draft) {
     draft.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
+        if (std::isnan(n[0])) return {}; // refused already (species_counts.cpp, disc_groups.cpp)
         if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count)) || n[0] != std::floor(n[0]))
             return fmt::format("its count must be a whole number from 1 to {}, not {}",
                                largest_count, n[0]);
@@ -86,8 +89,12 @@ void fill_count(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     std::uint64_t n_in_species = 0;
     for (const Species& one : scene.effects.species) n_in_species += one.count;
+    std::uint64_t n_in_groups = 0;
+    for (const DiscGroup& one : scene.groups) n_in_groups += one.count;
     const std::pair<std::string_view, std::uint64_t> sources[] = {
-        {"discs.list", scene.listed_discs.size()}, {"discs.species", n_in_species}};
+        {"discs.list", scene.listed_discs.size()},
+        {"discs.species", n_in_species},
+        {"discs.groups", n_in_groups}};
     std::string known_from = "discs.count";
     for (const auto& [key, n] : sources) {
         if (!draft.settings.has(key)) continue;
@@ -180,8 +187,8 @@ void warn_of_lost_masses(const SceneDraft& draft) {
         heaviest.mass / lightest.mass, most, most * lightest.mass));
 }
 
-constexpr std::array<std::string_view, 5> not_with_sizes = {
-    "discs.radius", "discs.species", "discs.list", "discs.columns", "discs.file"};
+constexpr std::array<std::string_view, 6> not_with_sizes = {
+    "discs.radius", "discs.species", "discs.groups", "discs.list", "discs.columns", "discs.file"};
 
 /// A distribution gives the radii alone, also where the number of discs is not known yet.
 void check_rivals_of_sizes(const SceneDraft& draft) {
@@ -226,6 +233,7 @@ bool fill_sizes(const SceneDraft& draft) {
         const bool may_have_wrong_rows = key == "discs.list" && scene.effects.species.empty();
         if (settings.has(key) && !settings.is_right(key) && !may_have_wrong_rows) return false;
     }
+    if (settings.has("discs.groups") && !settings.is_right("discs.groups")) return false;
     const bool has_packing = settings.has("discs.packing");
     if (has_packing && has_radius) return false;
     const double packing = has_packing
@@ -240,7 +248,7 @@ bool fill_sizes(const SceneDraft& draft) {
                 draft.refuse_first(size_keys, "of the distribution of radii " + text);
                 return false;
             }
-    } else if (has_packing) {
+    } else if (has_packing && !scene.has_shares) {
         scene.radius = std::sqrt(scene.box.area()) *
                        std::sqrt(packing / (static_cast<double>(scene.n_discs) * std::numbers::pi));
     }
@@ -278,7 +286,9 @@ void check_triangular(const SceneDraft& draft) {
 void check_generator(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     check_regions(draft);
-    if (scene.generator == Generator::random && !has_regions(scene) &&
+    check_groups(draft);
+    check_freezing(draft);
+    if (scene.generator == Generator::random && !has_regions(scene) && scene.groups.empty() &&
         scene.packing() > largest_random_packing * (1 + 1e-12)) {
         scene.generator = Generator::lattice;
         scene.warnings.push_back(

@@ -3,9 +3,12 @@
 
 #include "scene/boundaries/boundary.hpp"
 #include "scene/checked_value.hpp"
+#include "scene/disc_groups.hpp"
+#include "scene/frozen_discs.hpp"
 #include "scene/limits.hpp"
 #include "scene/quantity.hpp"
 #include "scene/scene_draft.hpp"
+#include "scene/species_rows.hpp"
 
 namespace carrom {
 
@@ -127,6 +130,8 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
                 const DiscColumns* columns) {
     const SceneDraft draft{scene, settings, problems, columns};
     take_values(draft);
+    fill_groups(draft);
+    fill_species_counts(draft);
     derive_defaults(draft);
     place_outputs(draft);
     for (const EffectDeclaration& effect : all_effects())
@@ -146,6 +151,7 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
             if (effect.check_room) effect.check_room(draft);
     }
     check_rules(draft);
+    take_frozen(draft);
 }
 
 } // namespace carrom

@@ -194,6 +194,7 @@ private:
     }
     Numbers numbers_of_field(const Value& value, const Field& field, const std::string& name,
                              std::int64_t line) {
+        if (!field.words.empty()) return number_of_word(value, field, name, line);
         Numbers numbers;
         const auto* list = std::get_if<Values>(&value.data);
         const std::size_t n = list ? list->size() : 1;
@@ -207,6 +208,19 @@ private:
         refuse_at(line,
                   fmt::format("{} must be {}", name,
                               takes_list ? "numbers, " + std::string(field.form) : "a number"));
+        return {};
+    }
+    /// The place of the word among those of the field.
+    Numbers number_of_word(const Value& value, const Field& field, const std::string& name,
+                           std::int64_t line) {
+        const auto* flag = std::get_if<bool>(&value.data);
+        if (field.is_flag() && flag) return {*flag ? 1.0 : 0.0};
+        const auto* word = field.is_flag() ? nullptr : std::get_if<std::string>(&value.data);
+        for (std::size_t k = 0; word && k < field.words.size(); ++k)
+            if (field.words[k] == *word) return {static_cast<double>(k)};
+        refuse_at(line, fmt::format("{} must be {}, not {}{}", name,
+                                    field.is_flag() ? "true or false" : words_text(field.words),
+                                    value_text(value), word ? guess(*word, field.words, '"') : ""));
         return {};
     }
     std::string hint_of(const std::string& word, const std::vector<std::string_view>& names) const {

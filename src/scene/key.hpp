@@ -62,6 +62,11 @@ struct Field {
     std::string_view form; ///< "[x, y, radius]"
     std::size_t least = 1, most = 1;
     std::optional<double> fallback = {}; ///< NaN: there may be none
+    /// The words that it takes; its number is the place of the word. "false" and "true" are those
+    /// of a flag, which stand without quotes.
+    std::vector<std::string_view> words = {};
+
+    bool is_flag() const { return !words.empty() && words.front() == "false"; }
 };
 
 /// Made by `key` (key_members.hpp); the functions that return `Key&&` add to a declaration.

@@ -39,6 +39,20 @@ std::string joined(const std::vector<std::string_view>& names, std::string_view 
     return list.empty() ? "" : fmt::format(" {} {}.", before, list);
 }
 
+std::string form_of(const Field& field) {
+    if (field.is_flag()) return "true or false";
+    if (!field.words.empty()) return words_text(field.words);
+    return field.form.empty() ? "..." : std::string(field.form);
+}
+
+std::string fallback_of(const Field& field) {
+    if (std::isnan(*field.fallback)) return " (if any)";
+    if (field.words.empty()) return fmt::format(" ({} unless given)", *field.fallback);
+    const auto word = field.words[static_cast<std::size_t>(*field.fallback)];
+    return field.is_flag() ? fmt::format(" ({} unless given)", word)
+                           : fmt::format(" (\"{}\" unless given)", word);
+}
+
 std::string type_text(const Key& key) {
     switch (key.kind) {
     case Kind::text: return "text, not empty";
@@ -48,11 +62,8 @@ std::string type_text(const Key& key) {
         std::string list;
         for (const Field& field : key.fields) {
             list += list.empty() ? "" : ", ";
-            list += fmt::format("{} = {}", field.name, field.form.empty() ? "..." : field.form);
-            if (field.fallback)
-                list += std::isnan(*field.fallback)
-                            ? " (if any)"
-                            : fmt::format(" ({} unless given)", *field.fallback);
+            list += fmt::format("{} = {}", field.name, form_of(field));
+            if (field.fallback) list += fallback_of(field);
         }
         return "tables of " + list;
     }

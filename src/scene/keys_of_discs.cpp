@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The keys of [box] without its sides, and of [discs].
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 #include "scene/disc_columns.hpp"
+#include "scene/disc_groups.hpp"
+#include "scene/frozen_discs.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
+#include "scene/species_rows.hpp"
 #include "scene/start_region.hpp"
 
 namespace carrom {
@@ -37,16 +37,16 @@ const Need kinds_of_velocities{
     },
     true};
 const Need compressed{"without discs.generator = \"compressed\"",
-                      [](const SceneParameters& s) { return s.generator == Generator::compressed; },
+                      [](const SceneParameters& s) {
+                          return s.generator == Generator::compressed ||
+                                 std::ranges::count(s.groups, Generator::compressed,
+                                                    &DiscGroup::generator) > 0;
+                      },
                       true};
 const Need seeded{
     "where discs are listed with their velocities",
     [](const SceneParameters& s) { return s.generator != Generator::file || s.draws_velocities; },
     true};
-const Need not_legacy{"with discs.generator = \"legacy\"",
-                      [](const SceneParameters& s) { return s.generator != Generator::legacy; },
-                      true};
-
 /// Rows [x, y], or [x, y, vx, vy] and then radius and mass, or the spin, or all three. Ids are
 /// their order.
 void set_list(SceneParameters& scene, const Value& value) {
@@ -61,13 +61,6 @@ void set_list(SceneParameters& scene, const Value& value) {
         add_numbers(spins, 1, n.size() % 2 == 1 ? n.back() : 0);
     }
     if (have_spins) scene.first_numbers[SideColumn::spin] = spins;
-}
-
-/// Columns that a list cannot hold are written in `discs.species`.
-bool are_species_listed(const SceneParameters& scene) {
-    return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
-        return column != SideColumn::spin && !scene.first_numbers[column].empty();
-    });
 }
 
 Value get_list(const SceneParameters& scene) {
@@ -87,85 +80,6 @@ Value get_list(const SceneParameters& scene) {
     return {std::move(rows)};
 }
 
-/// The place of a column's number in rows of species, after count, radius and mass.
-constexpr std::size_t place_of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
-
-/// The place of a region in rows of species.
-constexpr std::size_t place_of_region = 3 + n_side_columns;
-
-/// Appends `count` discs with the region of the row `n`; as a new run only if it is another one.
-void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers& n) {
-    const double* const r = &n[place_of_region];
-    std::optional<StartRegion> region;
-    if (!std::isnan(r[0])) region = StartRegion{r[0], r[1], r[2], r[3]};
-    const DiscId end = (runs.empty() ? 0 : runs.back().end) + count;
-    if (!runs.empty() && runs.back().region == region)
-        runs.back().end = end;
-    else
-        runs.push_back({end, region});
-}
-
-void set_species(SceneParameters& scene, const Value& value) {
-    FirstNumbers numbers;
-    std::vector<RegionRun> regions;
-    for (const Value& row : std::get<Values>(value.data)) {
-        if (row.is_nothing()) continue;
-        const Numbers& n = std::get<Numbers>(row.data);
-        if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count))) continue;
-        add_species(scene.effects.species, {static_cast<std::uint64_t>(n[0]), n[1], n[2]});
-        for (const SideColumn column : all_side_columns)
-            add_numbers(numbers[column], static_cast<std::uint64_t>(n[0]), n[place_of(column)]);
-        add_region(regions, static_cast<std::uint64_t>(n[0]), n);
-    }
-    if (std::ranges::any_of(regions, [](const RegionRun& run) { return run.region.has_value(); }))
-        scene.regions = regions;
-    for (const SideColumn column : all_side_columns) {
-        const std::vector<NumberRun>& runs = numbers[column];
-        if (runs.size() > 1 || (runs.size() == 1 && runs[0].number != 0))
-            scene.first_numbers[column] = runs;
-    }
-}
-
-Value get_species(const SceneParameters& scene) {
-    const auto& species = scene.effects.species;
-    if (species.empty() || scene.sizes || has_column(scene, DiscColumn::radius) ||
-        (!scene.listed_discs.empty() && !are_species_listed(scene)))
-        return {};
-    FirstNumbers numbers;
-    for (const SideColumn column : all_side_columns)
-        if (!has_column(scene, disc_column_of(column)))
-            numbers[column] = scene.first_numbers[column];
-    BySideColumn<std::size_t> next; // by column
-    auto region = scene.regions.begin();
-    Values rows;
-    DiscId first = 0;
-    for (const Species& one : species) {
-        for (const DiscId last = first + one.count; first < last;) {
-            DiscId end = last;
-            Numbers row{0, one.radius, one.mass};
-            for (const SideColumn column : all_side_columns) {
-                const std::vector<NumberRun>& runs = numbers[column];
-                std::size_t& run = next[column];
-                while (run < runs.size() && runs[run].end <= first) ++run;
-                if (run < runs.size()) end = std::min(end, runs[run].end);
-                row.push_back(run < runs.size() ? runs[run].number : 0);
-            }
-            while (region != scene.regions.end() && region->end <= first) ++region;
-            row.resize(place_of_region + 4, std::numeric_limits<double>::quiet_NaN());
-            if (region != scene.regions.end()) {
-                end = std::min(end, region->end);
-                if (const auto& r = region->region)
-                    std::ranges::copy(std::array{r->x_low, r->y_low, r->x_high, r->y_high},
-                                      row.begin() + place_of_region);
-            }
-            row[0] = static_cast<double>(end - first);
-            rows.push_back({std::move(row)});
-            first = end;
-        }
-    }
-    return {std::move(rows)};
-}
-
 Key list_key() {
     Key key =
         named_key("discs.list", "length, length/step",
@@ -181,35 +95,18 @@ Key list_key() {
     return key;
 }
 
-Key species_key() {
-    std::vector<Field> fields = {{"count", ""}, {"radius", ""}, {"mass", "", 1, 1, 1.0}};
-    for (const SideColumn column : all_side_columns)
-        fields.push_back({info_of(column).name, "", 1, 1, 0.0});
-    fields.push_back(
-        {"region", "[x0, y0, x1, y1]", 4, 4, std::numeric_limits<double>::quiet_NaN()});
-    Key key = named_key("discs.species", "discs, length, mass, 1/step, radians",
-                        "Species of discs in the order of ids, in place of one radius.")
-                  .by_default("none")
-                  .needs(not_legacy)
-                  .formerly("discs.classes")
-                  .with_rows(fields);
-    key.get = get_species;
-    key.set = set_species;
-    key.compare = [](const SceneParameters& a, const SceneParameters& b) {
-        return a.effects.species == b.effects.species && a.regions == b.regions;
-    };
-    return key;
-}
-
 /// A way to ask for a radius. The reader computes the radius, and the scene does not keep the key.
 Key packing_key() {
-    Key key = named_key("discs.packing", "1",
-                        "Packing fraction, N pi r^2 over the box's area; sets the radius.")
-                  .by_default("none")
-                  .within(
-                      {0, largest_packing, true, false, "equal discs cover no more of the plane"})
-                  .needs(equal_discs)
-                  .excludes({"discs.radius"});
+    Key key =
+        named_key("discs.packing", "1",
+                  "Packing fraction, N pi r^2 over the box's area; sets the radius, or the "
+                  "number of discs if species have shares.")
+            .by_default("none")
+            .within({0, largest_packing, true, false, "equal discs cover no more of the plane"})
+            .needs({"where 'discs.species' has counts, or 'discs.list' or 'discs.columns' name "
+                    "radii",
+                    [](const SceneParameters& s) { return s.has_shares || equal_discs.holds(s); }})
+            .excludes({"discs.radius"});
     key.get = [](const SceneParameters&) { return Value{}; };
     key.set = [](SceneParameters&, const Value&) {};
     return key;
@@ -218,13 +115,14 @@ Key packing_key() {
 /// Unknown before the file of `discs.file` or `discs.from` is read.
 Key count_key() {
     Key count = key("discs.count", "discs",
-                    "N, the number of discs; a list, a file or species give it too.",
+                    "N, the number of discs; a list, a file, species or groups give it too.",
                     [](auto& s) -> auto& { return s.n_discs; })
                     .within({1, static_cast<double>(largest_count)})
                     .required()
-                    .unless({"discs.list", "discs.file", "discs.species", "discs.from"});
+                    .unless({"discs.list", "discs.file", "discs.species", "discs.groups",
+                             "discs.from"});
     count.get = [](const SceneParameters& s) {
-        return s.n_discs == 0 ? Value{} : value_of(s.n_discs);
+        return s.n_discs == 0 || !s.groups.empty() ? Value{} : value_of(s.n_discs);
     };
     return count;
 }
@@ -333,6 +231,7 @@ std::vector<Key> keys_of_discs() {
                      "discs.radius.mean", "discs.radius.polydispersity"}),
         packing_key(),
         species_key(),
+        groups_key(),
         key("discs.generator", "",
             "Random: uniform without overlaps. Lattice: shaken. Triangular: the lattice that a "
             "periodic box repeats. Compressed: a random gas whose discs grow. Legacy: C `rand`. "
@@ -357,6 +256,7 @@ std::vector<Key> keys_of_discs() {
     };
     for (Key& one : keys_of_speeds()) all.push_back(std::move(one));
     for (Key& one : keys_of_generation()) all.push_back(std::move(one));
+    for (Key& one : keys_of_freezing()) all.push_back(std::move(one));
     for (Key& one : keys_of_other_runs()) all.push_back(std::move(one));
     return all;
 }

@@ -20,7 +20,11 @@ inline bool has_moving(const SceneParameters& s) {
 inline bool has_oscillating(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::oscillating);
 }
-inline bool has_obstacles(const SceneParameters& s) { return s.effects.obstacles.are_any(); }
+/// Also where discs that freeze become some.
+inline bool has_obstacles(const SceneParameters& s) {
+    return s.effects.obstacles.are_any() || s.freezes();
+}
+inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
 inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();

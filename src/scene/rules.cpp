@@ -16,16 +16,15 @@ std::vector<Rule> rules_of_methods() {
         rule("time.precision = \"single\"", "effects", "it is there for the accuracy study alone",
              {"time.precision"},
              [](const SceneParameters& s) {
-                 return s.effects.are_any() && s.precision == Precision::single;
+                 return has_effects(s) && s.precision == Precision::single;
              }),
         rule("time.arithmetic = \"naive\"", "effects", "it is there for the accuracy study alone",
              {"time.arithmetic"},
              [](const SceneParameters& s) {
-                 return s.effects.are_any() && s.arithmetic == Arithmetic::naive;
+                 return has_effects(s) && s.arithmetic == Arithmetic::naive;
              }),
-        rule(
-            "time.accuracy", "effects", "the pilot knows plain gases only", {"time.accuracy"},
-            [](const SceneParameters& s) { return s.effects.are_any() && s.accuracy.has_value(); }),
+        rule("time.accuracy", "effects", "the pilot knows plain gases only", {"time.accuracy"},
+             [](const SceneParameters& s) { return has_effects(s) && s.accuracy.has_value(); }),
     };
 }
 

@@ -92,6 +92,24 @@ struct RegionRun {
     friend bool operator==(const RegionRun&, const RegionRun&) = default;
 };
 
+/// Discs of one species that begin alike, with consecutive ids.
+struct DiscGroup {
+    std::uint64_t count = 0;
+    std::size_t species = 0; ///< a row of `discs.species`, counted from 0
+    std::optional<StartRegion> region;
+    std::optional<double> temperature, speed; ///< kT, or root mean square; else those of all discs
+    Generator generator = Generator::random;
+    bool is_frozen = false;
+
+    friend bool operator==(const DiscGroup&, const DiscGroup&) = default;
+};
+/// A disc of the start that became an obstacle, with the id that it had.
+struct FrozenDisc {
+    double id = 0, x = 0, y = 0, radius = 0;
+
+    friend bool operator==(const FrozenDisc&, const FrozenDisc&) = default;
+};
+
 /// Each rank writes its own discs, or MPI-IO chooses ranks that write for all.
 enum class Transfers { independent, collective };
 
@@ -187,7 +205,12 @@ struct SceneParameters {
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::optional<StartRegion> region;    ///< of discs that have none of their own
-    std::vector<RegionRun> regions;       ///< of species, by ids; empty if no species has one
+    std::vector<RegionRun> regions;       ///< of species or groups, by ids; empty if none has one
+    bool has_shares = false;              ///< in `discs.species`
+    std::vector<DiscGroup> groups;        ///< in the order of ids: by species; of all discs, if any
+    std::vector<StartRegion> freeze;      ///< discs that begin in one of these become obstacles
+    std::vector<FrozenDisc> frozen;       ///< by ids; once they are found, the scene has them among
+                                          ///< its obstacles, and its numbers are without them
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
     FirstNumbers first_numbers;           ///< for columns beside the states
@@ -201,6 +224,11 @@ struct SceneParameters {
     bool contraction = false; ///< in the products and sums of the naive formula
     std::optional<double> accuracy;
     StopConditions stop;
+    /// Whether discs of the start become obstacles.
+    bool freezes() const {
+        return !freeze.empty() || std::ranges::any_of(groups, &DiscGroup::is_frozen);
+    }
+    bool awaits_frozen() const { return freezes() && frozen.empty(); }
     /// The last step that is sure to come: what is taken often enough up to there is never taken
     /// too rarely.
     std::int64_t least_last_step() const { return stop.are_any() ? 0 : steps; }

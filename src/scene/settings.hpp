@@ -55,6 +55,11 @@ public:
                                         [key](const Setting& one) { return one.key == key; });
         return found == all_.end() ? nullptr : &*found;
     }
+    /// A setting whose value a check completes, as counts that follow from other keys.
+    Setting* find_to_complete(std::string_view key) {
+        const auto found = std::ranges::find(all_, key, &Setting::key);
+        return found == all_.end() ? nullptr : &*found;
+    }
     bool has(std::string_view key) const { return find(key) != nullptr; }
     /// Whether the input has the key with a usable value.
     bool is_right(std::string_view key) const { return has(key) && !find(key)->is_wrong; }

@@ -41,8 +41,15 @@ std::string text_of(const StartRegion& r) {
     return fmt::format("[{:g}, {:g}, {:g}, {:g}]", r.x_low, r.y_low, r.x_high, r.y_high);
 }
 
-/// Why the discs cannot begin there; empty if they can.
 std::string problem_of(const SceneParameters& scene, const StartRegion& r, const Crowd& crowd) {
+    const std::string text = problem_of_region(scene, r, crowd.largest);
+    return text.empty() ? problem_of_crowd(r, crowd.count, crowd.area) : text;
+}
+
+} // namespace
+
+std::string problem_of_region(const SceneParameters& scene, const StartRegion& r,
+                              double largest_radius) {
     const auto is_within = [](double low, double high, double length) {
         return low >= 0 && low < high && high <= length;
     };
@@ -50,17 +57,18 @@ std::string problem_of(const SceneParameters& scene, const StartRegion& r, const
         return fmt::format("must be [x0, y0, x1, y1] with x0 < x1 and y0 < y1, inside a box of {}",
                            sides_text(scene.box));
     const double width = r.x_high - r.x_low, height = r.y_high - r.y_low;
-    if (std::min(width, height) < 2 * crowd.largest)
-        return fmt::format("is narrower than a disc of radius {:g}, which begins there whole",
-                           crowd.largest);
-    const double packing = crowd.area / (width * height);
+    if (std::min(width, height) >= 2 * largest_radius) return {};
+    return fmt::format("is narrower than a disc of radius {:g}, which begins there whole",
+                       largest_radius);
+}
+
+std::string problem_of_crowd(const StartRegion& r, std::uint64_t count, double area) {
+    const double packing = area / ((r.x_high - r.x_low) * (r.y_high - r.y_low));
     if (packing <= largest_random_packing * (1 + 1e-12)) return {};
     return fmt::format("would be covered to {:.4g} by {} discs, and random places are found up to "
                        "{}; take a larger region or fewer discs",
-                       packing, crowd.count, largest_random_packing);
+                       packing, count, largest_random_packing);
 }
-
-} // namespace
 
 std::optional<StartRegion> region_of(const SceneParameters& scene, DiscId id) {
     const auto run = std::ranges::upper_bound(scene.regions, id, {}, &RegionRun::end);
@@ -95,7 +103,7 @@ Key region_key() {
 
 void check_regions(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    if (!has_regions(scene)) return;
+    if (!has_regions(scene) || !scene.groups.empty()) return; // groups have checks of their own
     if (!scene.regions.empty() && scene.generator != Generator::random)
         return draft.refuse({"discs.species"}, "a region of a species has no meaning without "
                                                "discs.generator = \"random\"");

@@ -162,13 +162,19 @@ std::string numbers_text(Numbers::const_iterator first, std::size_t n) {
     return list;
 }
 
+std::string word_text(const Field& field, double number) {
+    const std::string word{field.words[static_cast<std::size_t>(number)]};
+    return field.is_flag() ? word : quoted_text(word);
+}
+
 std::string row_text(const Key& key, const Numbers& numbers) {
     if (key.kind == Kind::rows || key.kind == Kind::lengths)
         return '[' + numbers_text(numbers.begin(), numbers.size()) + ']';
     std::string text;
     auto next = numbers.begin();
     for (const Field& field : key.fields) {
-        const std::string list = numbers_text(next, field.most);
+        const std::string list = field.words.empty() ? numbers_text(next, field.most)
+                                                     : word_text(field, *next);
         const bool is_none = field.fallback && std::isnan(*field.fallback) && std::isnan(*next);
         next += static_cast<std::ptrdiff_t>(field.most);
         if (is_none) continue;

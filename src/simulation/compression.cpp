@@ -10,9 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
-#include "initial_state/initial_state.hpp"
 #include "initial_state/random_insertion.hpp"
-#include "initial_state/scene_input.hpp"
 #include "initial_state/velocities.hpp"
 #include "simulation/advance.hpp"
 #include "simulation/disc_system.hpp"
@@ -122,18 +120,9 @@ private:
 
 } // namespace
 
-std::vector<InputDisc> compressed_discs(const SceneParameters& scene,
-                                        const Communicator& communicator, const Tuning& tuning) {
-    std::vector<InputDisc> discs = Compression(scene, communicator, tuning).run();
-    give_velocities(scene, discs, communicator);
-    return discs;
-}
-
-std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
-                                   const Communicator& communicator, const Tuning& tuning) {
-    if (scene.generator == Generator::compressed)
-        return compressed_discs(scene, communicator, tuning);
-    return load_discs(scene, following, communicator, tuning.threads);
+std::vector<InputDisc> compressed_places(const SceneParameters& scene,
+                                         const Communicator& communicator, const Tuning& tuning) {
+    return Compression(scene, communicator, tuning).run();
 }
 
 } // namespace carrom

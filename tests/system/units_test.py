@@ -16,13 +16,17 @@ STEPS = 100  # at most, in the scene's own unit of time
 
 
 def units_of_keys():
-    """{key: its unit}, from the page of keys. A side's keys stand there for the left one."""
+    """{key: its unit}, from the page of keys. A side's keys stand there for the left one. Of a
+    list of tables: {field: its unit}.
+    """
     page = subprocess.run([PROGRAM, "keys"], capture_output=True, text=True, check=True).stdout
     units = {}
     for line in page.splitlines():
         cells = [cell.strip() for cell in line.split("|")]
         if len(cells) > 4 and (name := re.fullmatch(r"`([a-z_.]+\.[a-z_.]+)`", cells[1])):
-            units[name[1]] = cells[3]
+            units[name[1]] = [unit.strip() for unit in cells[3].split(",")]
+            if cells[2].startswith("tables of "):
+                units[name[1]] = dict(zip(re.findall(r"(\w+) = ", cells[2]), units[name[1]]))
     for key in [key for key in units if key.startswith("box.left.")]:
         for side in ("right", "bottom", "top"):
             units[key.replace("left", side)] = units[key]
@@ -53,8 +57,8 @@ def scaled(value, units, length, time):
         factor = factor_of(units[0], length, time)
         return value * factor if factor != 1 else value
     if isinstance(value, dict):
-        return {name: scaled(number, [unit], length, time)
-                for (name, number), unit in zip(value.items(), units)}
+        return {name: scaled(number, [units[name]], length, time)
+                for name, number in value.items()}
     if value and isinstance(value[0], (list, dict)):
         return [scaled(row, units, length, time) for row in value]
     by_place = units * len(value)
@@ -89,8 +93,7 @@ class Units(ProgramTest):
         """{disc: [x, y, vx, vy]} at the end, in the scene's own units."""
         changed = {}
         for key, value in keys.items():
-            row_units = [unit.strip() for unit in units[key].split(",")]
-            changed[key] = scaled(value, row_units, length, time)
+            changed[key] = scaled(value, units[key], length, time)
             if isinstance(value, int) and not isinstance(value, bool):
                 changed[key] = int(changed[key]) if changed[key] == int(changed[key]) else \
                     changed[key]

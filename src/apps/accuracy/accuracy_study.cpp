@@ -10,7 +10,7 @@
 #include "apps/run_command/progress.hpp"
 #include "core/errors.hpp"
 #include "run/files/csv_table.hpp"
-#include "simulation/compression.hpp"
+#include "simulation/first_discs.hpp"
 
 namespace carrom {
 

@@ -17,6 +17,7 @@
 #include "parallel/agreement.hpp"
 #include "run/start/scene_source.hpp"
 #include "scene/read_scene.hpp"
+#include "simulation/first_discs.hpp"
 
 namespace carrom {
 
@@ -62,7 +63,8 @@ std::vector<Problem> reasons_against(const SceneParameters& scene) {
         add("writes no lines of discs; try: --set output.text=every_step");
     if (scene.method != Method::time_stepped || scene.accuracy)
         add("is not of the time-stepped method; try: --set time.method=time-stepped");
-    if (scene.effects.are_any()) add("has effects; outputs are compared without");
+    if (scene.effects.are_any() || scene.freezes())
+        add("has effects; outputs are compared without");
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         add("has another precision or arithmetic; outputs are compared to the default");
     return problems;
@@ -122,7 +124,7 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
         if (!problems.empty()) throw InputError(std::move(problems));
     });
     const SceneParameters scene = read_scene_on_all(options, scene_file, ranks);
-    ComparedRuns runs(scene, load_discs(scene, scene_file.get(), ranks), ranks);
+    ComparedRuns runs(scene, first_discs(scene, scene_file.get(), ranks, {}), ranks);
     std::istream& output = options.output == "-" ? std::cin : output_file;
     Grader grader(scene, options.tolerance.value_or(1e-6 * scene.radius), output,
                   options.output == "-" ? "standard input" : options.output, options.counts_points);

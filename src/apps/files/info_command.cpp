@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include "parallel/agreement.hpp"
 #include "run/start/restart.hpp"
 #include "scene/effects/effect.hpp"
+#include "scene/frozen_discs.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -123,9 +125,10 @@ std::string header_text(const CheckpointHeader& header) {
         if (effects.are_any()) text += labelled_line("effects", summary_of(effects));
     } catch (const InputError&) { // another version's scene; all else is worth printing
     }
-    std::string overrides = header.scene_overrides;
-    if (!overrides.empty()) overrides.pop_back(); // each ends its line
-    std::replace(overrides.begin(), overrides.end(), '\n', ' ');
+    std::string overrides;
+    std::istringstream lines(header.scene_overrides);
+    for (std::string line; std::getline(lines, line);)
+        if (!is_of_frozen(line)) overrides += (overrides.empty() ? "" : " ") + line;
     return overrides.empty() ? text : text + labelled_line("set", overrides);
 }
 

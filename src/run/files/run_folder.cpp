@@ -23,6 +23,7 @@
 #include "measure/measurement.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
+#include "scene/frozen_discs.hpp"
 #include "scene/read_scene.hpp"
 
 namespace carrom {
@@ -105,6 +106,8 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
 /// files are, because the copy is in another folder.
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
+    std::erase_if(overrides,
+                  [](const std::string& one) { return is_of_frozen(one); }); // found anew
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
     if (!scene.discs_from.empty())
@@ -233,6 +236,8 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
         there.discs_file = here.discs_file; // relative to another folder
         for (SceneParameters* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
+        if (there.awaits_frozen() && !here.frozen.empty())
+            set_frozen(there, here.frozen, has_column(here, DiscColumn::radius));
         const std::vector<std::string> differences = physical_differences(there, here);
         return differences.empty() ? "" : differences.front();
     } catch (const InputError&) {

@@ -15,7 +15,7 @@
 #include "run/memory_check.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/limits.hpp"
-#include "simulation/compression.hpp"
+#include "simulation/first_discs.hpp"
 
 namespace carrom {
 
@@ -82,14 +82,16 @@ void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
 /// **Collective.**
 void make_discs(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;
-    const SceneParameters& scene = loaded.scene;
+    SceneParameters& scene = loaded.scene;
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     check_threads(tuning.threads, ranks);
     const std::string crowded = warning_of_crowded_threads(tuning.threads, scene.n_discs, ranks);
     if (!crowded.empty()) options.messages.warn("warning: {}\n", crowded);
     if (!loaded.start.stored)
-        loaded.start.discs = first_discs(scene, plan.source.stream.get(), ranks, tuning);
+        loaded.start.discs = first_discs_and_frozen(scene, plan.source.stream.get(), ranks, tuning);
+    if (!loaded.start.stored && !scene.frozen.empty())
+        options.messages.note("{} discs are frozen; {} move\n", scene.frozen.size(), scene.n_discs);
     warn_of_units(options, scene, loaded.start.discs, ranks);
     if (!loaded.start.stored) warn_of_closed_regions(options, scene, loaded.start.discs, ranks);
     for (const std::string& warning : scene.warnings)

@@ -15,6 +15,7 @@
 #include "run/files/run_folder.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
+#include "scene/frozen_discs.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -87,6 +88,7 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
         options.messages.note(
             "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
+    if (here.awaits_frozen() && !there.frozen.empty()) set_frozen(here, there.frozen);
     refuse_other_run(checkpoint.header, here, path);
     scene = here;
     return checkpoint;

@@ -17,7 +17,7 @@ namespace {
 constexpr double largest_in_period = 0.99;
 
 const Need some_obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
-                          [](const SceneParameters& s) { return s.effects.obstacles.are_any(); }};
+                          [](const SceneParameters& s) { return has_obstacles(s); }};
 
 std::vector<Key> keys_of_obstacles() {
     return {
@@ -53,10 +53,10 @@ std::vector<Rule> rules_of_obstacles() {
         rule("obstacles",
              "discs.generator = \"lattice\", \"triangular\", \"compressed\" or \"legacy\"",
              "these generators know nothing of obstacles; insert discs at random (at a packing "
-             "fraction that allows it), or list them",
+             "fraction that allows it), list them, or freeze some of them (discs.freeze)",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
              [](const SceneParameters& s) {
-                 return has_obstacles(s) &&
+                 return s.effects.obstacles.are_any() &&
                         (s.generator == Generator::lattice ||
                          s.generator == Generator::triangular ||
                          s.generator == Generator::compressed || s.generator == Generator::legacy);

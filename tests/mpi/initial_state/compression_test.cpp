@@ -13,8 +13,8 @@
 #include "initial_state/velocities.hpp"
 #include "parallel/exchange.hpp"
 #include "scene/read_scene.hpp"
-#include "simulation/compression.hpp"
 #include "simulation/disc_system.hpp"
+#include "simulation/first_discs.hpp"
 
 using namespace carrom;
 

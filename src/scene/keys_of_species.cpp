@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The key `discs.species`.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "scene/disc_columns.hpp"
+#include "scene/key_members.hpp"
+#include "scene/limits.hpp"
+#include "scene/species_rows.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Appends `count` discs with the region of the row `n`; as a new run only if it is another one.
+void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers& n) {
+    const double* const r = &n[species_row::region];
+    std::optional<StartRegion> region;
+    if (!std::isnan(r[0])) region = StartRegion{r[0], r[1], r[2], r[3]};
+    const DiscId end = (runs.empty() ? 0 : runs.back().end) + count;
+    if (!runs.empty() && runs.back().region == region)
+        runs.back().end = end;
+    else
+        runs.push_back({end, region});
+}
+
+/// Rows without a count are left out: it is filled in later (species_counts.cpp), and all rows are
+/// set again.
+void set_species(SceneParameters& scene, const Value& value) {
+    FirstNumbers numbers;
+    std::vector<RegionRun> regions;
+    scene.effects.species.clear();
+    for (const Value& row : std::get<Values>(value.data)) {
+        if (row.is_nothing()) continue;
+        const Numbers& n = std::get<Numbers>(row.data);
+        scene.has_shares |= !std::isnan(n[species_row::share]) ||
+                            !std::isnan(n[species_row::share_of_area]);
+        if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count))) continue;
+        const auto count = static_cast<std::uint64_t>(n[0]);
+        add_species(scene.effects.species, {count, n[1], n[2]});
+        for (const SideColumn column : all_side_columns)
+            add_numbers(numbers[column], count, n[species_row::of(column)]);
+        add_region(regions, count, n);
+    }
+    scene.regions.clear();
+    if (std::ranges::any_of(regions, [](const RegionRun& run) { return run.region.has_value(); }))
+        scene.regions = regions;
+    for (const SideColumn column : all_side_columns) {
+        const std::vector<NumberRun>& runs = numbers[column];
+        if (runs.size() > 1 || (runs.size() == 1 && runs[0].number != 0))
+            scene.first_numbers[column] = runs;
+    }
+}
+
+/// Discs of one row, from the first one: those up to where a number or the region changes.
+class Rows {
+public:
+    explicit Rows(const SceneParameters& scene) : scene_(scene), region_(scene.regions.begin()) {
+        for (const SideColumn column : all_side_columns)
+            if (!has_column(scene, disc_column_of(column)))
+                numbers_[column] = scene.first_numbers[column];
+    }
+
+    /// The row of the discs of one species from `first` up to at most `end`, which becomes its end.
+    Numbers next(const Species& one, DiscId first, DiscId& end) {
+        Numbers row(species_row::share_of_area + 1, not_given);
+        row[species_row::radius] = one.radius;
+        row[species_row::mass] = one.mass;
+        for (const SideColumn column : all_side_columns) {
+            const std::vector<NumberRun>& runs = numbers_[column];
+            std::size_t& run = next_[column];
+            while (run < runs.size() && runs[run].end <= first) ++run;
+            if (run < runs.size()) end = std::min(end, runs[run].end);
+            row[species_row::of(column)] = run < runs.size() ? runs[run].number : 0;
+        }
+        if (!scene_.groups.empty()) return row; // they have counts and regions
+        while (region_ != scene_.regions.end() && region_->end <= first) ++region_;
+        if (region_ != scene_.regions.end()) {
+            end = std::min(end, region_->end);
+            if (const auto& r = region_->region)
+                std::ranges::copy(std::array{r->x_low, r->y_low, r->x_high, r->y_high},
+                                  row.begin() + species_row::region);
+        }
+        row[species_row::count] = static_cast<double>(end - first);
+        return row;
+    }
+
+private:
+    const SceneParameters& scene_;
+    FirstNumbers numbers_;
+    BySideColumn<std::size_t> next_; // by column
+    std::vector<RegionRun>::const_iterator region_;
+};
+
+Value get_species(const SceneParameters& scene) {
+    const auto& species = scene.effects.species;
+    if (species.empty() || scene.sizes || has_column(scene, DiscColumn::radius) ||
+        (!scene.listed_discs.empty() && !are_species_listed(scene)))
+        return {};
+    Rows of_species(scene);
+    Values rows;
+    DiscId first = 0;
+    for (const Species& one : species) {
+        for (const DiscId last = first + one.count; first < last;) {
+            DiscId end = last;
+            rows.push_back({of_species.next(one, first, end)});
+            first = end;
+        }
+    }
+    return {std::move(rows)};
+}
+
+} // namespace
+
+bool are_species_listed(const SceneParameters& scene) {
+    return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
+        return column != SideColumn::spin && !scene.first_numbers[column].empty();
+    });
+}
+
+Key species_key() {
+    std::vector<Field> fields = {
+        {"count", "", 1, 1, not_given}, {"radius", ""}, {"mass", "", 1, 1, 1.0}};
+    for (const SideColumn column : all_side_columns)
+        fields.push_back({info_of(column).name, "", 1, 1, 0.0});
+    fields.push_back({"region", "[x0, y0, x1, y1]", 4, 4, not_given});
+    for (const std::string_view name : {"packing", "share", "share_of_area"})
+        fields.push_back({name, "", 1, 1, not_given});
+    Key key = named_key("discs.species", "discs, length, mass, 1/step, radians, length, 1, 1, 1",
+                        "Species of discs in the order of ids, in place of one radius. In place of "
+                        "a count: the packing in the region, or shares of all discs or of the area "
+                        "that they cover, which sum to 1.")
+                  .by_default("none")
+                  .needs({"with discs.generator = \"legacy\"",
+                          [](const SceneParameters& s) { return s.generator != Generator::legacy; },
+                          true})
+                  .formerly("discs.classes")
+                  .with_rows(fields);
+    key.get = get_species;
+    key.set = set_species;
+    key.compare = [](const SceneParameters& a, const SceneParameters& b) {
+        return a.effects.species == b.effects.species && a.regions == b.regions;
+    };
+    return key;
+}
+
+} // namespace carrom
