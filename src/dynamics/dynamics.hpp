@@ -75,6 +75,11 @@ public:
         sides_.begin_interval(n);
     }
 
+    /// From now on all radii are the scene's times `size`; for bodies that can grow, and do not.
+    void resize(double size) {
+        if constexpr (OfBodies::grow) bodies_.resize(size);
+    }
+
     // Questions about the scene.
 
     bool has_pairs() const { return !have_effects || law_.has_pairs(); }

@@ -136,6 +136,15 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
+/// Moves of the volume at syncs (scene/effects/barostat.cpp).
+struct Barostat {
+    double pressure = 0; ///< P times the mean of the squared diameters over kT; 0 is none
+    std::uint64_t seed = 4321;
+
+    bool is_any() const { return pressure != 0; }
+    friend bool operator==(const Barostat&, const Barostat&) = default;
+};
+
 /// Numbers of effects that act at syncs alone: the file of such an effect declares them by their
 /// keys (`own_key` in scene/key_members.hpp) and reads them, and nothing else has to know them.
 class OwnNumbers {
@@ -171,6 +180,7 @@ struct Effects {
     /// Slower pairs press each other from sync to sync (contact_impulses.hpp); 0 is none.
     double lasting_speed = 0;
     Thermostat thermostat{};
+    Barostat barostat{};
     OwnNumbers own{};
 
     /// Of discs in free flight, beside drag: what all fields together give them.
@@ -199,7 +209,7 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any() || own.are_any();
+               growth != 0 || thermostat.is_any() || barostat.is_any() || own.are_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

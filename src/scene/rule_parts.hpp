@@ -22,6 +22,7 @@ inline bool has_oscillating(const SceneParameters& s) {
 }
 inline bool has_obstacles(const SceneParameters& s) { return s.effects.obstacles.are_any(); }
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
+inline bool has_barostat(const SceneParameters& s) { return s.effects.barostat.is_any(); }
 inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }

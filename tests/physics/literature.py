@@ -9,6 +9,7 @@ li         P* = beta P (2r)^2 of 870 discs, against Li and others, J. Chem. Phys
 enskog     decay of the velocity autocorrelation, and D, over Enskog's
 haff       granular gases that cool, against Haff's law
 melting    P* and psi6 of 128^2 discs through melting, against Li and others
+barostat   packing of 870 discs at constant P*, against Li and others and runs at constant volume
 
 The exit code is 1 where a number is further than four joint standard errors from what is known,
 or less than four above or below a bound, or its own error is too large. Seeds are fixed, so a
@@ -240,10 +241,61 @@ def melting(program, is_short):
                "psi6": order["psi6"][0], "psi6_error": order["psi6_error"][0]}
 
 
+def compressibility_of(packing, step=1e-4):
+    """kT kappa / (2r)^2 = dln(eta) / dP* of the equation of state."""
+    def pressure_at(x):
+        return 4 / math.pi * x * factor(x)
+    return 2 * step / packing / (pressure_at(packing + step) - pressure_at(packing - step))
+
+
+def at_pressure(program, packing, known, is_short, **settings):
+    """870 discs at a P*; `known` are packing and compressibility with errors."""
+    pressure, phase = settings.pop("pressure"), settings.pop("phase")
+    early, steps = (500, 5_000) if is_short else (5_000, 200_000)
+    report = gas(program, 870, packing, early, steps, effects__barostat__pressure=pressure,
+                 output__measurements__quantities='["volume"]', output__measurements__every_steps=2,
+                 output__measurements__from_step=early, **settings)
+    table, z = report["measurements"]["volume"], report["compressibility"]
+    row = {"phase": phase, "P": pressure, "discs": 870}
+    for name in ("packing", "compressibility"):
+        row[name], row[f"{name}_error"] = table[name][0], table[f"{name}_error"][0]
+        row[f"{name}_known"], row[f"{name}_known_error"] = known[name]
+    # The mean virial is p <V> - 1, for each disc.
+    return row | {"Z": z["value"], "Z_error": z["error"],
+                  "Z_known": pressure * table["volume"][0] - 1 / 870,
+                  "Z_known_error": pressure * table["volume_error"][0] + 1e-4 * z["value"]}
+
+
+def barostat(program, is_short):
+    """Means differ from the most likely volume by 1e-4 of it, for which errors allow."""
+    for packing in (0.67, 0.69)[:1 if is_short else None]:
+        kappa = compressibility_of(packing)
+        yield at_pressure(program, packing, {"packing": (packing, 1e-4 * packing),
+                                             "compressibility": (kappa, 0.02 * kappa)}, is_short,
+                          pressure=LI[packing][0], phase="liquid")
+    found = {}
+    for packing in (0.73, 0.74, 0.75)[:1 if is_short else None]:
+        spacing = math.sqrt(math.pi / (2 * math.sqrt(3) * packing))
+        lattice = {"discs__generator": "triangular",
+                   "box__size": f"[{29 * spacing!r}, {30 * spacing * math.sqrt(3) / 2!r}]"}
+        early, steps = (500, 5_000) if is_short else (5_000, 100_000)
+        at_volume = gas(program, 870, packing, early, steps, **lattice)["compressibility"]
+        per_factor = 4 / math.pi * packing
+        found[packing] = (per_factor * at_volume["value"], per_factor * at_volume["error"], lattice)
+    for packing, (pressure, error, lattice) in found.items():
+        # Of a solid of 0.74, by the slope between its neighbours; the others have no known one.
+        kappa = ("", "") if packing != 0.74 else \
+            (0.02 / packing / (found[0.75][0] - found[0.73][0]), 0.002)
+        slope = 30 if kappa[0] == "" else 1 / (kappa[0] * packing)
+        yield at_pressure(program, packing, {"packing": (packing, error / slope + 1e-4 * packing),
+                                             "compressibility": kappa}, is_short,
+                          pressure=pressure, phase="solid", **lattice)
+
+
 # What makes the rows; the largest errors, over what is known, of a short and of the whole study.
 STUDIES = {"pressure": (pressure, 2e-3, 1.5e-4), "li": (li, 2e-3, 3e-4),
            "enskog": (enskog, 0.02, 0.01), "haff": (haff, 0.02, 0.005),
-           "melting": (melting, 5e-3, 2e-3)}
+           "melting": (melting, 5e-3, 2e-3), "barostat": (barostat, 0.5, 0.1)}
 
 
 def is_right(row, largest_error):

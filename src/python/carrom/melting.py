@@ -8,11 +8,14 @@ by jackknife over eight groups of consecutive frames, so they allow for frames t
 other within a group; they are nan where there are fewer than eight frames.
 
     orientation        angle of the crystal's rows, and |psi6| of the whole sample
+    bond_correlation   g6(r), how far bonds keep their directions
+    wave_correlation   how far discs keep step with the waves of the crystal
     positional_order   g(x, 0), the pair correlation along the rows
     structure_map      S(kx, ky) around a first peak
     local_packing      packing in circles at points of a grid
     cell_packing       packing of the Voronoi cell of each disc
     block_order        moments, susceptibility and cumulant of psi6 in parts of the box
+    maxima             the envelope of an oscillation
     decay              the exponent of a power law between two distances
 """
 
@@ -88,6 +91,47 @@ def orientation(frames: Given) -> Orientation:
     """
     mean = complex(np.mean([_mean_psi6(frame) for frame in _listed(frames, "orientation")]))
     return Orientation(math.atan2(mean.imag, mean.real) / 6, abs(mean))
+
+
+def bond_correlation(frames: Given, reach: float | None = None) -> Curve:
+    """Return g6(r), the mean over pairs of the real part of psi6* psi6, in bins of one row each.
+
+    In a hexatic it falls as r^(-a) with a of at most 1/4, in a solid it stays finite, and in a
+    liquid it falls exponentially. The table `psi6_correlation` of a run has it in any bins.
+
+    Args:
+        frames: frames with positions and psi6
+        reach: the largest distance; by default a quarter of the shorter side of the box
+    """
+    given = _listed(frames, "bond_correlation")
+    edges = _row_edges(given[0], reach)
+    curves = [_field_correlation(frame, frame.psi6[frame.present], edges) for frame in given]
+    value, error = _jackknife(np.array(curves), lambda mean: mean)
+    return Curve((edges[1:] + edges[:-1]) / 2, value, error)
+
+
+def wave_correlation(frames: Given, reach: float | None = None) -> Curve:
+    """Return the mean over pairs of cos(G (r - r')), in bins of one row each.
+
+    G is a shortest reciprocal vector of the crystal: the box's wave vector of the highest S in each
+    of three directions that the orientation gives. The mean is over these. In a solid it falls as
+    r^(-a) with a of at most 1/3 where the solid melts (D. R. Nelson and B. I. Halperin, Phys. Rev.
+    B 19, 2457 (1979)), and in a hexatic exponentially. Unlike the maxima of g(x, 0) - 1 it has no
+    higher harmonics, which make these fall faster at short distances.
+
+    Args:
+        frames: frames with positions and psi6
+        reach: the largest distance; by default a quarter of the shorter side of the box
+    """
+    given = _listed(frames, "wave_correlation")
+    edges = _row_edges(given[0], reach)
+    curves = []
+    for frame in given:
+        waves = [_peak_of(frame, math.pi / 6 + k * math.pi / 3) for k in range(3)]
+        fields = [np.exp(1j * (_present(frame) @ wave)) for wave in waves]
+        curves.append(np.mean([_field_correlation(frame, f, edges) for f in fields], axis=0))
+    value, error = _jackknife(np.array(curves), lambda mean: mean)
+    return Curve((edges[1:] + edges[:-1]) / 2, value, error)
 
 
 def positional_order(
@@ -216,24 +260,34 @@ def decay(
         r: distances
         values: above 0 where they are fitted, as g6(r), or g(x, 0) - 1 with `spacing`
         between: the shortest and the longest distance
-        spacing: if given, only the largest value in each such length counts: the maxima of an
-            oscillation
+        spacing: if given, only `maxima` count
 
     Returns:
         The exponent with the error of the fit, from the scatter about it. Neighbouring values
         of one run vary together, so the scatter between runs is larger.
     """
     x, y = np.asarray(r, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    if spacing is not None:
+        x, y = maxima(x, y, spacing)
     chosen = (x >= between[0]) & (x <= between[1])
     x, y = x[chosen], y[chosen]
-    if spacing is not None:
-        x, y = _maxima(x, y, spacing)
     if len(x) < 3 or not np.all(y > 0):
         raise ValueError("decay: fewer than three values between the distances, or one is not > 0")
     logs = np.log(x) - np.log(x).mean()
     slope = (logs @ np.log(y)) / (logs @ logs)
     rest = np.log(y) - np.log(y).mean() - slope * logs
     return Measured(-float(slope), math.sqrt((rest @ rest) / (len(x) - 2) / (logs @ logs)))
+
+
+def maxima(r: npt.ArrayLike, values: npt.ArrayLike, spacing: float) -> tuple[Array, Array]:
+    """Return where values are largest, one for each multiple of `spacing`: an envelope.
+
+    Each multiple has the distances that are nearest to it, as each disc of a row has its own.
+    """
+    x, y = np.asarray(r, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    nearest = np.round(x / spacing).astype(int)
+    best = [k[np.argmax(y[k])] for k in (np.flatnonzero(nearest == n) for n in np.unique(nearest))]
+    return x[best], y[best]
 
 
 def lattice_constant(frame: DiscArrays) -> float:
@@ -267,6 +321,38 @@ def _reach(frame: DiscArrays, reach: float | None) -> float:
     if not 0 < far <= most:
         raise ValueError(f"reach is above 0 and at most half the shorter side of the box, {most:g}")
     return far
+
+
+def _row_edges(frame: DiscArrays, reach: float | None) -> Array:
+    """Edges of bins about the distances of the discs of a row."""
+    spacing = lattice_constant(frame)
+    return (np.arange(math.floor(_reach(frame, reach) / spacing - 0.5) + 1) + 0.5) * spacing
+
+
+def _peak_of(frame: DiscArrays, direction: float) -> Array:
+    """The wave vector of the highest S near a direction against the rows."""
+    found = structure_map(frame, direction=orientation(frame).angle + direction)
+    i, j = np.unravel_index(np.argmax(found.s), found.s.shape)
+    return np.array([found.kx[i], found.ky[j]])
+
+
+def _field_correlation(frame: DiscArrays, field: Array, edges: Array) -> Array:
+    """The mean over pairs of the real part of field* field, in bins of distance.
+
+    Discs and field are summed in cells, of a quarter of a row or less, and Fourier transforms give
+    all products. So distances are those of cells, which means nothing to bins as long as a row.
+    """
+    cells = np.ceil(4 * frame.box / lattice_constant(frame)).astype(int)
+    index = np.minimum((_present(frame) / frame.box * cells).astype(int), cells - 1)
+    ways = [np.minimum(np.arange(n), n - np.arange(n)) / n for n in cells]
+    r = np.hypot(ways[0][:, None] * frame.box[0], ways[1] * frame.box[1])
+    sums = []
+    for values in (np.ones(len(index)), field):
+        grid = np.zeros(cells, dtype=np.complex128)
+        np.add.at(grid, tuple(index.T), values)
+        products = np.fft.ifft2(np.abs(np.fft.fft2(grid)) ** 2).real
+        sums.append(np.histogram(r, edges, weights=products)[0])
+    return np.asarray(sums[1] / sums[0])
 
 
 def _along_rows(frame: DiscArrays, edges: Array, across: float) -> Array:
@@ -345,12 +431,6 @@ def _moments(frame: DiscArrays, parts: int) -> Array:
     sums = [np.bincount(block, part, parts**2) for part in (psi6.real, psi6.imag)]
     modulus = np.hypot(*sums)[n > 0] / n[n > 0]
     return np.array([np.mean(modulus**power) for power in (1, 2, 4)])
-
-
-def _maxima(x: Array, y: Array, spacing: float) -> tuple[Array, Array]:
-    window = ((x - x[0]) / spacing).astype(int) if len(x) else np.empty(0, dtype=int)
-    best = [k[np.argmax(y[k])] for k in (np.flatnonzero(window == w) for w in np.unique(window))]
-    return x[best], y[best]
 
 
 def _jackknife(samples: Array, number: Callable[[Array], Any]) -> tuple[Any, Any]:
