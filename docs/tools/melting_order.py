@@ -19,7 +19,7 @@ import plot_style
 from carrom import melting
 
 ROWS = 128
-PACKINGS = {0.69: "liquid", 0.72: "solid at melting", 0.73: "solid"}
+PACKINGS = {0.69: "liquid", 0.72: "where a solid melts", 0.73: "solid"}
 # Steps, those before averages begin, and those from frame to frame. A liquid forgets its start sooner.
 LENGTHS = {0.69: (10_000, 5_000, 250), 0.72: (32_000, 20_000, 500), 0.73: (32_000, 20_000, 500)}
 SIDES = ("left", "right", "bottom", "top")
@@ -68,53 +68,38 @@ def late_frames(run):
     return [frame for frame in run.frames if frame.step >= early]
 
 
-def by_quarters(number, frames):
-    """A number of all frames, and its standard error from the scatter of quarters of the run."""
-    n = len(frames) // 4
-    parts = [number(frames[k * n : (k + 1) * n]) for k in range(4)]
-    return number(frames), np.std(parts, ddof=1) / 2
+def curves_of(frames):
+    """Distances, and g6 and the order of places of each frame."""
+    bonds, waves = ([f([frame]) for frame in frames] for f in (melting.bond_correlation, melting.wave_correlation))
+    return bonds[0].r, np.array([one.value for one in bonds]), np.array([one.value for one in waves])
 
 
-def bond_exponent(frames):
-    curve = melting.bond_correlation(frames)
-    return melting.decay(curve.r, curve.value, BETWEEN).value
+def exponent_of(r, curves):
+    """The power of the mean curve, and its standard error from the scatter of quarters of the run."""
+    quarters = [melting.decay(r, part.mean(axis=0), BETWEEN).value for part in np.array_split(curves, 4)]
+    return melting.decay(r, curves.mean(axis=0), BETWEEN).value, np.std(quarters, ddof=1) / 2
 
 
-def wave_exponent(frames):
-    curve = melting.wave_correlation(frames)
-    return melting.decay(curve.r, curve.value, BETWEEN).value
-
-
-def row_of(packing, run):
-    frames = late_frames(run)
-    bonds, bonds_error = by_quarters(bond_exponent, frames)
-    rows, rows_error = by_quarters(wave_exponent, frames)
+def row_of(packing, frames, r, bonds, waves):
     whole = melting.block_order(frames, [1])[0]
-    return {
-        "packing": packing,
-        "phase": PACKINGS[packing],
-        "discs": ROWS**2,
-        "frames": len(frames),
-        "psi6": f"{whole.order.value:.4f}",
-        "psi6_error": f"{whole.order.error:.4f}",
-        "eta6": f"{bonds:.4f}",
-        "eta6_error": f"{bonds_error:.4f}",
-        "eta6_most": 0.25,
-        "eta": f"{rows:.3f}",
-        "eta_error": f"{rows_error:.3f}",
-        "eta_most": f"{1 / 3:.4f}",
-    }
+    row = {"packing": packing, "phase": PACKINGS[packing], "discs": ROWS**2, "frames": len(frames)}
+    row |= {"psi6": f"{whole.order.value:.4f}", "psi6_error": f"{whole.order.error:.4f}"}
+    if whole.order.value < 0.2:  # a liquid has no powers
+        return row | dict.fromkeys(("eta6", "eta6_error", "eta6_most", "eta", "eta_error", "eta_most"), "")
+    for name, curves, most in (("eta6", bonds, 1 / 4), ("eta", waves, 1 / 3)):
+        value, error = exponent_of(r, curves)
+        row |= {name: f"{value:.4f}", f"{name}_error": f"{error:.4f}", f"{name}_most": f"{most:.4f}"}
+    return row
 
 
-def draw(runs, path):
+def draw(found, path):
     plot_style.use()
     figure, ((bonds, waves), (peak, local)) = plt.subplots(2, 2, figsize=(11, 9))
-    for packing, run in runs.items():
-        frames = late_frames(run)
+    for packing, (frames, r, *curves) in found.items():
         label = f"{packing:g}, {PACKINGS[packing]}"
-        for ax, curve in ((bonds, melting.bond_correlation(frames)), (waves, melting.wave_correlation(frames))):
-            ax.errorbar(*curve, label=label, marker=".", capsize=2)
-        packed = melting.local_packing(frames, 8.0, 400)
+        for ax, curve in zip((bonds, waves), curves):
+            ax.plot(r, curve.mean(axis=0), label=label, marker=".")
+        packed = melting.local_packing(frames[::2], 8.0, 400)
         local.hist(packed.ravel(), np.arange(0.63, 0.78, 0.004), density=True, histtype="step", label=label, linewidth=1.5)
     r = np.array([3.0, 30.0])
     bonds.plot(r, 0.55 * (r / 3) ** -0.25, "k--", label="$r^{-1/4}$, least of a hexatic")
@@ -122,9 +107,9 @@ def draw(runs, path):
     for ax, name in ((bonds, "$g_6(r)$"), (waves, r"mean of cos $G (r - r')$")):
         ax.set(xscale="log", yscale="log", xlabel="distance in diameters", ylabel=name, ylim=(0.01, 1))
     local.set(xlabel="packing in circles of radius 8", ylabel="probability density")
-    solid = max(runs)
-    found = melting.structure_map(late_frames(runs[solid]))
-    image = peak.pcolormesh(found.kx, found.ky, np.log10(found.s.T), cmap="viridis")
+    solid = max(found)
+    kx, ky, s = melting.structure_map(found[solid][0])
+    image = peak.pcolormesh(kx, ky, np.log10(s.T), cmap="viridis")
     figure.colorbar(image, ax=peak, label=f"log10 S(kx, ky), packing {solid:g}")
     peak.set(xlabel="kx in 1 / diameters", ylabel="ky", aspect="equal")
     peak.grid(False)
@@ -140,13 +125,16 @@ def main():
         parser.add_argument(name, metavar=name.upper(), type=pathlib.Path)
     parser.add_argument("--packings", type=float, nargs="+", choices=PACKINGS, default=list(PACKINGS))
     options = parser.parse_args()
-    runs = {packing: run_of(options.program, options.runs, packing) for packing in options.packings}
-    rows = [row_of(packing, run) for packing, run in runs.items()]
+    found = {}
+    for packing in options.packings:
+        frames = late_frames(run_of(options.program, options.runs, packing))
+        found[packing] = (frames, *curves_of(frames))
+    rows = [row_of(packing, *numbers) for packing, numbers in found.items()]
     with open(options.table, "w", newline="", encoding="utf-8") as file:
         table = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         table.writeheader()
         table.writerows(rows)
-    draw(runs, options.picture)
+    draw(found, options.picture)
 
 
 if __name__ == "__main__":

@@ -22,20 +22,38 @@ other within a group; they are nan where there are fewer than eight frames.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple, Union
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from carrom.adapters import package, positions_of
+from carrom.adapters import package
 from carrom.disc_arrays import Array, DiscArrays
-from carrom.errors import NoDataError
+from carrom.melting_neighbourhoods import cell_packing, local_packing
+from carrom.melting_parts import (
+    Given,
+    jackknife,
+    lattice_constant,
+    listed,
+    present,
+    with_images,
+)
 from carrom.physics import Measured
 
-Given = Union[DiscArrays, Iterable[DiscArrays]]
-
-GROUPS = 8
+__all__ = [
+    "block_order",
+    "bond_correlation",
+    "cell_packing",
+    "decay",
+    "lattice_constant",
+    "local_packing",
+    "maxima",
+    "orientation",
+    "positional_order",
+    "structure_map",
+    "wave_correlation",
+]
 
 
 class Orientation(NamedTuple):
@@ -89,7 +107,7 @@ def orientation(frames: Given) -> Orientation:
     The angle is that of the bonds between neighbours, in radians from -pi/6 to pi/6, against the x
     axis. It means little where `order`, the modulus of the mean, is not far above 1 / sqrt(N).
     """
-    mean = complex(np.mean([_mean_psi6(frame) for frame in _listed(frames, "orientation")]))
+    mean = complex(np.mean([_mean_psi6(frame) for frame in listed(frames, "orientation")]))
     return Orientation(math.atan2(mean.imag, mean.real) / 6, abs(mean))
 
 
@@ -103,10 +121,10 @@ def bond_correlation(frames: Given, reach: float | None = None) -> Curve:
         frames: frames with positions and psi6
         reach: the largest distance; by default a quarter of the shorter side of the box
     """
-    given = _listed(frames, "bond_correlation")
+    given = listed(frames, "bond_correlation")
     edges = _row_edges(given[0], reach)
     curves = [_field_correlation(frame, frame.psi6[frame.present], edges) for frame in given]
-    value, error = _jackknife(np.array(curves), lambda mean: mean)
+    value, error = jackknife(np.array(curves), lambda mean: mean)
     return Curve((edges[1:] + edges[:-1]) / 2, value, error)
 
 
@@ -123,14 +141,14 @@ def wave_correlation(frames: Given, reach: float | None = None) -> Curve:
         frames: frames with positions and psi6
         reach: the largest distance; by default a quarter of the shorter side of the box
     """
-    given = _listed(frames, "wave_correlation")
+    given = listed(frames, "wave_correlation")
     edges = _row_edges(given[0], reach)
     curves = []
     for frame in given:
         waves = [_peak_of(frame, math.pi / 6 + k * math.pi / 3) for k in range(3)]
-        fields = [np.exp(1j * (_present(frame) @ wave)) for wave in waves]
+        fields = [np.exp(1j * (present(frame) @ wave)) for wave in waves]
         curves.append(np.mean([_field_correlation(frame, f, edges) for f in fields], axis=0))
-    value, error = _jackknife(np.array(curves), lambda mean: mean)
+    value, error = jackknife(np.array(curves), lambda mean: mean)
     return Curve((edges[1:] + edges[:-1]) / 2, value, error)
 
 
@@ -153,14 +171,14 @@ def positional_order(
 
     Cost: about a second for each frame of 16,384 discs.
     """
-    given = _listed(frames, "positional_order")
+    given = listed(frames, "positional_order")
     first = given[0]
     spacing = lattice_constant(first)
     far = _reach(first, reach)
     across = spacing / 4 if width is None else float(width)
     edges = np.linspace(0, far, bins + 1)
     curves = np.array([_along_rows(frame, edges, across) for frame in given])
-    value, error = _jackknife(curves, lambda mean: mean)
+    value, error = jackknife(curves, lambda mean: mean)
     return Curve((edges[1:] + edges[:-1]) / 2, value, error)
 
 
@@ -177,7 +195,7 @@ def structure_map(
         direction: angle of the peak's wave vector; by default that of the first frame's
             orientation plus 90 degrees, which needs psi6
     """
-    given = _listed(frames, "structure_map")
+    given = listed(frames, "structure_map")
     first = given[0]
     k = 4 * math.pi / (math.sqrt(3) * lattice_constant(first))
     side = k / 2 if span is None else float(span)
@@ -186,55 +204,10 @@ def structure_map(
     waves = [_box_vectors(middle[axis], side, float(first.box[axis])) for axis in (0, 1)]
     total = np.zeros((len(waves[0]), len(waves[1])))
     for frame in given:
-        x = _present(frame)
+        x = present(frame)
         modes = np.exp(1j * np.outer(waves[0], x[:, 0])) @ np.exp(1j * np.outer(x[:, 1], waves[1]))
         total += np.abs(modes) ** 2 / len(x)
     return StructureMap(waves[0], waves[1], total / len(given))
-
-
-def local_packing(frames: Given, radius: float, points: int = 1000) -> Array:
-    """Return the packing in circles around points of a regular grid, (frames, points).
-
-    A disc counts with its whole area if its centre is in the circle. So steps of one disc show in
-    histograms of small circles. Points do not depend on discs, so every part of the box has the
-    same weight. At coexistence a histogram has two peaks if circles are smaller than the phases.
-
-    Args:
-        frames: frames with positions
-        radius: of the circles, at most half the shorter side of the box
-        points: about this many; the grid has the box's shape
-    """
-    given = _listed(frames, "local_packing")
-    spatial = package("scipy.spatial", "local_packing", "scipy")
-    if not 0 < radius <= min(given[0].box) / 2:
-        raise ValueError("radius is above 0 and at most half the shorter side of the box")
-    result = []
-    for frame in given:
-        tree = spatial.cKDTree(_present(frame), boxsize=frame.box)
-        found = tree.query_ball_point(_grid(frame, points), radius)
-        squares = np.asarray(frame.radius[frame.present]) ** 2
-        result.append([squares[inside].sum() / radius**2 for inside in found])
-    return np.array(result)
-
-
-def cell_packing(frame: DiscArrays) -> Array:
-    """Return the area of each disc over that of its Voronoi cell, (n,).
-
-    Cells are those of the centres, so all radii must be equal. Discs that have left are left out.
-
-    Raises:
-        ValueError: radii differ
-    """
-    _listed(frame, "cell_packing")
-    if np.ptp(frame.radius) > 1e-9 * np.max(frame.radius):
-        raise ValueError("cell_packing: radii differ, but cells of centres would cut large discs")
-    spatial = package("scipy.spatial", "cell_packing", "scipy")
-    x = _present(frame)
-    # Cells of a dense sample end within a few distances of neighbours.
-    margin = 6 * math.sqrt(float(np.prod(frame.box)) / len(x))
-    voronoi = spatial.Voronoi(_with_images(x, frame.box, min(margin, float(min(frame.box)))))
-    areas = [_polygon(voronoi.vertices[voronoi.regions[k]]) for k in voronoi.point_region[: len(x)]]
-    return np.asarray(math.pi * frame.radius[frame.present] ** 2 / np.array(areas))
 
 
 def block_order(frames: Given, parts: Sequence[int] = (1, 2, 4, 8)) -> list[BlockOrder]:
@@ -244,7 +217,7 @@ def block_order(frames: Given, parts: Sequence[int] = (1, 2, 4, 8)) -> list[Bloc
     in blocks of several lengths show where order begins without runs of other sizes: H. Weber,
     D. Marx and K. Binder, Phys. Rev. B 51, 14636 (1995).
     """
-    given = _listed(frames, "block_order")
+    given = listed(frames, "block_order")
     return [_block_order(given, count) for count in parts]
 
 
@@ -290,27 +263,6 @@ def maxima(r: npt.ArrayLike, values: npt.ArrayLike, spacing: float) -> tuple[Arr
     return x[best], y[best]
 
 
-def lattice_constant(frame: DiscArrays) -> float:
-    """Return the distance of neighbours in a triangular lattice of as many discs a unit of area."""
-    density = np.count_nonzero(frame.present) / float(np.prod(frame.box))
-    return math.sqrt(2 / (math.sqrt(3) * density))
-
-
-def _listed(frames: Given, wanted_by: str) -> list[DiscArrays]:
-    given = [frames] if isinstance(frames, DiscArrays) else list(frames)
-    if not given:
-        raise NoDataError(f"{wanted_by} needs at least one frame")
-    if not all(all(frame.periodic) for frame in given):
-        raise ValueError(f"{wanted_by}: the box must be periodic all round")
-    positions_of(given[0], wanted_by)
-    return given
-
-
-def _present(frame: DiscArrays) -> Array:
-    """Positions (n, 2) in the box, its upper edges excluded, as scipy wants them."""
-    return np.mod(frame.x[frame.present].astype(np.float64), frame.box)
-
-
 def _mean_psi6(frame: DiscArrays) -> complex:
     return complex(frame.psi6[frame.present].mean(dtype=np.complex128))
 
@@ -343,7 +295,7 @@ def _field_correlation(frame: DiscArrays, field: Array, edges: Array) -> Array:
     all products. So distances are those of cells, which means nothing to bins as long as a row.
     """
     cells = np.ceil(4 * frame.box / lattice_constant(frame)).astype(int)
-    index = np.minimum((_present(frame) / frame.box * cells).astype(int), cells - 1)
+    index = np.minimum((present(frame) / frame.box * cells).astype(int), cells - 1)
     ways = [np.minimum(np.arange(n), n - np.arange(n)) / n for n in cells]
     r = np.hypot(ways[0][:, None] * frame.box[0], ways[1] * frame.box[1])
     sums = []
@@ -358,9 +310,9 @@ def _field_correlation(frame: DiscArrays, field: Array, edges: Array) -> Array:
 def _along_rows(frame: DiscArrays, edges: Array, across: float) -> Array:
     """g(x, 0) of one frame: pairs in a strip along each row, over those of an ideal gas."""
     spatial = package("scipy.spatial", "positional_order", "scipy")
-    x = _present(frame)
+    x = present(frame)
     far, half = edges[-1], across / 2
-    around = _with_images(x, frame.box, math.hypot(far, half))
+    around = with_images(x, frame.box, math.hypot(far, half))
     turned = orientation(frame).angle
     counts = np.zeros(len(edges) - 1)
     for k in range(3):
@@ -375,32 +327,10 @@ def _along_rows(frame: DiscArrays, edges: Array, across: float) -> Array:
     return np.asarray(counts / ideal)
 
 
-def _with_images(x: Array, box: Array, margin: float) -> Array:
-    """Discs in the box, and behind them their images up to `margin` beyond its sides."""
-    shifts = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]
-    images = np.concatenate([x + np.array(shift) * box for shift in shifts])
-    near = np.all((images >= -margin) & (images <= box + margin), axis=1)
-    return np.concatenate([x, images[near]])
-
-
 def _box_vectors(middle: float, side: float, length: float) -> Array:
     unit = 2 * math.pi / length
     first, last = math.ceil((middle - side / 2) / unit), math.floor((middle + side / 2) / unit)
     return unit * np.arange(first, last + 1)
-
-
-def _grid(frame: DiscArrays, points: int) -> Array:
-    lx, ly = frame.box
-    columns = max(1, round(math.sqrt(points * lx / ly)))
-    rows = max(1, round(points / columns))
-    x, y = (np.arange(columns) + 0.5) * lx / columns, (np.arange(rows) + 0.5) * ly / rows
-    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-
-
-def _polygon(corners: Array) -> float:
-    """Area of a polygon whose corners follow each other."""
-    x, y = corners.T
-    return 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
 def _block_order(given: list[DiscArrays], parts: int) -> BlockOrder:
@@ -408,7 +338,7 @@ def _block_order(given: list[DiscArrays], parts: int) -> BlockOrder:
     discs = float(np.mean([np.count_nonzero(f.present) for f in given])) / parts**2
 
     def measured(number: Callable[[Array], Any]) -> Measured:
-        value, error = _jackknife(moments, number)
+        value, error = jackknife(moments, number)
         return Measured(float(value), float(error))
 
     return BlockOrder(
@@ -424,21 +354,10 @@ def _block_order(given: list[DiscArrays], parts: int) -> BlockOrder:
 
 def _moments(frame: DiscArrays, parts: int) -> Array:
     """Means over blocks of the first, second and fourth power of |Psi6|; empty ones left out."""
-    cells = np.minimum((_present(frame) / frame.box * parts).astype(int), parts - 1)
+    cells = np.minimum((present(frame) / frame.box * parts).astype(int), parts - 1)
     block = cells[:, 0] * parts + cells[:, 1]
     psi6 = frame.psi6[frame.present].astype(np.complex128)
     n = np.bincount(block, minlength=parts**2)
     sums = [np.bincount(block, part, parts**2) for part in (psi6.real, psi6.imag)]
     modulus = np.hypot(*sums)[n > 0] / n[n > 0]
     return np.array([np.mean(modulus**power) for power in (1, 2, 4)])
-
-
-def _jackknife(samples: Array, number: Callable[[Array], Any]) -> tuple[Any, Any]:
-    """Return `number` of the mean over frames, and its error from leaving groups out in turn."""
-    value = number(samples.mean(axis=0))
-    if len(samples) < GROUPS:
-        return value, np.full_like(value, np.nan)
-    group = np.arange(len(samples)) * GROUPS // len(samples)
-    others = np.array([number(samples[group != k].mean(axis=0)) for k in range(GROUPS)])
-    error = np.sqrt((GROUPS - 1) * np.mean((others - others.mean(axis=0)) ** 2, axis=0))
-    return value, error

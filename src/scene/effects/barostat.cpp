@@ -37,7 +37,7 @@ namespace carrom {
 
 namespace {
 
-constexpr int n_moves = 32;
+constexpr int n_moves = 64;
 constexpr double cell_ratio = 1.1; ///< of lengths at both ends of a cell
 
 /// ln(a / b) for ratios of up to 1.5, by the series of 2 artanh((a - b) / (a + b)), to 2^-53.
@@ -117,12 +117,12 @@ private:
         return {low, low * cell_ratio};
     }
 
-    /// Moves are about as long as the free room of the closest pair lets them be: V / (N (Z - 1)).
-    /// The same throughout the cell, so that moves there and back are as likely.
+    /// Moves are some times as long as the closest pair leaves room for, V / (N (Z - 1)). The same
+    /// throughout the cell, so that moves there and back are as likely.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
                      excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));
-        return volume * std::min(0.05, 2 / (n_discs_ * excess));
+        return volume * std::min(0.2, 4 / (n_discs_ * excess));
     }
 
     double pressure_;

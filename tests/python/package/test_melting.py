@@ -17,7 +17,7 @@ import pytest
 from conftest import PERIODIC
 
 import carrom
-from carrom import melting
+from carrom import melting, melting_neighbourhoods, melting_parts
 
 pytest.importorskip("scipy.spatial", reason="scipy is not installed")
 
@@ -174,7 +174,7 @@ def test_circles_are_those_of_freud(dense: carrom.Run) -> None:
     radius = 3.0
     frame = dense.frames[-1]
     found = melting.local_packing(frame, radius, points=200)[0]
-    points = melting._grid(frame, 200)
+    points = melting_neighbourhoods.grid(frame, 200)
     box, discs = frame.to_freud()
     query = freud.locality.AABBQuery(box, discs)
     centred = np.column_stack([points - frame.box / 2, np.zeros(len(points))])
@@ -238,10 +238,34 @@ def test_decay_finds_the_power() -> None:
         melting.decay(r, comb, (3, 3.1))
 
 
+def test_waves_are_sums_over_all_pairs(crystal: carrom.Run) -> None:
+    """Against all pairs, in bins about the distances of rows; cells blur only their edges."""
+    frame = crystal.frames[-1]
+    spacing, n = melting.lattice_constant(frame), frame.n_discs
+    apart = frame.x[:, None] - frame.x
+    apart -= frame.box * np.round(apart / frame.box)
+    bins = (np.hypot(apart[..., 0], apart[..., 1]) / spacing - 0.5).astype(int) - n * np.eye(n)
+    k = 4 * math.pi / (math.sqrt(3) * spacing)
+    waves = [k * np.array([math.cos(a), math.sin(a)]) for a in np.pi / 6 * np.array([1, 3, 5])]
+    products = {
+        "wave": np.mean([np.cos(apart @ wave) for wave in waves], axis=0),
+        "bond": (np.conj(frame.psi6[:, None]) * frame.psi6).real,
+    }
+    for name, found in (
+        ("wave", melting.wave_correlation(frame, reach=5.0)),
+        ("bond", melting.bond_correlation(frame, reach=5.0)),
+    ):
+        assert len(found.r) == 4
+        for row in range(4):
+            expected = products[name][bins == row].mean()
+            assert found.value[row] == pytest.approx(expected, abs=0.02), (name, row)
+            assert found.r[row] == pytest.approx((row + 1) * spacing)
+
+
 def test_errors_are_those_of_the_scatter() -> None:
     rng = np.random.default_rng(3)
     samples = rng.normal(size=(64, 2000))
-    value, error = melting._jackknife(samples, lambda mean: mean)
+    value, error = melting_parts.jackknife(samples, lambda mean: mean)
     assert np.sqrt(np.mean(error**2)) == pytest.approx(1 / 8, rel=0.05)
     assert np.std(value) == pytest.approx(1 / 8, rel=0.1)
 
