@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 import plot_style
 
 TOP = pathlib.Path(__file__).parents[2]
-PRESSURES = (8.5, 10.0)
+PRESSURES = (7.5, 10.0)
 
 
 def run_at(program, pressure):

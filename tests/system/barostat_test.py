@@ -117,11 +117,13 @@ class Barostat(ProgramTest):
         mean, variance = mean_of_two(pressure, 4.0)
         table = report["measurements"]["volume"]
         volume, error = 2 * table["volume"][0], 2 * table["volume_error"][0]
-        self.assertLess(error, 0.01 * mean)
+        self.assertLess(error, 0.025 * mean)
         self.assertLess(abs(volume - mean), 4 * error)
         # compressibility: two times the variance of the volume a disc over its mean
-        found = table["compressibility"][0] * table["volume"][0] * 2
-        self.assertLess(abs(found - variance), 0.1 * variance)
+        found, error = (2 * table["volume"][0] * table[name][0] for name in
+                        ("compressibility", "compressibility_error"))
+        self.assertLess(error, 0.15 * variance)
+        self.assertLess(abs(found - variance), 4 * error)
         self.assertGreater(min(self.column("two", "volume_history", "volume")), 2.0)
 
     def test_a_liquid_has_the_density_of_its_pressure(self):
@@ -132,7 +134,7 @@ class Barostat(ProgramTest):
                                 early=500, size=20, speed=0.4)
         table = report["measurements"]["volume"]
         found, error = table["packing"][0], table["packing_error"][0]
-        self.assertLess(error, 0.003 * packing)
+        self.assertLess(error, 0.008 * packing)
         self.assertLess(abs(found - packing), 4 * error + packing / n)
         z, z_error = (report["compressibility"][name] for name in ("value", "error"))
         expected = (pressure * n * table["volume"][0] - 1) / n
