@@ -22,7 +22,6 @@ PRESSURES = (7.5, 10.0)
 def run_at(program, pressure):
     scene = carrom.read_scene(TOP / "inputs/constant_pressure.toml")
     scene["effects"]["barostat"]["pressure"] = pressure
-    scene["output"]["measurements"]["from_step"] = 0
     return carrom.run(scene, program=program, threads=1)
 
 
