@@ -298,7 +298,7 @@ def solid_at_pressure(program, packing, is_short):
     early, steps = (500, 3_000) if is_short else (5_000, 40_000)
     found = gas(program, 870, packing, early, steps, **lattice)["compressibility"]
     per_factor = 4 / math.pi * packing
-    slope = 60 # of P* with the packing, from 0.73 to 0.75: it is 48 to 57 there
+    slope = 70 # of P* with the packing: 72 in the mean from 0.73 to 0.75
     known = {"packing": (packing, per_factor * found["error"] / slope + 1e-4 * packing)}
     return at_pressure(program, packing, known, is_short, pressure=per_factor * found["value"],
                        phase="solid", **lattice)
@@ -315,7 +315,7 @@ def barostat(program, is_short):
 # What makes the rows; the largest errors, over what is known, of a short and of the whole study.
 STUDIES = {"pressure": (pressure, 2e-3, 1.5e-4), "li": (li, 2e-3, 3e-4),
            "enskog": (enskog, 0.02, 0.01), "haff": (haff, 0.02, 0.005),
-           "melting": (melting, 5e-3, 2e-3), "barostat": (barostat, 0.5, 0.1)}
+           "melting": (melting, 5e-3, 2e-3), "barostat": (barostat, 0.5, 0.2)}
 
 
 def is_right(row, largest_error):
