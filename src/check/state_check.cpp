@@ -107,6 +107,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
                          double energy_given) {
     work_of_images_ = work_of_images;
     energy_given_before_ = std::exchange(energy_given_, energy_given);
+    size_before_ = std::exchange(size_, now.size);
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);

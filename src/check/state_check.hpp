@@ -106,7 +106,8 @@ private:
         return growth_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);
     }
     double growth_at(std::int64_t micro_step) const {
-        return effects_.growth_at(static_cast<double>(micro_step));
+        const double size = micro_step == micro_steps_done_ ? size_ : size_before_;
+        return size * effects_.growth_at(static_cast<double>(micro_step));
     }
     double work_of(const Collision& collision) const;
     double resting_gain(const Known& known) const;
@@ -155,6 +156,7 @@ private:
     bool surfaces_rub_ = false; ///< walls or obstacles rub: spins change there
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
+    double size_ = 1, size_before_ = 1; ///< LocalView::size now, and at the last check
     Communicator communicator_;
     std::uint64_t first_id_ = 0;
     std::vector<Known> known_, before_; ///< this rank's slab of ids now, and at the last check

@@ -8,7 +8,8 @@
 //                   (1 + rate t), as Lubachevsky and Stillinger (J. Stat. Phys. 60, 561 (1990))
 //                   compress them; event-driven method only. Radii follow from the time since the
 //                   scene's start, so no state has them. Surfaces that meet part as those of other
-//                   discs do, seen from the moving surfaces.
+//                   discs do, seen from the moving surfaces. Or the rate is 0, and an effect
+//                   changes all radii by one factor at syncs (dynamics/sync_effect.hpp).
 #pragma once
 
 #include <concepts>
@@ -129,8 +130,10 @@ public:
         : radius_(radius), rate_(effects.growth), species_(species) {}
 
     CARROM_DEVICE void begin_interval(std::int64_t n) {
-        at_sync_ = 1 + rate_ * static_cast<double>(n);
+        at_sync_ = size_ * (1 + rate_ * static_cast<double>(n));
     }
+    /// From now on radii are the scene's times `size`; without a rate.
+    void resize(double size) { at_sync_ = size_ = size; }
     CARROM_DEVICE double largest() const { return radius_; }
     CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
         return species_.of(disc.id);
@@ -159,6 +162,7 @@ private:
     double radius_, rate_;
     SpeciesView species_;
     double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
+    double size_ = 1;    ///< the part of it that an effect has given
 };
 
 } // namespace carrom

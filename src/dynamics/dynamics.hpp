@@ -76,6 +76,11 @@ public:
         flight_.begin_interval(static_cast<double>(n));
     }
 
+    /// From now on all radii are the scene's times `size`; for bodies that can grow, and do not.
+    void resize(double size) {
+        if constexpr (OfBodies::grow) bodies_.resize(size);
+    }
+
     // Questions about the scene.
 
     bool has_pairs() const { return !have_effects || law_.has_pairs(); }

@@ -160,6 +160,15 @@ struct Activity {
     friend bool operator==(const Activity&, const Activity&) = default;
 };
 
+/// Moves of the volume at syncs (scene/effects/barostat.cpp).
+struct Barostat {
+    double pressure = 0; ///< P times the mean of the squared diameters over kT; 0 is none
+    std::uint64_t seed = 4321;
+
+    bool is_any() const { return pressure != 0; }
+    friend bool operator==(const Barostat&, const Barostat&) = default;
+};
+
 /// Numbers of effects that act at syncs alone: the file of such an effect declares them by their
 /// keys (`own_key` in scene/key_members.hpp) and reads them, and nothing else has to know them.
 class OwnNumbers {
@@ -196,6 +205,7 @@ struct Effects {
     double lasting_speed = 0;
     Thermostat thermostat{};
     Activity activity{};
+    Barostat barostat{};
     OwnNumbers own{};
     ExternalField field{};
 
@@ -226,7 +236,7 @@ struct Effects {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
                growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any() ||
-               field.is_any();
+               barostat.is_any() || field.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -87,6 +87,21 @@ template <class Term> void SyncDiscs::add_up(std::vector<ExactSum>& sums, const 
     add_over_ranks(sums);
 }
 
+/// One factor for the radii of all discs, which an effect changes at syncs. Places and velocities
+/// stay as they are. All functions give the same on all ranks.
+class SizeChange {
+public:
+    virtual ~SizeChange() = default;
+
+    /// The present factor, by which radii differ from those of the scene.
+    virtual double size() const = 0;
+    /// The largest factor that the change at this sync can come to.
+    virtual double largest_at(std::int64_t n_syncs) const = 0;
+    /// Changes the factor. `room` is the largest one at which no two discs overlap, or exceeds
+    /// `largest_at`.
+    virtual void change(std::int64_t n_syncs, double room) = 0;
+};
+
 class SyncEffect {
 public:
     SyncEffect() = default;
@@ -96,6 +111,8 @@ public:
 
     /// Changes velocities, spins and directions of discs, and nothing else of them. **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
+    /// Of an effect that changes radii; null for all others. At most one effect has it.
+    virtual SizeChange* sizes() { return nullptr; }
 
     /// Whether `begin` does anything.
     virtual bool begins() const { return false; }

@@ -14,7 +14,8 @@ namespace carrom {
 template <class Make> auto with_dynamics_of(const SceneParameters& scene, const Make& make) {
     const Effects& effects = scene.effects;
     const bool has_species = !effects.species.empty();
-    if (effects.growth != 0) return make.template operator()<GrowingDynamics>();
+    const bool radii_change = effects.growth != 0 || effects.barostat.is_any();
+    if (radii_change) return make.template operator()<GrowingDynamics>();
     if (effects.are_sheared()) return make.template operator()<ShearedDynamics>();
     if (effects.are_periodic())
         return has_species ? make.template operator()<PeriodicMixedDynamics>()

@@ -35,6 +35,7 @@ struct LocalView {
     double time = 0;   ///< since the last sync
     Frame frame;       ///< the coordinates are in this frame
     Periods periods{}; ///< if the box is periodic; discs are where their images are
+    double size = 1;   ///< see Engine::size
 };
 
 class Engine {
@@ -67,6 +68,8 @@ public:
     virtual SideSpans side_columns() const { return {}; }     ///< along `own()`
     virtual SideSpans departed_columns() const { return {}; } ///< along `departed()`
     virtual const SpeciesTable& species_table() const = 0;
+    /// The factor by which an effect at syncs has changed all radii of the table.
+    virtual double size() const { return 1; }
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< the frame of the own discs at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too

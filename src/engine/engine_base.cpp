@@ -61,6 +61,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     sync_action_.go_on(state.kept_by_effects);
     flown_before_ = static_cast<double>(last_sync() % flight_length_);
     dynamics_.begin_interval(last_sync());
+    if (sync_action_.sizes()) dynamics_.resize(size());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
     if constexpr (Dynamics::is_for_study) {
         for (DiscState& disc : discs_.all()) Dynamics::round(disc);
@@ -174,6 +175,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
         discs_.note_wrapped();
     }
     if (sync_action_.has_effects()) largest_speed = let_effects_act();
+    if (SizeChange* const sizes = sync_action_.sizes()) change_sizes(*sizes);
     finish_sync(largest_speed);
     redistributed_time_ -= time_;
     time_ = 0;
@@ -251,6 +253,24 @@ template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_stat
     return std::sqrt(fastest);
 }
 
+/// Lets an effect change all radii, up to where the closest two discs touch. States are those after
+/// the sync, so they are at time 0.
+template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& sizes) {
+    const std::int64_t n_syncs = n_micro_done_ / sync_every_;
+    const double end = std::exchange(time_, 0);
+    redistributed_time_ -= end;
+    redistribute_now(dynamics_.search_diameter() * sizes.largest_at(n_syncs));
+    const double room = largest_size(population(), discs_.grid(),
+                                     touching_of(dynamics_, time_, discs_.periods()), communicator_,
+                                     tuning_.threads);
+    discs_.forget_images();
+    discs_.forget_halo();
+    sizes.change(n_syncs, room);
+    dynamics_.resize(sizes.size());
+    redistributed_time_ += end;
+    time_ = end;
+}
+
 template <class Dynamics> double EngineBase<Dynamics>::squared_speed_of_own(double time) const {
     const std::span<const DiscState> discs = own();
     double fastest = 0;
@@ -290,7 +310,8 @@ template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
 
 template <class Dynamics> LocalView EngineBase<Dynamics>::local_view(double reach) {
     redistribute_now(reach * (1 + 1e-6));
-    return {population(), &discs_.grid(), &discs_.domains(), time_, frame(), discs_.periods()};
+    return {population(),     &discs_.grid(), &discs_.domains(), time_, frame(),
+            discs_.periods(), size()};
 }
 
 template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {

@@ -35,6 +35,10 @@ public:
     SideSpans side_columns() const final { return discs_.own_columns(); }
     SideSpans departed_columns() const final { return discs_.departed_columns().spans(); }
     const SpeciesTable& species_table() const final { return species_; }
+    double size() const final {
+        const SizeChange* const sizes = sync_action_.sizes();
+        return sizes ? sizes->size() : 1;
+    }
     double clock() const final { return time_; }
     Frame frame() const final;
     FlightIntegral flight_integral() const final {
@@ -121,6 +125,7 @@ private:
     double let_effects_act();
     void let_effects_begin();
     double largest_speed_of_all_states() const;
+    void change_sizes(SizeChange& sizes);
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

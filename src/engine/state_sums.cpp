@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -175,6 +176,26 @@ std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Populati
 }
 
 } // namespace
+
+double largest_size(const Population& population, const CellGrid& grid, const Touching& touching,
+                    const Communicator& communicator, int n_threads) {
+    Touching of_scene = touching;
+    of_scene.growth = 1;
+    double least = std::numeric_limits<double>::infinity(); // of squares
+    const int n_columns = grid.geometry().n_columns;
+#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(min : least)
+    for (int column = 0; column < n_columns; ++column) {
+        visit_near_pairs_of(grid, column, [&](LocalIndex a, LocalIndex b) {
+            if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
+            const DiscState &p = population.discs[a], &q = population.discs[b];
+            const Shift shift = of_scene.periods.between(p, q, 0);
+            const double dx = (q.x - p.x) + shift.x, dy = (q.y - p.y) + shift.y,
+                         diameter = of_scene.diameter_of(p, q);
+            least = std::min(least, (dx * dx + dy * dy) / (diameter * diameter));
+        });
+    }
+    return std::sqrt(communicator.min(least)) * (1 - 0x1p-40);
+}
 
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,

@@ -81,4 +81,10 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
                       const Touching& touching, const Communicator& communicator, int n_threads,
                       Totals& totals);
 
+/// The largest factor for all radii of the scene at which no two discs of the population overlap,
+/// at time 0 and less a share of 2^-40 for rounding. Pairs beyond the grid's reach are not seen;
+/// without any pair it is infinite. **Collective.**
+double largest_size(const Population& population, const CellGrid& grid, const Touching& touching,
+                    const Communicator& communicator, int n_threads);
+
 } // namespace carrom

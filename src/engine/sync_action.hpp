@@ -28,6 +28,12 @@ public:
                const Communicator& communicator, int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
+    /// Of the effect that changes radii; null if none does.
+    SizeChange* sizes() const {
+        for (const auto& effect : effects_)
+            if (SizeChange* const its = effect->sizes()) return its;
+        return nullptr;
+    }
     /// Called when the halo is forgotten and all states have been brought to the time of the sync.
     /// Adds to `energy_given()` and to what `notes` names. **Collective.**
     void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);

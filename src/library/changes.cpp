@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/obstacles.hpp"
+#include "engine/engine.hpp"
 #include "library/live_part.hpp"
 #include "library/simulation_state.hpp"
 #include "parallel/agreement.hpp"
@@ -32,7 +33,8 @@ public:
     explicit Room(const Run& run)
         : scene_(run.scene()), species_(run.system().species_table()),
           extent_(extent_at(scene_.effects, scene_.box, static_cast<double>(run.step()))),
-          growth_(scene_.effects.growth_at(static_cast<double>(run.step()))),
+          growth_(run.system().engine().size() *
+                  scene_.effects.growth_at(static_cast<double>(run.step()))),
           rounding_(32 * 0x1p-53 * scene_.box.longest()),
           obstacles_(scene_.box, scene_.radius * growth_, scene_.effects) {}
 

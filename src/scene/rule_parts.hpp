@@ -26,6 +26,7 @@ inline bool has_obstacles(const SceneParameters& s) {
 }
 inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
+inline bool has_barostat(const SceneParameters& s) { return s.effects.barostat.is_any(); }
 inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }

@@ -19,7 +19,7 @@ CellSizes cell_sizes(const DiscSystem& system) {
     sizes.species = system.species_if_mixed();
     for (const Species& one : effects.species)
         sizes.largest_radius = std::max(sizes.largest_radius, one.radius);
-    sizes.growth = effects.growth_at(static_cast<double>(system.step()));
+    sizes.growth = system.engine().size() * effects.growth_at(static_cast<double>(system.step()));
     return sizes;
 }
 

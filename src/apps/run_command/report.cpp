@@ -208,7 +208,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
     for (const OtherEnergy& energy : other_energies_of(scene.effects))
         report[energy.name] = result.end.*energy.value;
     for (const EndNumber& number : result.end_numbers) report[number.name] = number.value;
-    if (scene.last_packing() != scene.packing())
+    if (scene.last_packing() != scene.packing() || result.size != 1)
         report["last_packing"] = last_packing(scene, result);
     add_doubts(report, result);
     if (scene.measurements) report["measurements"] = tables_json(result.tables);

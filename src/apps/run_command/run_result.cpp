@@ -39,6 +39,7 @@ void fill_end(RunResult& result, const Run& run) {
     result.last_step = system.step();
     result.stop_reason = run.stop_reason();
     result.end = system.totals();
+    result.size = system.engine().size();
     result.end_numbers = end_numbers_of(run.scene(), system.engine().kept_by_effects());
     result.averages = run.sampler().averages();
     if (!reason_without_z(run.scene().effects).empty())
@@ -57,6 +58,7 @@ void fill_end(RunResult& result, const Run& run) {
 }
 
 double last_packing(const SceneParameters& scene, const RunResult& result) {
+    if (result.size != 1) return scene.packing() * (result.size * result.size);
     if (!result.stop_reason) return scene.last_packing();
     const double growth = scene.effects.growth_at(static_cast<double>(result.last_step));
     return scene.packing() * (growth * growth);

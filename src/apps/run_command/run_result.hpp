@@ -38,6 +38,7 @@ struct RunResult {
     PhaseSeconds phase_seconds;     ///< each on the rank where it took longest
     PhaseSeconds phase_imbalance;   ///< relative to the mean of all ranks
     double imbalance = 1;           ///< this ratio for `busy_seconds`
+    double size = 1;                ///< of all radii at the end, over the scene's: Engine::size
     double peak_bytes_per_disc = 0; ///< the sum of the ranks' peaks, per disc
 };
 

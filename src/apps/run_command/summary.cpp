@@ -145,7 +145,7 @@ std::string plural(int count, const char* what) {
 }
 
 std::string scene_lines(const SceneParameters& scene, const RunResult& result) {
-    const std::string grown = scene.last_packing() == scene.packing()
+    const std::string grown = scene.last_packing() == scene.packing() && result.size == 1
                                   ? ""
                                   : fmt::format(", {:.4g} at the last step",
                                                 last_packing(scene, result));

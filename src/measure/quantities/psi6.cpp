@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "measure/kept_blocks.hpp"
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
 #include "simulation/disc_statistics.hpp"
@@ -38,7 +39,7 @@ public:
     explicit Psi6(MeasuredRun& run)
         : Measurement(run), largest_distance_(largest_distance_setting.of(run.output)),
           neighbours_(HexaticSums::most_neighbours + 1, 0), moduli_(n_bins_of(run), 0),
-          pairs_(moduli_), products_(moduli_.size(), 0) {}
+          pairs_(moduli_), products_(moduli_.size(), 0), blocks_(moduli_.size()) {}
 
     bool moves_discs() const override { return true; }
 
@@ -52,17 +53,21 @@ public:
         psi6_.insert(psi6_.end(), {now.real.value(), now.imaginary.value(), now.modulus.value(),
                                    cells_of(5), cells_of(6), cells_of(7), n_cells});
         for (std::size_t n = 0; n < now.neighbours.size(); ++n) neighbours_[n] += now.neighbours[n];
+        std::vector<double> g6_now;
         for (std::size_t k = 0; k < n_bins_of(run_); ++k) {
             moduli_[k] += now.moduli[k];
             pairs_[k] += now.pairs[k];
             products_[k] += now.products[k].value();
+            g6_now.push_back(g6_of(static_cast<double>(now.pairs[k]), now.products[k].value()));
         }
+        blocks_.add(g6_now);
     }
 
     void keep(KeptNumbers& kept) override {
         keep_largest_distance(kept, run_, largest_distance_);
         kept.same(moduli_.size());
         kept(psi6_), kept(neighbours_), kept(moduli_), kept(pairs_), kept(products_);
+        keep_blocks(kept, blocks_);
     }
 
     std::vector<MeasuredTable> tables() const override {
@@ -78,6 +83,7 @@ public:
     }
 
 private:
+    static double g6_of(double pairs, double products) { return pairs > 0 ? products / pairs : 0; }
     /// |psi6| for all discs together.
     double psi6_at(std::size_t sample) const {
         const double* const now = psi6_.data() + per_sample * sample;
@@ -120,14 +126,16 @@ private:
         const std::size_t n = pairs_.size();
         MeasuredTable table{"psi6_correlation",
                             {"g6: mean over pairs of the real part of psi6* psi6, 0 without pairs",
-                             "distances in the scene's unit of length; pairs: of all samples"},
-                            {"from", "to", "pairs", "g6"},
+                             "distances in the scene's unit of length; pairs: of all samples; "
+                             "g6_error: one standard error, nan where samples are too few"},
+                            {"from", "to", "pairs", "g6", "g6_error"},
                             {}};
+        const std::vector<double> errors = errors_of(blocks_, run_.counts.n_samples);
         for (std::size_t k = 0; k < n; ++k) {
             const double pairs = static_cast<double>(pairs_[k]);
             table.rows.push_back({edge(0, largest_distance_, k, n),
                                   edge(0, largest_distance_, k + 1, n), pairs,
-                                  pairs > 0 ? products_[k] / pairs : 0});
+                                  g6_of(pairs, products_[k]), errors[k]});
         }
         return table;
     }
@@ -150,6 +158,7 @@ private:
                                ///< modulus, discs of 5, 6, 7 neighbours, discs
     std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< see HexaticSums
     std::vector<double> products_;                           ///< see HexaticSums
+    VectorBlocks blocks_;                                    ///< of g6, for its errors
 };
 
 } // namespace

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Constant pressure: moves of the volume at syncs, as in Monte Carlo at constant N, P and T (W. W.
+// Wood, J. Chem. Phys. 48, 415 (1968)).
+//
+// The box keeps its sides, and all radii are multiplied by one factor s. In units of the discs this
+// is a box that becomes smaller or larger and takes the places of discs along. Places in units of
+// the box and the volume V = A / (s^2 <d^2>), with the mean <d^2> of the squared diameters, have
+// the weight
+//
+//     V^N exp(-p V),   p = P <d^2> / kT,   where no two discs overlap.
+//
+// Velocities have no part in it: hard discs have one structure at every temperature. So they stay
+// as they are, in the unit of the box, and each kT is as good as any other.
+//
+// At a sync the closest pair says how far discs may swell. It is a minimum over all pairs, so all
+// ranks have the same one. With the discs at rest the weight is a function of V alone, and
+// `n_moves` moves of it cost nothing. Each draws a new volume evenly from a range about the
+// present one, and takes it with the probability min(1, exp(-p (V' - V)) (V' / V)^N) (Metropolis).
+// A sync keeps V in a cell of a fixed partition, in which lengths differ by 10 %, so that only
+// pairs up to this distance must be known. Partitions of syncs with even and odd counts are half
+// a cell apart. So each sync keeps the weight exactly, and no cell confines V.
+//
+// Bits: + - * / and sqrt alone. The logarithm of V' / V is its series, and a move is taken if an
+// exponential number exceeds what it costs. Price: one exchange of the halo and a pass over pairs
+// that are near each other, every `time.sync_every` micro-steps.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/effects/effect.hpp"
+#include "scene/key_members.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr int n_moves = 64;
+constexpr double cell_ratio = 1.1; ///< of lengths at both ends of a cell
+
+/// ln(a / b) for ratios of up to 1.5, by the series of 2 artanh((a - b) / (a + b)), to 2^-53.
+double log_ratio(double a, double b) {
+    const double z = (a - b) / (a + b), square = z * z;
+    double sum = 0;
+    for (int k = 25; k >= 1; k -= 2) sum = sum * square + 1.0 / k;
+    return 2 * z * sum;
+}
+
+double mean_squared_diameter(const SceneParameters& scene) {
+    if (scene.effects.species.empty()) return 4 * scene.radius * scene.radius;
+    double sum = 0;
+    for (const Species& one : scene.effects.species)
+        sum += static_cast<double>(one.count) * 4 * one.radius * one.radius;
+    return sum / static_cast<double>(scene.n_discs);
+}
+
+/// The largest factor for which a periodic box is longer than four radii, less a little.
+double most_size(const SceneParameters& scene) {
+    return scene.box.shortest() / (4 * (1 + 1e-6) * scene.radius);
+}
+
+class VolumeMoves final : public SyncEffect, public SizeChange {
+public:
+    explicit VolumeMoves(const SceneParameters& scene)
+        : pressure_(scene.effects.barostat.pressure), seed_(scene.effects.barostat.seed),
+          n_discs_(static_cast<double>(scene.n_discs)),
+          volume_of_scene_(scene.box.area() / mean_squared_diameter(scene)),
+          most_size_(most_size(scene)) {}
+
+    void act(const SyncDiscs& /*at*/) override {}
+    SizeChange* sizes() override { return this; }
+
+    std::vector<std::int64_t> kept() const override { return {std::bit_cast<std::int64_t>(size_)}; }
+    void go_on(std::span<const std::int64_t> kept) override {
+        if (!kept.empty()) size_ = std::bit_cast<double>(kept.front());
+    }
+
+    double size() const override { return size_; }
+    double largest_at(std::int64_t n_syncs) const override {
+        return std::min(cell_at(n_syncs).high, most_size_);
+    }
+
+    void change(std::int64_t n_syncs, double room) override {
+        const Cell cell = cell_at(n_syncs);
+        const double least = volume_at(std::min({room, cell.high, most_size_})),
+                     most = volume_at(cell.low), range = range_in(cell);
+        DiscRandom random(seed_, Purpose::sync, no_disc, static_cast<std::uint64_t>(n_syncs));
+        const double before = volume_at(size_);
+        double volume = before;
+        for (int k = 0; k < n_moves; ++k) {
+            const double next = volume + range * (2 * random.uniform() - 1),
+                         limit = random_exponential(random);
+            if (next < least || next > most) continue;
+            const double cost = pressure_ * (next - volume) - n_discs_ * log_ratio(next, volume);
+            if (limit >= cost) volume = next;
+        }
+        if (volume != before) size_ = std::sqrt(volume_of_scene_ / volume);
+    }
+
+private:
+    /// Numbers of no disc, so that another effect with the same seed has others.
+    static constexpr DiscId no_disc = ~DiscId{0};
+
+    struct Cell {
+        double low = 1, high = cell_ratio; ///< sizes
+    };
+
+    double volume_at(double size) const { return volume_of_scene_ / (size * size); }
+
+    /// The cell of the present size, in the partition of this sync.
+    Cell cell_at(std::int64_t n_syncs) const {
+        double low = n_syncs % 2 == 0 ? 1 : std::sqrt(cell_ratio);
+        while (size_ < low) low /= cell_ratio;
+        while (size_ >= low * cell_ratio) low *= cell_ratio;
+        return {low, low * cell_ratio};
+    }
+
+    /// Moves are some times as long as the closest pair leaves room for, V / (N (Z - 1)). The same
+    /// throughout the cell, so that moves there and back are as likely.
+    double range_in(const Cell& cell) const {
+        const double volume = volume_at(cell.high),
+                     excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));
+        return volume * std::min(0.2, 4 / (n_discs_ * excess));
+    }
+
+    double pressure_;
+    std::uint64_t seed_;
+    double n_discs_, volume_of_scene_, most_size_, size_ = 1;
+};
+
+std::vector<Key> keys_of_barostat() {
+    return {
+        key("effects.barostat.pressure", "1",
+            "P d^2 / kT, with the mean d^2 of the squared diameters: the pressure at which moves "
+            "of the volume keep discs. The box stays as it is, and all radii change by one factor "
+            "at syncs. 0: none.",
+            [](auto& s) -> auto& { return s.effects.barostat.pressure; })
+            .within({0, 1e6}),
+        key("effects.barostat.seed", "1", "Seed of the random numbers of the barostat.",
+            [](auto& s) -> auto& { return s.effects.barostat.seed; })
+            .within({.low = 0})
+            .seed(),
+    };
+}
+
+std::vector<Rule> rules_of_barostat() {
+    const RuleKeys keys = {"effects.barostat.pressure"};
+    const std::string_view constant = "constant pressure";
+    return {
+        rule(constant, "time.method = \"time-stepped\"",
+             "radii stay there; take time.method = \"event-driven\"", keys,
+             [](const SceneParameters& s) { return has_barostat(s) && is_time_stepped(s); }),
+        rule(constant, "growing discs", "both change the radii; take one of them", keys,
+             [](const SceneParameters& s) { return has_barostat(s) && has_growth(s); }),
+        rule(constant, "discs that lose energy, are rough, or pass through each other",
+             "weights of volumes are those of elastic discs in equilibrium", keys,
+             [](const SceneParameters& s) {
+                 return has_barostat(s) && s.effects.contact.kind != ContactKind::elastic;
+             }),
+        rule(constant, "gravity, drag or obstacles",
+             "discs need straight flights in an empty box, which can change as a whole", keys,
+             [](const SceneParameters& s) {
+                 return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s));
+             }),
+        rule(constant, "sides that are not all periodic, or sheared",
+             "the volume is that of a box without sides; make all four sides periodic", keys,
+             [](const SceneParameters& s) {
+                 return has_barostat(s) && (!is_periodic_all_round(s) || s.effects.are_sheared());
+             }),
+    };
+}
+
+/// Volumes change little from sync to sync, so by default there is one in each step.
+void sync_in_each_step(const SceneDraft& draft) {
+    SceneParameters& scene = draft.scene;
+    if (has_barostat(scene) && !draft.settings.has("time.sync_every"))
+        scene.sync_every = std::min(scene.sync_every, scene.micro_steps);
+}
+
+/// A run whose syncs are rarer than its end never moves.
+void check_times_of_barostat(const SceneDraft& draft) {
+    SceneParameters& scene = draft.scene;
+    if (!has_barostat(scene) || scene.steps == 0) return;
+    const double interval = steps_between_syncs(scene);
+    if (interval <= static_cast<double>(scene.steps)) return;
+    scene.warnings.push_back(
+        fmt::format("the barostat never acts: it would every {:g} steps (time.sync_every), and the "
+                    "run has {}",
+                    interval, scene.steps));
+}
+
+} // namespace
+
+namespace effects {
+
+EffectDeclaration barostat() {
+    return {.tables = {{"effects.barostat", "What keeps discs at a pressure."}},
+            .keys = keys_of_barostat(),
+            .rules = rules_of_barostat(),
+            .derive = sync_in_each_step,
+            .check_times = check_times_of_barostat,
+            .summary =
+                [](const Effects& e) {
+                    return e.barostat.is_any() ? fmt::format("volume moves at P d^2 / kT = {:g}",
+                                                             e.barostat.pressure)
+                                               : "";
+                },
+            .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
+                if (!s.effects.barostat.is_any()) return nullptr;
+                return std::make_unique<VolumeMoves>(s);
+            }};
+}
+
+} // namespace effects
+
+} // namespace carrom
