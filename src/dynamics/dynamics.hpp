@@ -241,6 +241,11 @@ public:
                    ? ObstacleContact{}
                    : obstacles_->first_contact(disc, bodies_.of(disc).radius, times);
     }
+    /// Where a disc touches the obstacle that it comes to at `time`.
+    ObstacleTouch touch(DiscState disc, std::uint32_t body, double time) const {
+        advance(disc, time);
+        return obstacles_->touch(disc, body, time, bodies_.at(disc, time).radius);
+    }
     /// Reflects the disc from the obstacle that it comes to at `time`.
     Loss bounce_off(DiscState& disc, std::uint32_t body, double time, double since,
                     double* spin = nullptr) const {

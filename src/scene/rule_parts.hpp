@@ -21,6 +21,9 @@ inline bool has_oscillating(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::oscillating);
 }
 inline bool has_obstacles(const SceneParameters& s) { return s.effects.obstacles.are_any(); }
+/// Goes on after "has no meaning".
+inline constexpr const char* no_obstacles =
+    "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
 inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
