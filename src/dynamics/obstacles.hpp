@@ -50,7 +50,7 @@ struct ContactTimes {
 
 /// A place where a disc touches an obstacle.
 struct ObstacleTouch {
-    std::uint32_t row = 0;  ///< of `rows_of` (container.hpp)
+    std::uint32_t row = 0; ///< of `rows_of` (container.hpp)
     double nx = 0, ny = 0;  ///< away from the body
     double x = 0, y = 0;    ///< the place, from the row's centre
 };

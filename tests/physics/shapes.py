@@ -41,7 +41,7 @@ def run(program, settings, names=()):
 
 def wall(program, is_short):
     """A disc's centre presses a circle of the radius R - r, so the force is over that circle."""
-    kt, count, cells, samples = 0.01, 800 if is_short else 3000, 30, 100
+    kt, count, cells, samples = 0.01, 800 if is_short else 3000, 24, 100
     blocks = 8 if is_short else 40
     for packing in (0.3,) if is_short else (0.1, 0.2, 0.3, 0.4):
         radius = math.sqrt(count / (4 * packing))
