@@ -68,8 +68,7 @@ double contact_while_falling(Parabola flight, double outer, double wall, double 
 double contact_while_rising(Parabola flight, double inner, double wall, double begin, double end) {
     flight.reach = inner;
     if (!(inner > 0)) return never;
-    if (flight.gap(begin).value >= 0)
-        return flight.gap(begin).value + inner < wall ? begin : never;
+    if (flight.gap(begin).value >= 0) return flight.gap(begin).value + inner < wall ? begin : never;
     if (end == never)
         for (end = flight.late(begin); !(flight.gap(end).value > 0);) end += end - begin;
     if (!(flight.gap(end).value > 0)) return never;

@@ -26,9 +26,9 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/container.hpp"
 #include "dynamics/lasting_contacts.hpp"
 #include "dynamics/species.hpp"
-#include "dynamics/container.hpp"
 #include "dynamics/sync_effect.hpp"
 
 namespace carrom {
@@ -49,7 +49,7 @@ struct KeptImpulse {
 struct LastingForces {
     std::vector<PairImpulse> pairs;
     std::vector<WallImpulse> walls; ///< the four sides, then the rows of obstacles
-    int n_sweeps = 0; ///< the most of any connected component
+    int n_sweeps = 0;               ///< the most of any connected component
 };
 
 class ContactImpulses {
@@ -93,7 +93,7 @@ private:
     LastingContactFinder finder_;
     Effects effects_;
     SpeciesTable species_;
-    std::vector<ObstacleRow> rows_;            ///< of obstacles
+    std::vector<ObstacleRow> rows_;             ///< of obstacles
     std::vector<std::uint32_t> rows_of_pieces_; ///< of contacts' bodies, less the sides
     double interval_, pull_;
     double fall_x_, fall_y_; ///< g T / 2

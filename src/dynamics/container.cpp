@@ -48,16 +48,14 @@ double Container::outside(double x, double y) const {
 std::vector<Arc> Container::arcs() const {
     if (is_rectangle()) return {};
     if (shape_ == BoxShape::round) return {{x0_, y0_, radius_}};
-    if (x1_ - x0_ >= y1_ - y0_)
-        return {{x1_, y1_, radius_, -90, 90}, {x0_, y0_, radius_, 90, 270}};
+    if (x1_ - x0_ >= y1_ - y0_) return {{x1_, y1_, radius_, -90, 90}, {x0_, y0_, radius_, 90, 270}};
     return {{x1_, y1_, radius_, 0, 180}, {x0_, y0_, radius_, 180, 360}};
 }
 
 std::vector<Segment> Container::segments() const {
     if (shape_ != BoxShape::stadium) return {};
     const double r = radius_;
-    if (x1_ - x0_ >= y1_ - y0_)
-        return {{x0_, y0_ - r, x1_, y1_ - r}, {x1_, y1_ + r, x0_, y0_ + r}};
+    if (x1_ - x0_ >= y1_ - y0_) return {{x0_, y0_ - r, x1_, y1_ - r}, {x1_, y1_ + r, x0_, y0_ + r}};
     return {{x1_ + r, y0_, x1_ + r, y1_}, {x0_ - r, y1_, x0_ - r, y0_}};
 }
 
@@ -105,8 +103,8 @@ std::vector<ObstacleRow> rows_of(const ObstacleList& obstacles, const Box& box) 
             {"fixed disc", ++number, disc.x, disc.y, 2 * std::numbers::pi * disc.radius});
     number = 0;
     for (const Segment& one : obstacles.segments)
-        rows.push_back({"segment", ++number, (one.x0 + one.x1) / 2, (one.y0 + one.y1) / 2,
-                        length_of(one)});
+        rows.push_back(
+            {"segment", ++number, (one.x0 + one.x1) / 2, (one.y0 + one.y1) / 2, length_of(one)});
     number = 0;
     for (const Polygon& polygon : obstacles.polygons) {
         ObstacleRow row{"polygon", ++number};

@@ -127,8 +127,8 @@ Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const 
             std::max(y, y_end) + reach};
 }
 
-/// False for cells that an oblique line or an arc's circle does not touch. Cells at the border also stand
-/// for the places beyond.
+/// False for cells that an oblique line or an arc's circle does not touch. Cells at the border also
+/// stand for the places beyond.
 bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
@@ -137,8 +137,7 @@ bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row
                  dy = (static_cast<double>(row) + 0.5) * rows_.width - body.y;
     const double distance = body.is_arc ? std::sqrt(dx * dx + dy * dy) - body.radius
                                         : body.ux * dy - body.uy * dx;
-    return std::fabs(distance) <=
-           largest_radius_ + std::max(columns_.width, rows_.width) + margin_;
+    return std::fabs(distance) <= largest_radius_ + std::max(columns_.width, rows_.width) + margin_;
 }
 
 void Obstacles::sort_into_cells() {
@@ -347,8 +346,8 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const Loss loss = guard_.loss(0.5 * (1 - restitution_ * restitution_) * square, square,
                                   is_guarded);
     if (!rubbing_.acts()) return loss;
-    const double change = rubbing_.rub(along - slides * rubbing_.velocity(), std::fabs(away - normal),
-                                       turning);
+    const double change = rubbing_.rub(along - slides * rubbing_.velocity(),
+                                       std::fabs(away - normal), turning);
     disc.vx -= change * ny;
     disc.vy += change * nx;
     return loss;

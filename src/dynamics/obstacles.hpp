@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that stand fixed in a box: discs, straight segments, and arcs of circles, both with a disc
-// of radius 0 at either end. A disc that comes to one is reflected from it, as from a wall. A box of
-// another shape than a rectangle has arcs and segments for its walls (container.hpp).
+// of radius 0 at either end. A disc that comes to one is reflected from it, as from a wall. A box
+// of another shape than a rectangle has arcs and segments for its walls (container.hpp).
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
 // predicate of pairs; a quartic under gravity: falling_contact.hpp), a segment if it is r from
-// its line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function of the stored state alone. A grid of cells
-// holds the bodies for good; a flight searches the cells on its way, up to its first contact. In a
-// periodic box the grid repeats itself, and a body is also in the cells that its images reach
-// into. A stored state may be many boxes away: bodies are shifted to it by whole box lengths.
+// its line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function
+// of the stored state alone. A grid of cells holds the bodies for good; a flight searches the cells
+// on its way, up to its first contact. In a periodic box the grid repeats itself, and a body is
+// also in the cells that its images reach into. A stored state may be many boxes away: bodies are
+// shifted to it by whole box lengths.
 #pragma once
 
 #include <array>
@@ -51,8 +52,8 @@ struct ContactTimes {
 /// A place where a disc touches an obstacle.
 struct ObstacleTouch {
     std::uint32_t row = 0; ///< of `rows_of` (container.hpp)
-    double nx = 0, ny = 0;  ///< away from the body
-    double x = 0, y = 0;    ///< the place, from the row's centre
+    double nx = 0, ny = 0; ///< away from the body
+    double x = 0, y = 0;   ///< the place, from the row's centre
 };
 
 class Obstacles {
@@ -125,7 +126,7 @@ private:
     double line_delay(const Body& line, double radius, double dx, double dy, double wx,
                       double wy) const;
     struct Normal {
-        double x, y; ///< away from the body
+        double x, y;    ///< away from the body
         bool is_hollow; ///< the inner face of an arc
     };
     static Normal normal_of(const Body& body, double dx, double dy);

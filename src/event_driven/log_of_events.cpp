@@ -15,11 +15,12 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
         if (this->wall_followers_.are_any() && event.is_wall) {
             DiscState after;
             after.vx = event.vx, after.vy = event.vy;
-            this->wall_followers_.note() =
-                event.q <= 1 ? wall_event(frame, event.q, mass, after, event.gained_x,
-                                          event.gained_y, per_step, false)
-                             : obstacle_event(frame, event.touch, mass, after, event.gained_x,
-                                              event.gained_y, per_step);
+            this->wall_followers_.note() = event.q <= 1 ? wall_event(frame, event.q, mass, after,
+                                                                     event.gained_x, event.gained_y,
+                                                                     per_step, false)
+                                                        : obstacle_event(frame, event.touch, mass,
+                                                                         after, event.gained_x,
+                                                                         event.gained_y, per_step);
         }
         if (this->log_)
             this->log_->push_back(

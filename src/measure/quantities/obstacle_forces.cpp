@@ -169,32 +169,31 @@ bool measures_forces(const SceneParameters& s) { return measures(s, "obstacle_fo
 } // namespace
 
 MeasuredQuantity obstacle_forces_quantity() {
-    return {
-        {.name = "obstacle_forces",
-         .help = "Force and torque of discs on each obstacle, and on the wall of a box.shape.",
-         .has_history = true,
-         .rules = {{.one = "\"obstacle_forces\"",
-                    .other = "a box without obstacles",
-                    .why = "there is nothing to push",
-                    .keys = {quantities_key},
-                    .is_broken =
-                        [](const SceneParameters& s) {
-                            return measures_forces(s) && !s.effects.obstacles.are_any();
-                        }},
-                   {.one = "\"obstacle_forces\"",
-                    .other = "more than 10,000 obstacles",
-                    .why = "its tables have a row for each of them",
-                    .keys = {quantities_key},
-                    .is_broken =
-                        [](const SceneParameters& s) {
-                            const ObstacleList& o = s.effects.obstacles;
-                            return measures_forces(s) &&
-                                   o.discs.size() + o.segments.size() + o.polygons.size() +
-                                           o.arcs.size() >
-                                       most_obstacles;
-                        }}}},
-        make_measurement<ObstacleForces>,
-        {"obstacle_forces_history"}};
+    return {{.name = "obstacle_forces",
+             .help = "Force and torque of discs on each obstacle, and on the wall of a box.shape.",
+             .has_history = true,
+             .rules = {{.one = "\"obstacle_forces\"",
+                        .other = "a box without obstacles",
+                        .why = "there is nothing to push",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const SceneParameters& s) {
+                                return measures_forces(s) && !s.effects.obstacles.are_any();
+                            }},
+                       {.one = "\"obstacle_forces\"",
+                        .other = "more than 10,000 obstacles",
+                        .why = "its tables have a row for each of them",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const SceneParameters& s) {
+                                const ObstacleList& o = s.effects.obstacles;
+                                return measures_forces(s) && o.discs.size() + o.segments.size() +
+                                                                     o.polygons.size() +
+                                                                     o.arcs.size() >
+                                                                 most_obstacles;
+                            }}}},
+            make_measurement<ObstacleForces>,
+            {"obstacle_forces_history"}};
 }
 
 } // namespace carrom

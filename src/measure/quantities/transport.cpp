@@ -209,8 +209,7 @@ std::vector<MeasuredTable> Transport::tables() const {
          "conductivity_error", "shear_slope", "bulk_slope", "conductivity_slope"},
         {}};
     if (n_samples_ < 2) return {table};
-    const double kT = temperature_ / static_cast<double>(n_samples_ - 1),
-                 area = run_.scene.area();
+    const double kT = temperature_ / static_cast<double>(n_samples_ - 1), area = run_.scene.area();
     const std::array<double, 3> scale = {area * kT, area * kT, area * kT * kT};
     std::array<double, 3> before{};
     double time_before = 0;

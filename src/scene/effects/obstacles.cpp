@@ -213,16 +213,15 @@ void check_obstacles(const SceneDraft& draft) {
     draft.refuse_rows("effects.obstacles.segments", [&](const Numbers& n, std::size_t) {
         return segment_problem(n[0], n[1], n[2], n[3]);
     });
-    draft.refuse_rows("effects.obstacles.polygons",
-                      [&](const Numbers& n, std::size_t) -> std::string {
-                          if (n.size() % 2 != 0)
-                              return fmt::format("{} numbers are no pairs x, y", n.size());
-                          for (const Segment& edge : edges_of(n)) {
-                              std::string text = segment_problem(edge.x0, edge.y0, edge.x1, edge.y1);
-                              if (!text.empty()) return text;
-                          }
-                          return {};
-                      });
+    draft.refuse_rows(
+        "effects.obstacles.polygons", [&](const Numbers& n, std::size_t) -> std::string {
+            if (n.size() % 2 != 0) return fmt::format("{} numbers are no pairs x, y", n.size());
+            for (const Segment& edge : edges_of(n)) {
+                std::string text = segment_problem(edge.x0, edge.y0, edge.x1, edge.y1);
+                if (!text.empty()) return text;
+            }
+            return {};
+        });
     check_arcs(draft);
     check_shape(draft);
 }
@@ -241,8 +240,7 @@ std::string summary_of_obstacles(const Effects& effects) {
                       : all.shape == BoxShape::stadium ? "a stadium's wall"
                                                        : "")})
         if (!part.empty()) text += (text.empty() ? "" : " and ") + part;
-    return text +
-           (all.restitution < 1 ? fmt::format(" of restitution {:g}", all.restitution) : "");
+    return text + (all.restitution < 1 ? fmt::format(" of restitution {:g}", all.restitution) : "");
 }
 
 } // namespace

@@ -63,9 +63,9 @@ double touch_by_steps(const DiscState& disc, const Gravity& g, double radius, co
         double least = 1e9;
         for (const double end : {arc.from, arc.to}) {
             const double a = end * std::numbers::pi / 180;
-            least = std::min(least, std::hypot(x - arc.radius * std::cos(a),
-                                               y - arc.radius * std::sin(a)) -
-                                        radius);
+            least = std::min(
+                least,
+                std::hypot(x - arc.radius * std::cos(a), y - arc.radius * std::sin(a)) - radius);
         }
         return least;
     };
