@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from effects import options_of, shrink
-from flows import BLUE, DOTS, GREY, WIDTH, carrom, run
+from flows import BLUE, DOTS, GREY, TOP, WIDTH, carrom, run
 
 
 def round_box(folder):
@@ -24,26 +24,27 @@ def round_box(folder):
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.05])
     carrom.plot.frame(result, 2000, ax=left, bar=False)
     far = np.concatenate([np.hypot(*(frame.x - 50).T) for frame in result.frames[20:]])
-    edges = np.linspace(0, 50, 51)
+    edges = np.append(np.linspace(0, 40, 9), np.linspace(40.2, 50, 50))
     area = np.pi * np.diff(edges**2) * len(result.frames[20:])
     right.plot((edges[1:] + edges[:-1]) / 2, np.histogram(far, edges)[0] / area, "o-", color=BLUE,
                markersize=3)
     right.axvline(50 - result.report["radius"], color=GREY, linewidth=0.8)
-    right.set(xlabel="distance from the centre", ylabel="discs per area", ylim=(0, None))
+    right.set(xlabel="distance from the centre", ylabel="discs per area", ylim=(0, None), xlim=(30, 50))
     return figure
 
 
 def stadium(folder):
     """Points at three steps, and those of a circle beside them."""
     result = run("stadium", folder, [50, 2000])
-    circle = run("stadium", folder / "circle", [50, 2000], box__size=50, box__shape="round",
-                 discs__region=[10, 24, 11, 25],
-                 discs__streams=[{"region": [0, 0, 50, 50], "velocity": [0.8, 0.6]}])
+    circle = carrom.run(TOP / "inputs" / "stadium.toml", folder=folder / "circle", steps=2000,
+                        progress=False, output__trajectory__every_steps=50, box__size=50,
+                        box__shape="round", discs__region=[10, 24, 11, 25],
+                        discs__streams=[{"region": [0, 0, 50, 50], "velocity": [0.8, 0.6]}])
     figure = plt.figure(figsize=(WIDTH, 4.6), layout="constrained")
     axes = figure.subplots(2, 2, width_ratios=[2, 1])
     for row, step in zip(axes, (100, 2000)):
         for ax, one in zip(row, (result, circle)):
-            carrom.plot.frame(one, step, ax=ax, bar=False, colour="vx", magnify=2e6)
+            carrom.plot.frame(one, step, ax=ax, bar=False, colour="vx", magnify=1.6e6)
     return figure
 
 

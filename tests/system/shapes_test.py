@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boxes that are no rectangles, arcs, polygons and points: what billiards keep, what walls push, the
+"""Boxes that are no rectangles, arcs, polygons and points: what billiards keep, what discs push, the
 same bits on any shape of the machine, and what is refused.
 """
 import csv
@@ -105,8 +105,8 @@ class Shapes(ProgramTest):
                 self.run_program(2, "run", "scene.toml", "--steps", 40, "--check")
 
     def test_the_push_on_a_round_wall_is_the_virial_of_the_gas(self):
-        """The virial theorem for a smooth wall at the distance R of centres: push R = 2 N kT + sum of
-        impulse times distance of pairs = P A 2, with the report's P, which has no wall in it.
+        """The virial theorem for a smooth wall that centres touch at the distance R: push R is
+        2 N kT and the sum of impulse times distance of pairs, 2 P A with the report's P.
         """
         self.write("gas.toml", ROUND.format(discs="count = 80\nradius = 0.5\ntemperature = 0.04",
                                             method="event-driven", effects=""))
@@ -115,10 +115,46 @@ class Shapes(ProgramTest):
         report, (wall,) = self.report("r.json"), self.table("obstacle_forces")
         self.assertAlmostEqual(wall["length"], 20 * math.pi, delta=1e-6)
         virial = report["pressure"]["value"] * math.pi * 100
+        # P leaves the wall out, and so does this.
         self.assertLess(abs(wall["push"] * 9.5 / 2 / virial - 1), 0.01)
         self.assertLess(abs(wall["fx"]), 5 * wall["fx_error"])
         self.assertLess(abs(wall["torque"]), 1e-12)
         self.assertAlmostEqual(report["packing"], 80 * 0.25 / 100, delta=1e-9)
+
+    def test_a_beam_pushes_a_disc_by_free_molecular_drag(self):
+        """Points that fly to the right and are reflected: n v^2 8 R / 3; exactly what they lose."""
+        n, v, r = 40_000, 2, 5
+        self.write("beam.toml", f"""
+[box]
+size = 100
+left.kind = "periodic"
+right.kind = "periodic"
+bottom.kind = "periodic"
+top.kind = "periodic"
+[discs]
+count = {n}
+radius = 0
+speed = 0
+streams = [{{ region = [0, 0, 100, 100], velocity = [{v}, 0] }}]
+[time]
+method = "event-driven"
+steps = 20
+[effects.contact]
+kind = "none"
+[effects.obstacles]
+discs = [[60, 50, {r}], [60, 80, 0.5]]
+""")
+        self.run_program(2, "run", "beam.toml", "-o", "run", "--report", "r.json", "--set",
+                         'output.measurements.quantities=["obstacle_forces"]', "--set",
+                         "output.measurements.every_steps=10")
+        large, small = self.table("obstacle_forces")
+        known = n / (1e4 - math.pi * (r**2 + 0.25)) * v**2 * 8 / 3 * r
+        self.assertLess(abs(large["fx"] / known - 1), 0.06) # some 1600 points
+        self.assertLess(abs(large["fy"]), 0.06 * known)
+        self.assertLess(abs(large["torque"]), 1e-9)
+        momentum = self.report("r.json")["momentum"]
+        self.assertAlmostEqual((large["fx"] + small["fx"]) * 20, n * v - momentum[0], delta=1e-7)
+        self.assertAlmostEqual((large["fy"] + small["fy"]) * 20, -momentum[1], delta=1e-7)
 
     def test_an_obstacle_carries_the_weight_of_what_lies_on_it(self):
         """One disc on a segment, which bounces at first, and one on an arc's inner face."""
