@@ -44,7 +44,7 @@ def stadium(folder):
     axes = figure.subplots(2, 2, width_ratios=[2, 1])
     for row, step in zip(axes, (100, 2000)):
         for ax, one in zip(row, (result, circle)):
-            carrom.plot.frame(one, step, ax=ax, bar=False, colour="vx", magnify=1.6e6)
+            carrom.plot.frame(one, step, ax=ax, bar=False, colour="vx", magnify=3e6)
     return figure
 
 

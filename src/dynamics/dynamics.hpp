@@ -242,9 +242,10 @@ public:
                    : obstacles_->first_contact(disc, bodies_.of(disc).radius, times);
     }
     /// Where a disc touches the obstacle that it comes to at `time`.
-    ObstacleTouch touch(DiscState disc, std::uint32_t body, double time) const {
-        advance(disc, time);
-        return obstacles_->touch(disc, body, time, bodies_.at(disc, time).radius);
+    ObstacleTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
+        DiscState there = disc;
+        advance(there, time);
+        return obstacles_->touch(there, body, time, bodies_.at(there, time).radius);
     }
     /// Reflects the disc from the obstacle that it comes to at `time`.
     Loss bounce_off(DiscState& disc, std::uint32_t body, double time, double since,
