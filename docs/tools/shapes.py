@@ -34,7 +34,7 @@ def round_box(folder):
 
 
 def stadium(folder):
-    """Points at three steps, and those of a circle beside them."""
+    """Points at two steps, and those of a circle beside them."""
     result = run("stadium", folder, [50, 2000])
     circle = carrom.run(TOP / "inputs" / "stadium.toml", folder=folder / "circle", steps=2000,
                         progress=False, output__trajectory__every_steps=50, box__size=50,
@@ -45,11 +45,12 @@ def stadium(folder):
     for row, step in zip(axes, (100, 2000)):
         for ax, one in zip(row, (result, circle)):
             carrom.plot.frame(one, step, ax=ax, bar=False, colour="vx", magnify=3e6)
+            ax.set_title(f"step {step}")
     return figure
 
 
 def drum(folder):
-    """The heap at four steps, by spin."""
+    """The discs at the start and at the end, by spin."""
     result = run("drum", folder, [10, 1500])
     figure = plt.figure(figsize=(WIDTH, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2)

@@ -40,7 +40,11 @@ def run(program, settings, names=()):
 
 
 def wall(program, is_short):
-    """A disc's centre presses a circle of the radius R - r, so the force is over that circle."""
+    """A disc's centre presses a circle of the radius R - r, so the force is over that circle.
+
+    A bent wall presses by its surface tension over the radius more than a flat one. What is known is
+    given an error of a tenth of a diameter over the radius for that.
+    """
     kt, count, cells, samples = 0.01, 800 if is_short else 3000, 24, 100
     blocks = 8 if is_short else 40
     for packing in (0.3,) if is_short else (0.1, 0.2, 0.3, 0.4):
@@ -67,7 +71,7 @@ def wall(program, is_short):
         below = literature.factor((density - spread) * math.pi / 4)
         yield {"packing": packing, "packing_in_middle": density * math.pi / 4, "Z": found,
                "Z_error": found * math.hypot(error / pressure, spread / density), "Z_known": known,
-               "Z_known_error": abs(known - below)}
+               "Z_known_error": math.hypot(known - below, 0.1 / radius * known)}
 
 
 def part_of(x, y):
@@ -101,7 +105,7 @@ def stadium(program, is_short):
 
 
 # What makes the rows; the largest errors, over what is known, of a short and of the whole study.
-STUDIES = {"wall": (wall, 0.05, 0.01), "stadium": (stadium, 0.5, 0.2)}
+STUDIES = {"wall": (wall, 0.05, 0.02), "stadium": (stadium, 0.5, 0.2)}
 
 if __name__ == "__main__":
     literature.main(__doc__, STUDIES)
