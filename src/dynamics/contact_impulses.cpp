@@ -54,7 +54,9 @@ struct ContactImpulses::Part {
 
 ContactImpulses::ContactImpulses(const Box& box, const Effects& effects,
                                  const SpeciesTable& species, double interval)
-    : finder_(box, effects), effects_(effects), species_(species), interval_(interval),
+    : finder_(box, effects), effects_(effects), species_(species),
+      rows_(rows_of(effects.obstacles, box)),
+      rows_of_pieces_(rows_of_pieces(effects.obstacles, box)), interval_(interval),
       pull_(std::hypot(effects.gravity.x, effects.gravity.y) * interval),
       fall_x_((0.5 * effects.gravity.x) * interval), fall_y_((0.5 * effects.gravity.y) * interval),
       rest_gap_(pull_ * interval / 8),
@@ -88,7 +90,8 @@ LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
                                          std::span<const HeapDisc> discs,
                                          std::span<const Body> bodies) const {
     LastingForces forces;
-    for (std::size_t side = 0; side < 4; ++side) forces.walls[side].side = side;
+    forces.walls.resize(WallImpulse::n_sides + rows_.size());
+    for (std::size_t k = 0; k < forces.walls.size(); ++k) forces.walls[k].side = k;
     for (const Contact& contact : contacts) {
         if (!(contact.normal > 0)) continue;
         const HeapDisc& a = discs[contact.a];
@@ -110,9 +113,25 @@ LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
             wall.normal += contact.normal;
             wall.along += contact.body < 2 ? pair.iy : pair.ix;
             wall.energy += pair.ix * pair.p_vx + pair.iy * pair.p_vy;
+        } else {
+            const auto piece = static_cast<std::size_t>(contact.body) - WallImpulse::n_sides;
+            add_obstacle(forces.walls[WallImpulse::n_sides + rows_of_pieces_[piece]], contact, a,
+                         pair);
         }
     }
     return forces;
+}
+
+void ContactImpulses::add_obstacle(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
+                                   const PairImpulse& given) const {
+    const ObstacleRow& row = rows_[wall.side - WallImpulse::n_sides];
+    const double radius = species_.of(disc.id).radius, x = disc.x + radius * contact.nx - row.x,
+                 y = disc.y + radius * contact.ny - row.y;
+    wall.normal += contact.normal;
+    wall.ix += given.ix;
+    wall.iy += given.iy;
+    wall.torque += y * given.ix - x * given.iy;
+    wall.energy += given.ix * given.p_vx + given.iy * given.p_vy;
 }
 
 std::vector<KeptImpulse> ContactImpulses::kept_of(std::span<const Contact> contacts,

@@ -26,6 +26,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/container.hpp"
 #include "dynamics/lasting_contacts.hpp"
 #include "dynamics/species.hpp"
 #include "dynamics/sync_effect.hpp"
@@ -47,8 +48,8 @@ struct KeptImpulse {
 
 struct LastingForces {
     std::vector<PairImpulse> pairs;
-    std::array<WallImpulse, 4> walls{};
-    int n_sweeps = 0; ///< the most of any connected component
+    std::vector<WallImpulse> walls; ///< the four sides, then the rows of obstacles
+    int n_sweeps = 0;               ///< the most of any connected component
 };
 
 class ContactImpulses {
@@ -74,6 +75,8 @@ private:
     /// What contacts with an impulse give, where `discs` have their velocities of before.
     LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
                             std::span<const Body> bodies) const;
+    void add_obstacle(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
+                      const PairImpulse& given) const;
     static std::vector<KeptImpulse> kept_of(std::span<const Contact> contacts,
                                             std::span<const HeapDisc> discs);
     void set_velocities(std::span<const Contact> contacts, std::span<const Body> bodies,
@@ -90,6 +93,8 @@ private:
     LastingContactFinder finder_;
     Effects effects_;
     SpeciesTable species_;
+    std::vector<ObstacleRow> rows_;             ///< of obstacles
+    std::vector<std::uint32_t> rows_of_pieces_; ///< of contacts' bodies, less the sides
     double interval_, pull_;
     double fall_x_, fall_y_; ///< g T / 2
     double rest_gap_;

@@ -247,6 +247,12 @@ public:
                    ? ObstacleContact{}
                    : obstacles_->first_contact(disc, bodies_.of(disc).radius, times);
     }
+    /// Where a disc touches the obstacle that it comes to at `time`.
+    ObstacleTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
+        DiscState there = disc;
+        advance(there, time);
+        return obstacles_->touch(there, body, time, bodies_.at(there, time).radius);
+    }
     /// Reflects the disc from the obstacle that it comes to at `time`.
     Loss bounce_off(DiscState& disc, std::uint32_t body, double time, double since,
                     double* spin = nullptr) const {

@@ -56,8 +56,8 @@ inline constexpr auto boundary_words = std::to_array<std::string_view>(
 struct Surface {
     double tangential_restitution = -1; ///< as of rough discs; -1 is smooth
     double friction = std::numeric_limits<double>::infinity();
-    double velocity = 0; ///< of sides along +x or +y, of obstacles counterclockwise; thermal sides
-                         ///< have one, too
+    double velocity = 0; ///< of sides along +x or +y, of obstacles counterclockwise around
+                         ///< themselves, of arcs around their centres; thermal sides have one, too
 
     /// Whether discs feel the surface go by.
     bool rubs() const { return tangential_restitution != -1 && friction != 0; }
@@ -119,13 +119,36 @@ struct Segment {
     friend bool operator==(const Segment&, const Segment&) = default;
 };
 
+/// Part of a circle, without thickness: from one angle on, counterclockwise, to another, in degrees
+/// from the direction of +x. All of it by default.
+struct Arc {
+    double x = 0, y = 0, radius = 0;
+    double from = 0, to = 360;
+
+    bool is_whole() const { return to - from >= 360; }
+    friend bool operator==(const Arc&, const Arc&) = default;
+};
+
+/// The coordinates of its corners, x0, y0, x1, y1, ..., the last joined with the first.
+using Polygon = std::vector<double>;
+
+/// What discs move in (container.hpp).
+enum class BoxShape { rectangle, round, stadium };
+
 struct ObstacleList {
     std::vector<FixedDisc> discs;
     std::vector<Segment> segments;
     double restitution = 1;
     Surface surface{};
+    std::vector<Arc> arcs{};
+    std::vector<Polygon> polygons{};
+    BoxShape shape = BoxShape::rectangle; ///< other boxes have arcs and segments for walls
 
-    bool are_any() const { return !discs.empty() || !segments.empty(); }
+    bool has_shape() const { return shape != BoxShape::rectangle; }
+    bool are_any() const {
+        return !discs.empty() || !segments.empty() || !arcs.empty() || !polygons.empty() ||
+               has_shape();
+    }
     friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
 };
 

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "dynamics/arc_contact.hpp"
+#include "dynamics/container.hpp"
+
 namespace carrom {
 
 namespace {
@@ -152,8 +155,9 @@ void LastingContactFinder::add_pairs(Search& search) const {
     }
 }
 
-/// Walls that heat or move hold nothing.
+/// Walls that heat or move hold nothing. Discs in a box of another shape do not meet its sides.
 void LastingContactFinder::add_walls(Search& search) const {
+    if (effects_.obstacles.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
         const Boundary& wall = effects_.boundaries[static_cast<std::size_t>(side)];
         if (wall.kind != BoundaryKind::wall) continue;
@@ -192,7 +196,12 @@ void LastingContactFinder::add_obstacles(Search& search) const {
                                            body.y - search.discs[i].y, body.radius);
                             });
     }
-    for (const Segment& line : obstacles.segments) {
+    const std::vector<Segment> lines = all_segments(obstacles, box_);
+    const std::size_t n_turning = Container(obstacles.shape, box_).segments().size();
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const Segment& line = lines[k];
+        // The wall of a box turns as its arcs do.
+        contact.velocity = obstacles.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,
                             std::min(line.y0, line.y1) - reach, std::max(line.y0, line.y1) + reach,
@@ -203,6 +212,28 @@ void LastingContactFinder::add_obstacles(Search& search) const {
                                 search.add(contact, x - disc.x, y - disc.y, 0);
                             });
     }
+    for (const Arc& arc : all_arcs(obstacles, box_)) add_arc(search, arc, contact);
+}
+
+/// The inner face of an arc that turns counterclockwise passes by clockwise, as seen from there.
+void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
+    ++contact.body;
+    const double far = arc.radius + search.largest_radius + search.widest_gap,
+                 velocity = effects_.obstacles.surface.velocity;
+    const ArcSpan span = span_of(arc);
+    const PointOfArc from = point_of(arc, arc.from), to = point_of(arc, arc.to);
+    search.in_rectangle(arc.x - far, arc.x + far, arc.y - far, arc.y + far, [&](std::uint32_t i) {
+        const double dx = search.discs[i].x - arc.x, dy = search.discs[i].y - arc.y,
+                     distance = std::sqrt(dx * dx + dy * dy);
+        contact.a = i;
+        contact.velocity = distance < arc.radius ? velocity : -velocity;
+        if (span.holds(dx, dy, distance)) {
+            const double far_off = distance > 0 ? arc.radius / distance - 1 : 0;
+            return search.add(contact, far_off * dx, far_off * dy, 0);
+        }
+        for (const PointOfArc& end : {from, to})
+            search.add(contact, end.x - search.discs[i].x, end.y - search.discs[i].y, 0);
+    });
 }
 
 } // namespace carrom

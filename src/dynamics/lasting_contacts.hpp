@@ -30,7 +30,7 @@ struct LastingContact {
 
     std::uint32_t a = 0, b = fixed_body; ///< places in the list of discs
     std::int64_t body = -1; ///< of fixed bodies: the side of the box, or four more than the number
-                            ///< of the obstacle, segments after discs
+                            ///< of the obstacle, segments after discs, then arcs
     double nx = 0, ny = 0;
     double gap = 0;      ///< between the surfaces
     double distance = 0; ///< between the centres of a pair
@@ -53,6 +53,7 @@ private:
     void add_pairs(Search& search) const;
     void add_walls(Search& search) const;
     void add_obstacles(Search& search) const;
+    void add_arc(Search& search, const Arc& arc, LastingContact& contact) const;
 
     Box box_;
     Effects effects_;

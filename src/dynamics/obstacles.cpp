@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "dynamics/falling_contact.hpp"
 #include "dynamics/never.hpp"
 #include "dynamics/pair_contact.hpp"
@@ -16,6 +14,10 @@ namespace {
 
 /// A disc in the box may touch this many images of a body: its own one and eight around.
 constexpr std::uint32_t n_images = 9;
+
+/// A disc leaves the inner face of an arc at this slope at least. Along the face it would meet it
+/// at all times. That changes energies by less than their rounding over a thousand collisions.
+constexpr double least_slope = 1e-6;
 
 /// The first time at which a distance that begins with `rate` and is pulled at comes
 /// down to 0. On the body's own `side` a distance that is not above 0 counts from
@@ -39,17 +41,10 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
     : restitution_(effects.obstacles.restitution), guard_(effects, largest_radius),
       rubbing_(effects.obstacles.surface, effects.contact),
       gravity_{effects.acceleration().x, effects.acceleration().y},
-      n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box)),
-      largest_radius_(largest_radius) {
-    for (const FixedDisc& disc : effects.obstacles.discs)
-        bodies_.push_back({disc.x, disc.y, disc.radius});
-    for (const Segment& segment : effects.obstacles.segments) {
-        const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0,
-                     length = std::sqrt(dx * dx + dy * dy);
-        bodies_.push_back({segment.x0, segment.y0, 0, dx / length, dy / length, length});
-        bodies_.push_back({segment.x0, segment.y0, 0});
-        bodies_.push_back({segment.x1, segment.y1, 0});
-    }
+      n_fixed_discs_(effects.obstacles.discs.size()), container_(effects.obstacles.shape, box),
+      periods_(effects.periods(box)), largest_radius_(largest_radius),
+      rows_of_bodies_(rows_of(effects.obstacles, box)) {
+    add_bodies(effects.obstacles, box);
     const auto n = static_cast<double>(bodies_.size());
     // Nearly square cells: as many as for a square box, with more of them along the longer side.
     const double stretch = std::sqrt(box.x / box.y);
@@ -63,6 +58,49 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
     // Far above the rounding of places and times.
     margin_ = 1e-6 * std::max(columns_.width, rows_.width) + 1e-9 * box.longest();
     sort_into_cells();
+}
+
+void Obstacles::add_line(const Segment& segment, double slides) {
+    const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0,
+                 length = std::sqrt(dx * dx + dy * dy);
+    bodies_.push_back({segment.x0, segment.y0, 0, dx / length, dy / length, length, slides});
+    bodies_.push_back({segment.x0, segment.y0, 0});
+    bodies_.push_back({segment.x1, segment.y1, 0});
+}
+
+/// The surface of a free end does not slide, because an arc turns around its centre. Ends in the
+/// wall of a box are met from inside.
+void Obstacles::add_arc(const Arc& arc, bool is_of_box) {
+    Body face{arc.x, arc.y, arc.radius};
+    face.is_arc = true;
+    face.span = span_of(arc);
+    bodies_.push_back(face);
+    if (arc.is_whole()) return;
+    for (const double angle : {arc.from, arc.to}) {
+        const PointOfArc end = point_of(arc, angle);
+        bodies_.push_back({end.x, end.y, 0});
+        bodies_.back().slides = is_of_box ? -1 : 0;
+    }
+}
+
+void Obstacles::add_bodies(const ObstacleList& obstacles, const Box& box) {
+    for (const FixedDisc& disc : obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius});
+    for (const Segment& segment : obstacles.segments) {
+        begin_row();
+        add_line(segment, 1);
+    }
+    for (const Polygon& polygon : obstacles.polygons) {
+        begin_row();
+        for (const Segment& edge : edges_of(polygon)) add_line(edge, 1);
+    }
+    for (const Arc& arc : obstacles.arcs) {
+        begin_row();
+        add_arc(arc, false);
+    }
+    if (!obstacles.has_shape()) return;
+    begin_row();
+    for (const Segment& segment : container_.segments()) add_line(segment, -1);
+    for (const Arc& arc : container_.arcs()) add_arc(arc, true);
 }
 
 std::int64_t Obstacles::CellAxis::cell_of(double place) const {
@@ -89,16 +127,17 @@ Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const 
             std::max(y, y_end) + reach};
 }
 
-/// False for cells that an oblique line does not touch. Cells at the border also stand
-/// for the places beyond.
+/// False for cells that an oblique line or an arc's circle does not touch. Cells at the border also
+/// stand for the places beyond.
 bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
-    if (!body.is_line() || is_at_border) return true;
+    if (!(body.is_line() || body.is_arc) || is_at_border) return true;
     const double dx = (static_cast<double>(column) + 0.5) * columns_.width - body.x,
                  dy = (static_cast<double>(row) + 0.5) * rows_.width - body.y;
-    return std::fabs(body.ux * dy - body.uy * dx) <=
-           largest_radius_ + std::max(columns_.width, rows_.width) + margin_;
+    const double distance = body.is_arc ? std::sqrt(dx * dx + dy * dy) - body.radius
+                                        : body.ux * dy - body.uy * dx;
+    return std::fabs(distance) <= largest_radius_ + std::max(columns_.width, rows_.width) + margin_;
 }
 
 void Obstacles::sort_into_cells() {
@@ -195,6 +234,12 @@ double Obstacles::contact_time(const DiscState& disc, const Body& body, double r
                  dy = ((disc.y + fallen(1, disc.tau)) - body.y) - shift.y;
     const double wx = disc.vx + gravity_[0] * disc.tau, wy = disc.vy + gravity_[1] * disc.tau;
     if (body.is_line()) return disc.tau + line_delay(body, radius, dx, dy, wx, wy);
+    if (body.is_arc) {
+        const ArcFlight flight{dx, dy, wx, wy};
+        return disc.tau + (falls ? falling_arc_contact(flight, gravity_[0], gravity_[1], radius,
+                                                       body.radius, body.span)
+                                 : arc_contact(flight, radius, body.radius, body.span));
+    }
     const double reach = body.radius + radius;
     if (falls) return disc.tau + falling_contact(dx, dy, wx, wy, gravity_[0], gravity_[1], reach);
     const double delay = contact_delay(-dx, -dy, -wx, -wy, reach, never);
@@ -252,6 +297,29 @@ ObstacleContact Obstacles::first_contact(const DiscState& disc, double radius,
     return best;
 }
 
+Obstacles::Normal Obstacles::normal_of(const Body& body, double dx, double dy) {
+    if (body.is_line()) {
+        const double side = body.ux * dy - body.uy * dx < 0 ? -1 : 1;
+        return {-side * body.uy, side * body.ux, false};
+    }
+    const double distance = std::sqrt(dx * dx + dy * dy);
+    if (body.is_arc && distance < body.radius) return {-(dx / distance), -(dy / distance), true};
+    return {dx / distance, dy / distance, false};
+}
+
+ObstacleTouch Obstacles::touch(const DiscState& disc, std::uint32_t code, double time,
+                               double radius) const {
+    const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
+    const Entry image = image_of(code, x, y);
+    const Body& at = bodies_[image.body];
+    const Shift shift = shift_of(image);
+    const Normal normal = normal_of(at, (x - at.x) - shift.x, (y - at.y) - shift.y);
+    const std::size_t row = row_of(image.body);
+    return {static_cast<std::uint32_t>(row), normal.x, normal.y,
+            (x - radius * normal.x) - shift.x - rows_of_bodies_[row].x,
+            (y - radius * normal.y) - shift.y - rows_of_bodies_[row].y};
+}
+
 Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double since,
                         const Turning& turning) const {
     const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
@@ -259,21 +327,18 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const Body& at = bodies_[image.body];
     const Shift shift = shift_of(image);
     const double dx = (x - at.x) - shift.x, dy = (y - at.y) - shift.y;
-    double nx, ny; // away from the body
-    if (at.is_line()) {
-        const double side = at.ux * dy - at.uy * dx < 0 ? -1 : 1;
-        nx = -side * at.uy;
-        ny = side * at.ux;
-    } else {
-        const double distance = std::sqrt(dx * dx + dy * dy);
-        nx = dx / distance;
-        ny = dy / distance;
-    }
+    const auto [nx, ny, is_hollow] = normal_of(at, dx, dy);
+    const double slides = is_hollow ? -at.slides : at.slides;
     const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
     // Like at walls, a disc that is pulled back stays away for a contact at least.
-    const double pull = -(nx * gravity_[0] + ny * gravity_[1]);
+    double pull = -(nx * gravity_[0] + ny * gravity_[1]);
+    const double along = nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
+    if (is_hollow) {
+        if (restitution_ < 1) pull += along * along / (at.radius - turning.radius);
+        away = std::max(away, least_slope * std::fabs(along));
+    }
     if (pull > 0) away = std::max(away, guard_.least_departure(pull, turning.radius));
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
@@ -281,12 +346,24 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const Loss loss = guard_.loss(0.5 * (1 - restitution_ * restitution_) * square, square,
                                   is_guarded);
     if (!rubbing_.acts()) return loss;
-    const double along = nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
-    const double change = rubbing_.rub(along - rubbing_.velocity(), std::fabs(away - normal),
-                                       turning);
+    const double change = rubbing_.rub(along - slides * rubbing_.velocity(),
+                                       std::fabs(away - normal), turning);
     disc.vx -= change * ny;
     disc.vy += change * nx;
     return loss;
+}
+
+/// Negative infinity where an arc is in another direction: its ends are bodies of their own.
+double Obstacles::overlap_of(const Body& body, double x, double y, double radius) const {
+    if (body.is_arc) {
+        const double dx = x - body.x, dy = y - body.y, distance = std::sqrt(dx * dx + dy * dy);
+        return body.span.holds(dx, dy, distance) ? radius - std::fabs(distance - body.radius)
+                                                 : -never;
+    }
+    const double along = std::clamp(body.ux * (x - body.x) + body.uy * (y - body.y), 0.0,
+                                    body.length);
+    const double dx = x - (body.x + along * body.ux), dy = y - (body.y + along * body.uy);
+    return (body.radius + radius) - std::sqrt(dx * dx + dy * dy);
 }
 
 Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
@@ -294,24 +371,26 @@ Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
     Overlap deepest;
     double most = least;
     visit_cells(cells_of({x, x, y, y}), [&](const Entry& image) {
-        const Body& body = bodies_[image.body];
         const Shift shift = shift_of(image);
-        const double from_x = x - shift.x, from_y = y - shift.y;
-        const double along = std::clamp(body.ux * (from_x - body.x) + body.uy * (from_y - body.y),
-                                        0.0, body.length);
-        const double dx = from_x - (body.x + along * body.ux),
-                     dy = from_y - (body.y + along * body.uy);
-        const double overlap = (body.radius + radius) - std::sqrt(dx * dx + dy * dy);
+        const double overlap = overlap_of(bodies_[image.body], x - shift.x, y - shift.y, radius);
         if (!(overlap > most)) return;
         most = overlap;
         deepest = {overlap, image.body};
     });
-    return deepest;
+    if (container_.is_rectangle()) return deepest;
+    // A disc is also in the wall wherever it is outside.
+    const double overlap = container_.outside(x, y) + radius;
+    return overlap > most ? Overlap{overlap, first_bodies_.back()} : deepest;
+}
+
+std::size_t Obstacles::row_of(std::uint32_t body) const {
+    if (body < n_fixed_discs_) return body;
+    const auto next = std::ranges::upper_bound(first_bodies_, body);
+    return n_fixed_discs_ + static_cast<std::size_t>(next - first_bodies_.begin()) - 1;
 }
 
 std::string Obstacles::name_of(std::uint32_t body) const {
-    if (body < n_fixed_discs_) return fmt::format("fixed disc {}", body + 1);
-    return fmt::format("segment {}", (body - n_fixed_discs_) / 3 + 1);
+    return rows_of_bodies_[row_of(body)].name();
 }
 
 } // namespace carrom

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that stand fixed in a box: discs, and straight segments with a disc of radius 0 at either
-// end. A disc that comes to one is reflected from it, as from a wall.
+// Bodies that stand fixed in a box: discs, straight segments, and arcs of circles, both with a disc
+// of radius 0 at either end. A disc that comes to one is reflected from it, as from a wall. A box
+// of another shape than a rectangle has arcs and segments for its walls (container.hpp).
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
-// predicate of pairs; a quartic under gravity: falling_contact.hpp), and a segment if it is r from
-// its line (a quadratic). The contact is a function of the stored state alone. A grid of cells
-// holds the bodies for good; a flight searches the cells on its way, up to its first contact. In a
-// periodic box the grid repeats itself, and a body is also in the cells that its images reach
-// into. A stored state may be many boxes away: bodies are shifted to it by whole box lengths.
+// predicate of pairs; a quartic under gravity: falling_contact.hpp), a segment if it is r from
+// its line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function
+// of the stored state alone. A grid of cells holds the bodies for good; a flight searches the cells
+// on its way, up to its first contact. In a periodic box the grid repeats itself, and a body is
+// also in the cells that its images reach into. A stored state may be many boxes away: bodies are
+// shifted to it by whole box lengths.
 #pragma once
 
 #include <array>
@@ -19,7 +21,9 @@
 
 #include "core/disc_state.hpp"
 #include "core/extent.hpp"
+#include "dynamics/arc_contact.hpp"
 #include "dynamics/contact_guard.hpp"
+#include "dynamics/container.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/loss.hpp"
 #include "dynamics/rubbing.hpp"
@@ -45,6 +49,13 @@ struct ContactTimes {
         ObstacleContact::no_body; ///< does not count at the disc's own time: it has just been left
 };
 
+/// A place where a disc touches an obstacle.
+struct ObstacleTouch {
+    std::uint32_t row = 0; ///< of `rows_of` (container.hpp)
+    double nx = 0, ny = 0; ///< away from the body
+    double x = 0, y = 0;   ///< the place, from the row's centre
+};
+
 class Obstacles {
 public:
     /// For discs of at most `largest_radius`; `effects` are per micro-step.
@@ -61,6 +72,10 @@ public:
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since,
                  const Turning& turning) const;
 
+    /// Where a disc that has come to the body of `code` at `time`, its own now, touches it.
+    ObstacleTouch touch(const DiscState& disc, std::uint32_t code, double time,
+                        double radius) const;
+
     struct Overlap {
         double depth = 0;
         std::uint32_t body = ObstacleContact::no_body; ///< whatever the image
@@ -68,7 +83,7 @@ public:
     /// The body that a disc of that radius at (x, y) in the box overlaps deepest, by more than
     /// `least`, or `no_body`.
     Overlap deepest_overlap(double x, double y, double radius, double least) const;
-    /// "fixed disc 3" or "segment 1", by their rows in the scene's lists.
+    /// "fixed disc 3" or "segment 1", by their rows in the scene's lists, or "the round wall".
     std::string name_of(std::uint32_t body) const;
 
 private:
@@ -76,6 +91,9 @@ private:
         double x, y;                       ///< its centre, or one end of a line
         double radius;                     ///< 0 for a line
         double ux = 0, uy = 0, length = 0; ///< for a line: direction and length
+        double slides = 1; ///< the velocity of its surface over the scene's, counterclockwise
+        bool is_arc = false;
+        ArcSpan span{}; ///< for an arc
         bool is_line() const { return length > 0; }
     };
     /// Numbers go on beyond a periodic side.
@@ -98,9 +116,20 @@ private:
         std::int64_t box_of(std::int64_t cell) const;
     };
 
+    void add_line(const Segment& segment, double slides);
+    void add_arc(const Arc& arc, bool is_of_box);
+    void add_bodies(const ObstacleList& obstacles, const Box& box);
+    void begin_row() { first_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size())); }
+    std::size_t row_of(std::uint32_t body) const;
+    double overlap_of(const Body& body, double x, double y, double radius) const;
     double contact_time(const DiscState& disc, const Body& body, double radius, Shift shift) const;
     double line_delay(const Body& line, double radius, double dx, double dy, double wx,
                       double wy) const;
+    struct Normal {
+        double x, y;    ///< away from the body
+        bool is_hollow; ///< the inner face of an arc
+    };
+    static Normal normal_of(const Body& body, double dx, double dy);
     Extent extent_of(const Body& body, double radius, Shift shift) const;
     Extent path_of(const DiscState& disc, double begin, double end) const;
     double slices_of(const DiscState& disc, double begin, double end) const;
@@ -122,9 +151,13 @@ private:
     Rubbing rubbing_;
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;
+    Container container_;
     Periods periods_;
     double largest_radius_;    ///< a disc's
-    std::vector<Body> bodies_; ///< fixed discs, then a line and its two ends for each segment
+    std::vector<Body> bodies_; ///< fixed discs, then a line or an arc and its two ends for each
+                               ///< segment, edge and arc
+    std::vector<std::uint32_t> first_bodies_; ///< of rows behind those of fixed discs
+    std::vector<ObstacleRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;
     std::vector<std::uint32_t> cell_starts_;

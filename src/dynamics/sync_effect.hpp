@@ -26,12 +26,15 @@
 
 namespace carrom {
 
-/// What a side of the box gives to discs at a sync.
+/// What a side of the box, or an obstacle, gives to discs at a sync.
 struct WallImpulse {
-    std::size_t side = 0;
-    double normal = 0; ///< away from the side
-    double along = 0;  ///< in the direction of its axis
-    double energy = 0; ///< of the discs' motion
+    static constexpr std::size_t n_sides = 4;
+
+    std::size_t side = 0;              ///< from `n_sides` on the rows of obstacles
+    double normal = 0;                 ///< away from the side
+    double along = 0;                  ///< in the direction of its axis
+    double energy = 0;                 ///< of the discs' motion
+    double ix = 0, iy = 0, torque = 0; ///< see WallEvent; of obstacles
 };
 
 /// What a disc gives to another one at a sync.

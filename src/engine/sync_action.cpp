@@ -91,7 +91,13 @@ void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
     if (notes.walls->are_any())
         at.note_wall = [this, walls = notes.walls](const WallImpulse& impulse) {
             WallEvent event;
-            event.side = static_cast<std::uint8_t>(impulse.side);
+            if (impulse.side < WallImpulse::n_sides)
+                event.side = static_cast<std::uint8_t>(impulse.side);
+            else
+                event.obstacle = static_cast<std::uint32_t>(impulse.side - WallImpulse::n_sides);
+            event.ix = impulse.ix * micro_steps_;
+            event.iy = impulse.iy * micro_steps_;
+            event.torque = impulse.torque * micro_steps_;
             event.normal = impulse.normal * micro_steps_;
             event.along = impulse.along * micro_steps_;
             event.energy = impulse.energy * micro_steps_ * micro_steps_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision of a disc with a side of the box: what the side has given to the disc. Engines note
-// it only where a measurement follows walls. Lasting contacts give such events at syncs, one for
-// all discs that press a side.
+// A collision of a disc with a side of the box, or with an obstacle: what that has given to the
+// disc. Engines note it only where a measurement follows walls. Lasting contacts give such events
+// at syncs, one for all discs that press a side or an obstacle.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 
 #include "core/disc_state.hpp"
 #include "core/frame.hpp"
+#include "dynamics/obstacles.hpp"
 #include "engine/followers.hpp"
 
 namespace carrom {
@@ -21,8 +22,32 @@ struct WallEvent {
     double along = 0;        ///< impulse along it, in the direction of the axis
     double energy = 0;       ///< kinetic energy of the disc's motion that the side has added
     bool is_lasting = false; ///< forces from sync to sync, and no collision
+    // Of an obstacle, which has no side:
+    std::uint32_t obstacle = no_obstacle; ///< its row (rows_of in dynamics/container.hpp)
+    double ix = 0, iy = 0;                ///< impulse that the disc has got
+    double torque = 0; ///< angular momentum that the obstacle has got, about its centre
+
+    static constexpr std::uint32_t no_obstacle = 0xffffffff;
+    bool is_at_side() const { return obstacle == no_obstacle; }
 };
 using WallFollower = EventFollower<WallEvent>;
+
+/// Of an obstacle; the arguments are those of `wall_event`.
+inline WallEvent obstacle_event(const Frame& frame, const ObstacleTouch& touch, double mass,
+                                const DiscState& after, double dx, double dy, double unit) {
+    const double per_step = frame.slowing * unit, gained_x = dx * per_step,
+                 gained_y = dy * per_step,
+                 mean_x = after.vx * per_step + frame.vx * unit - gained_x / 2,
+                 mean_y = after.vy * per_step + frame.vy * unit - gained_y / 2;
+    WallEvent event;
+    event.obstacle = touch.row;
+    event.ix = mass * gained_x;
+    event.iy = mass * gained_y;
+    event.normal = event.ix * touch.nx + event.iy * touch.ny;
+    event.torque = touch.y * event.ix - touch.x * event.iy;
+    event.energy = event.ix * mean_x + event.iy * mean_y;
+    return event;
+}
 
 /// `after` is the disc's stored state and (dx, dy) is the change of its stored velocity.
 /// Axis 0 means left and right. A disc in a corner meets two sides at once, and each of them has

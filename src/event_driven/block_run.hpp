@@ -130,6 +130,7 @@ struct LoggedEvent {
     double impulse = 0;
     double gained_x = 0, gained_y = 0; ///< change of velocity, per micro-step
     double vx = 0, vy = 0;             ///< velocity of the first disc, afterwards
+    ObstacleTouch touch{};             ///< of an obstacle
 };
 
 /// The state of a disc at the end of a window. It leaves out what a window does not change, and so

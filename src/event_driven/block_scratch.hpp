@@ -317,6 +317,10 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                                 at_wall ? event.q - x_wall : discs[event.q].id,
                                 std::sqrt(wx * wx + wy * wy), wx, wy, discs[event.p].vx,
                                 discs[event.p].vy});
+        if constexpr (Dynamics::may_have_obstacles)
+            if (is_obstacle(event.q))
+                outcome->log.back().touch = dynamics.touch(discs[event.p], event.q - first_obstacle,
+                                                           event.time);
     }
 
     Dynamics dynamics;

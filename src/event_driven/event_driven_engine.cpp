@@ -45,7 +45,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
                                                const BlockTuning& block_tuning)
     : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning),
       levels_(choose_size_levels(scene.effects.species, dynamics_.radius(),
-                                 static_cast<double>(scene.n_discs), scene.box.area(),
+                                 static_cast<double>(scene.n_discs), scene.area(),
                                  block_tuning.parts_sizes)),
       policy_(window_setting(tuning_, block_tuning, communicator_)),
       first_packing_(scene.packing()),

@@ -12,11 +12,15 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
         const Frame frame = dynamics_.frame_at(event.time);
         const double per_step = static_cast<double>(this->micro_steps_),
                      unit = mass * (frame.slowing * per_step);
-        if (this->wall_followers_.are_any() && event.is_wall && event.q <= 1) {
+        if (this->wall_followers_.are_any() && event.is_wall) {
             DiscState after;
             after.vx = event.vx, after.vy = event.vy;
-            this->wall_followers_.note() = wall_event(frame, event.q, mass, after, event.gained_x,
-                                                      event.gained_y, per_step, false);
+            this->wall_followers_.note() = event.q <= 1 ? wall_event(frame, event.q, mass, after,
+                                                                     event.gained_x, event.gained_y,
+                                                                     per_step, false)
+                                                        : obstacle_event(frame, event.touch, mass,
+                                                                         after, event.gained_x,
+                                                                         event.gained_y, per_step);
         }
         if (this->log_)
             this->log_->push_back(

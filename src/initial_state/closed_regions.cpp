@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "dynamics/container.hpp"
 #include "initial_state/narrow_gaps.hpp"
 
 namespace carrom {
@@ -36,9 +37,13 @@ public:
         const double clear = smallest_radius(scene) - width;
         for (const FixedDisc& disc : scene.effects.obstacles.discs)
             block({disc.x, disc.y, disc.x, disc.y}, disc.radius + clear);
-        for (const Segment& segment : scene.effects.obstacles.segments) block(segment, clear);
+        for (const Segment& segment : all_segments(scene.effects.obstacles, box_))
+            block(segment, clear);
+        for (const Arc& arc : all_arcs(scene.effects.obstacles, box_))
+            for (const Segment& chord : chords_of(arc, width / 4)) block(chord, clear);
         for (const Segment& line : lines_across_narrow_gaps(scene, smallest_radius(scene)))
             block(line, clear);
+        block_outside(Container(scene.effects.obstacles.shape, box_));
         for (std::size_t k = 0; k < region_of_.size(); ++k)
             if (region_of_[k] == unknown) sizes_.push_back(fill(k));
         largest_ = static_cast<std::int32_t>(std::ranges::max_element(sizes_) - sizes_.begin());
@@ -77,6 +82,14 @@ private:
         return (static_cast<double>(row) + 0.5) * box_.y / static_cast<double>(n_rows_);
     }
 
+    /// Blocks the points outside of a box of another shape.
+    void block_outside(const Container& container) {
+        if (container.is_rectangle()) return;
+        for (std::int64_t column = 0; column < n_columns_; ++column)
+            for (std::int64_t row = 0; row < n_rows_; ++row)
+                if (container.outside(x_of(column), y_of(row)) > 0)
+                    region_of_[index(column, row)] = blocked;
+    }
     /// Blocks the points near a segment and near its images.
     void block(const Segment& segment, double distance) {
         for (const double dx : {-box_.x, 0.0, box_.x})

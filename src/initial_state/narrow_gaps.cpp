@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/container.hpp"
+
 namespace carrom {
 
 namespace {
@@ -61,7 +63,9 @@ std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
     };
     for (const FixedDisc& disc : scene.effects.obstacles.discs)
         add({disc.x, disc.y, disc.x, disc.y}, disc.radius);
-    for (const Segment& segment : scene.effects.obstacles.segments) add(segment, 0);
+    for (const Segment& segment : all_segments(scene.effects.obstacles, box)) add(segment, 0);
+    for (const Arc& arc : all_arcs(scene.effects.obstacles, box))
+        for (const Segment& chord : chords_of(arc, width)) add(chord, 0);
     return bodies;
 }
 

@@ -116,7 +116,7 @@ void fill_count(const SceneDraft& draft) {
 void check_width(const SceneDraft& draft, double smallest_radius) {
     SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
-    if (l / r > largest_box_in_radii) {
+    if (l / r > largest_box_in_radii && !scene.are_points) {
         const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} "
                                              "radii wide, and above {:.0e} positions "
                                              "are too coarse for contacts with walls",
@@ -222,6 +222,20 @@ bool check_distribution(const SceneDraft& draft) {
     return false;
 }
 
+/// Points never meet each other, so a scene has to say that discs do not.
+void check_points(const SceneDraft& draft) {
+    const SceneParameters& scene = draft.scene;
+    if (!scene.are_points) return;
+    if (scene.n_discs > 1 && scene.effects.contact.kind != ContactKind::none)
+        draft.refuse({"discs.radius"},
+                     "discs of radius 0 are points, and two points never meet; try: "
+                     "effects.contact.kind = \"none\", so that they meet walls and obstacles "
+                     "alone, or a radius above 0");
+    if (scene.method != Method::event_driven)
+        draft.refuse({"discs.radius"}, "discs of radius 0 are points, which only time.method = "
+                                       "\"event-driven\" has; or set a radius above 0");
+}
+
 /// Fills in box and radius. Returns true if they are known and the discs may fit.
 bool fill_sizes(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
@@ -242,19 +256,21 @@ bool fill_sizes(const SceneDraft& draft) {
     if (scene.sizes) {
         if (!check_distribution(draft)) return false;
         scene.effects.species = species_of_sizes(*scene.sizes, scene.n_discs,
-                                                 packing * scene.box.area());
+                                                 packing * scene.area());
         for (const Species* one : {&scene.effects.species.front(), &scene.effects.species.back()})
             if (const std::string text = body_problem(one->radius, one->mass); !text.empty()) {
                 draft.refuse_first(size_keys, "of the distribution of radii " + text);
                 return false;
             }
     } else if (has_packing && !scene.has_shares) {
-        scene.radius = std::sqrt(scene.box.area()) *
+        scene.radius = std::sqrt(scene.area()) *
                        std::sqrt(packing / (static_cast<double>(scene.n_discs) * std::numbers::pi));
     }
     for (const Species& one : scene.effects.species)
         scene.radius = std::max(scene.radius, one.radius);
+    if (scene.are_points) scene.radius = point_radius(scene.box);
     if (scene.radius == 0) return false;
+    check_points(draft);
     check_sizes(draft);
     warn_of_lost_masses(draft);
     return draft.problems.size() == n_problems;

@@ -69,6 +69,10 @@ inline constexpr auto words_of<BoundaryKind> = [] {
     return words;
 }();
 template <>
+inline constexpr std::array words_of<BoxShape>{Word{"rectangle", BoxShape::rectangle},
+                                               Word{"round", BoxShape::round},
+                                               Word{"stadium", BoxShape::stadium}};
+template <>
 inline constexpr std::array words_of<Transfers>{Word{"independent", Transfers::independent},
                                                 Word{"collective", Transfers::collective}};
 template <>

@@ -95,6 +95,26 @@ Key list_key() {
     return key;
 }
 
+/// 0 stands for points, which have a radius in computations (SceneParameters::are_points).
+Key radius_key() {
+    Key radius =
+        key("discs.radius", "length",
+            "r, the radius of a disc; or give 'discs.packing'. 0: points, which meet walls and "
+            "obstacles and not each other.",
+            [](auto& s) -> auto& { return s.radius; })
+            .within({smallest_length, largest_size, false, true, "0 is for points"})
+            .needs(equal_discs)
+            .required()
+            .unless({"discs.packing", "discs.species", "discs.radius.distribution",
+                     "discs.radius.mean", "discs.radius.polydispersity"});
+    radius.get = [](const SceneParameters& s) { return Value{s.are_points ? 0 : s.radius}; };
+    radius.set = [](SceneParameters& s, const Value& value) {
+        s.radius = std::get<double>(value.data);
+        s.are_points = s.radius == 0;
+    };
+    return radius;
+}
+
 /// A way to ask for a radius. The reader computes the radius, and the scene does not keep the key.
 Key packing_key() {
     Key key =
@@ -220,15 +240,7 @@ std::vector<Key> keys_of_discs() {
             .within(lengths)
             .required(),
         count_key(),
-        key("discs.radius", "length", "r, the radius of a disc; or give 'discs.packing'.",
-            [](auto& s) -> auto& { return s.radius; })
-            .within(
-                {smallest_length, largest_size, false, false,
-                 "discs have a size; for points take one that is small against their distances"})
-            .needs(equal_discs)
-            .required()
-            .unless({"discs.packing", "discs.species", "discs.radius.distribution",
-                     "discs.radius.mean", "discs.radius.polydispersity"}),
+        radius_key(),
         packing_key(),
         species_key(),
         groups_key(),

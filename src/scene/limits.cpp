@@ -57,7 +57,7 @@ std::string speed_problem(double speed, const SceneParameters& scene) {
 std::string units_warning(double fastest, double later, const SceneParameters& scene) {
     constexpr double most_diameters = 1000;
     const double diameters = std::max(fastest, later) / (2 * scene.radius);
-    if (!(diameters > most_diameters)) return {};
+    if (!(diameters > most_diameters) || scene.are_points) return {};
     return fmt::format("{} {:.3g} diameters in a step, which may take very long; "
                        "speeds are lengths per step: try some of about a diameter, {:g}",
                        fastest >= later ? "the fastest disc flies"

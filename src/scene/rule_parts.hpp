@@ -25,6 +25,9 @@ inline bool has_obstacles(const SceneParameters& s) {
     return s.effects.obstacles.are_any() || s.freezes();
 }
 inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
+/// Goes on after "has no meaning".
+inline constexpr const char* no_obstacles =
+    "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
 inline bool has_barostat(const SceneParameters& s) { return s.effects.barostat.is_any(); }
 inline bool is_periodic_all_round(const SceneParameters& s) {

@@ -6,19 +6,24 @@
 #include <numbers>
 
 #include "core/angle.hpp"
+#include "dynamics/container.hpp"
 #include "scene/disc_columns.hpp"
 
 namespace carrom {
 
+double SceneParameters::area() const { return area_of(effects.obstacles, box); }
+
 double SceneParameters::packing() const {
+    const double share = effects.obstacles.has_shape() ? area() / box.area() : 1;
     if (!effects.species.empty()) {
         double sum = 0;
         for (const Species& one : effects.species)
             sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box.x) *
                    (one.radius / box.y);
-        return sum;
+        return sum / share;
     }
-    return static_cast<double>(n_discs) * std::numbers::pi * (radius / box.x) * (radius / box.y);
+    return static_cast<double>(n_discs) * std::numbers::pi * (radius / box.x) * (radius / box.y) /
+           share;
 }
 
 void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene) {

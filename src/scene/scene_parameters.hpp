@@ -187,6 +187,7 @@ struct SceneParameters {
 
     Box box;                               ///< the edges; 0 if they are not known
     double radius = 0;                     ///< r; the largest one of several species
+    bool are_points = false;               ///< the scene says 0; `radius` is point_radius(box)
     std::optional<SizeDistribution> sizes; ///< that radii follow; they are species then
     std::uint64_t n_discs = 0;
 
@@ -246,7 +247,9 @@ struct SceneParameters {
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 
-    /// The share of the box that the discs cover at the start.
+    /// The area in which discs move, obstacles in it included.
+    double area() const;
+    /// The share of that area that the discs cover at the start.
     double packing() const;
     /// The packing at the end of the last step, for growing discs.
     double last_packing() const {
@@ -257,6 +260,10 @@ struct SceneParameters {
     /// after a legacy header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
+
+/// The radius with which points are computed: a billionth of the box. So a place is on one side of
+/// a wall for sure, whatever rounding does.
+inline double point_radius(const Box& box) { return 0x1p-30 * box.longest(); }
 
 /// Whether discs may begin with other numbers than 0 in a column.
 bool has_first_numbers(const SceneParameters& scene, SideColumn column);

@@ -94,7 +94,7 @@ private:
     }
 
     double count_in_region(const Numbers& row) const {
-        double area = draft_.scene.box.area();
+        double area = draft_.scene.area();
         const double* const r = &row[species_row::region];
         if (is_given(row, species_row::region))
             area = (r[2] - r[0]) * (r[3] - r[1]);
@@ -144,7 +144,7 @@ private:
         double square = 0; // the mean of r^2
         for (std::size_t k = 0; k < rows_.size(); ++k)
             square += weights[k] * (*rows_[k])[1] * (*rows_[k])[1];
-        return count_of_packing(std::get<double>(packing->value.data), draft_.scene.box.area(),
+        return count_of_packing(std::get<double>(packing->value.data), draft_.scene.area(),
                                 std::sqrt(square));
     }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/container.hpp"
 #include "engine/engine.hpp"
 #include "statistics/pair_distances.hpp"
 
@@ -49,7 +50,11 @@ MotionSample motion_sample(const DiscSystem& system) {
     MotionSample sample = sample_motion(system.in_flow(), system.species_if_mixed(),
                                         system.heaviest(), system.n_discs(), system.n_threads(),
                                         system.ranks());
-    sample.area = area_of(system.box());
+    const Extent box = system.box();
+    const ObstacleList& obstacles = system.effects().obstacles;
+    sample.area = obstacles.has_shape()
+                      ? area_of(obstacles, {box.x_high - box.x_low, box.y_high - box.y_low})
+                      : area_of(box);
     return sample;
 }
 

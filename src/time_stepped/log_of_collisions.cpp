@@ -30,7 +30,14 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
         if (this->wall_followers_.are_any() && c.is_wall()) {
-            const auto met = StepWalls(dynamics_).met(unhit_[i], m, c.time);
+            const StepWalls walls(dynamics_);
+            const auto met = walls.met(unhit_[i], m, c.time);
+            const std::uint32_t body = walls.met_obstacle(unhit_[i], m, c.time);
+            if (body != ObstacleContact::no_body)
+                this->wall_followers_.note() = obstacle_event(
+                    dynamics_.frame_at(m + c.time), dynamics_.touch(unhit_[i], body, m + c.time),
+                    mass, results[c.p], results[c.p].vx - unhit_[i].vx,
+                    results[c.p].vy - unhit_[i].vy, k);
             for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
                 if (axis == 0 ? met.at_x : met.at_y)
                     this->wall_followers_.note() = wall_event(

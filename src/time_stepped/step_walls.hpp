@@ -66,6 +66,13 @@ public:
         return {x_time == t || touches(disc, Axis::x), y_time == t || touches(disc, Axis::y)};
     }
 
+    /// The obstacle that the disc bounces off at t, or no_body.
+    std::uint32_t met_obstacle(const DiscState& before, double m, double t) const {
+        if (!dynamics_.has_obstacles() || t == side_time(before, m))
+            return ObstacleContact::no_body;
+        return obstacle(before, m).body;
+    }
+
     /// Stops a disc that has just collided at t, if something is in its way before the micro-step
     /// ends. `left` is the obstacle that it has just left.
     [[gnu::always_inline]] void stop(DiscState& disc, double m, double t,

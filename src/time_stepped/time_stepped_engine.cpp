@@ -36,7 +36,7 @@ TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const SceneParameters& scene, Sto
                                                const Tuning& tuning)
     : Base(scene, std::move(state), communicator, with_useful_threads(tuning, scene, communicator)),
       search_(dynamics_, tuning_.threads,
-              usual_radius_of(scene.effects.species, dynamics_.radius(), scene.box.area())),
+              usual_radius_of(scene.effects.species, dynamics_.radius(), scene.area())),
       local_(tuning_.threads), across_strips_(communicator) {
     this->distribute();
     discs_.forget_images();

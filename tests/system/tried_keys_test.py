@@ -26,8 +26,8 @@ TRIED = [
      ["box.left.kind=periodic", "box.right.kind=periodic"]),
     ("effects.gravity", "-9.81", "is a table, not a value; try: effects.gravity.y = -9.81",
      ["effects.gravity.y=-0.01"]),
-    ("discs.radius", "0", "must be from 2^-230 to 2^250, not 0: discs have a size",
-     ["discs.radius=1e-4"]),
+    ("discs.radius", "0", "two points never meet; try: effects.contact.kind = \"none\"",
+     ["discs.radius=0", "effects.contact.kind=none"]),
     ("time.stop", "5", "'time.stop' is a table, not a value; [time.stop] has collisions",
      ["time.stop.collisions=5"]),
 ]

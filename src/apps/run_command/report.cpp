@@ -104,7 +104,7 @@ void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& s
         if (std::isnan(one.value) && !why_none.empty()) json["without_value"] = why_none;
         return json;
     };
-    report["radius"] = scene.radius;
+    report["radius"] = scene.are_points ? 0 : scene.radius;
     report["box"] = {scene.box.x, scene.box.y};
     report["temperature"] = estimate(averages.temperature, no_heat);
     report["pressure"] = estimate(averages.pressure, no_heat);

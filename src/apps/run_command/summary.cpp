@@ -26,6 +26,7 @@ std::string arithmetic_text(const SceneParameters& scene) {
 }
 
 std::string radii_text(const SceneParameters& scene) {
+    if (scene.are_points) return "radius 0, points";
     double least = scene.radius;
     for (const Species& one : scene.effects.species) least = std::min(least, one.radius);
     return least < scene.radius ? fmt::format("radii {:g} to {:g}", least, scene.radius)

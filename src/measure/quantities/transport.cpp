@@ -49,7 +49,7 @@ public:
         const double n = static_cast<double>(totals.n_discs);
         drift_ = {totals.momentum_x / n, totals.momentum_y / n};
         usual_trace_ = usual_pressure_per_density(n * std::numbers::pi * run_.scene.radius *
-                                                  run_.scene.radius / run_.scene.box.area()) *
+                                                  run_.scene.radius / run_.scene.area()) *
                        (totals.kinetic_energy -
                         n * (drift_[0] * drift_[0] + drift_[1] * drift_[1]) / 2) *
                        static_cast<double>(run_.output.every_steps);
@@ -209,8 +209,7 @@ std::vector<MeasuredTable> Transport::tables() const {
          "conductivity_error", "shear_slope", "bulk_slope", "conductivity_slope"},
         {}};
     if (n_samples_ < 2) return {table};
-    const double kT = temperature_ / static_cast<double>(n_samples_ - 1),
-                 area = run_.scene.box.area();
+    const double kT = temperature_ / static_cast<double>(n_samples_ - 1), area = run_.scene.area();
     const std::array<double, 3> scale = {area * kT, area * kT, area * kT * kT};
     std::array<double, 3> before{};
     double time_before = 0;

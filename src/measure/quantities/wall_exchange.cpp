@@ -23,6 +23,7 @@ public:
 
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) {
+            if (!event.is_at_side()) continue;
             since_last_[0].add(event.side, event.energy);
             since_last_[1].add(event.side, event.along);
         }

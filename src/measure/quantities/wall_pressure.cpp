@@ -12,6 +12,7 @@ public:
 
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) {
+            if (!event.is_at_side()) continue;
             since_last_.add(event.side, event.normal);
             counts_[event.side] += event.is_lasting ? 0 : 1;
         }

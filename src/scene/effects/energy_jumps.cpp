@@ -27,7 +27,7 @@ double temperature_in_the_end(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     if (t.has_temperature()) return t.temperature;
     const double e = scene.effects.contact.restitution,
-                 density = static_cast<double>(scene.n_discs) / scene.box.area(),
+                 density = static_cast<double>(scene.n_discs) / scene.area(),
                  loss = (1 - e * e) * density * 2 * scene.radius * std::sqrt(std::numbers::pi);
     return loss > 0 ? std::pow(t.strength / loss, 2.0 / 3) : 0;
 }
@@ -45,7 +45,7 @@ void warn_of_rare_acts(const SceneDraft& draft) {
         return;
     }
     constexpr double most = 4;
-    const double density = static_cast<double>(scene.n_discs) / scene.box.area(),
+    const double density = static_cast<double>(scene.n_discs) / scene.area(),
                  often = 2 * std::sqrt(std::numbers::pi * temperature_in_the_end(scene)) * density *
                          2 * scene.radius; // of a thin gas; dense ones collide more often
     const bool changes = scene.effects.are_sheared() || are_pairs_lossy(scene.effects);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that stand fixed in the box (dynamics/obstacles.hpp).
+// Bodies that stand fixed in the box (dynamics/obstacles.hpp), and boxes that are no rectangles
+// (dynamics/container.hpp).
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/box_text.hpp"
+#include "dynamics/container.hpp"
 #include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
@@ -16,11 +19,67 @@ namespace {
 /// a disc touches only the nearest images of a body.
 constexpr double largest_in_period = 0.99;
 
-const Need some_obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
-                          [](const SceneParameters& s) { return has_obstacles(s); }};
+const Need some_obstacles{no_obstacles, has_obstacles};
+
+/// The largest coordinate and radius of an arc, over the box's longer edge. Farther centres would
+/// cost digits.
+constexpr double farthest_centre = 100;
+
+/// Rows [x, y, radius] of circles, or [x, y, radius, from, to].
+Key arcs_key() {
+    Key key = named_key("effects.obstacles.arcs", "length, degrees",
+                        "Circles without thickness, or parts of them, counterclockwise from one "
+                        "angle to another; discs meet both faces and both ends.")
+                  .by_default("none")
+                  .with_rows({{"", "[x, y, radius] or [x, y, radius, from, to]", 3, 5}});
+    key.get = [](const SceneParameters& s) {
+        Values rows;
+        for (const Arc& arc : s.effects.obstacles.arcs) {
+            Numbers row{arc.x, arc.y, arc.radius};
+            if (arc.from != 0 || arc.to != 360) row.insert(row.end(), {arc.from, arc.to});
+            rows.push_back({std::move(row)});
+        }
+        return Value{std::move(rows)};
+    };
+    key.set = [](SceneParameters& s, const Value& value) {
+        s.effects.obstacles.arcs.clear();
+        for (const Value& row : std::get<Values>(value.data))
+            if (const auto* n = std::get_if<Numbers>(&row.data)) {
+                Arc arc{(*n)[0], (*n)[1], (*n)[2]};
+                if (n->size() == 5) arc.from = (*n)[3], arc.to = (*n)[4];
+                s.effects.obstacles.arcs.push_back(arc);
+            }
+    };
+    return key;
+}
+
+Key polygons_key() {
+    Key key = named_key("effects.obstacles.polygons", "length",
+                        "Closed lines of straight walls: corners one after the other; the last is "
+                        "joined with the first.")
+                  .by_default("none")
+                  .with_rows({{"", "[x0, y0, x1, y1, x2, y2, ...]", 6, 2000}});
+    key.get = [](const SceneParameters& s) {
+        Values rows;
+        for (const Polygon& polygon : s.effects.obstacles.polygons) rows.push_back({polygon});
+        return Value{std::move(rows)};
+    };
+    key.set = [](SceneParameters& s, const Value& value) {
+        s.effects.obstacles.polygons.clear();
+        for (const Value& row : std::get<Values>(value.data))
+            if (const auto* n = std::get_if<Numbers>(&row.data))
+                s.effects.obstacles.polygons.push_back(*n);
+    };
+    return key;
+}
 
 std::vector<Key> keys_of_obstacles() {
     return {
+        key("box.shape", "",
+            "What discs move in: the box, the largest circle in it, or two half circles joined by "
+            "straight walls along the longer edge. Packing and pressure refer to its area, "
+            "and keys of 'effects.obstacles' to its wall.",
+            [](auto& s) -> auto& { return s.effects.obstacles.shape; }),
         key("effects.obstacles.discs", "length", "Fixed discs; a radius of 0 is a point.",
             [](auto& s) -> auto& { return s.effects.obstacles.discs; })
             .with_rows({{"", "[x, y, radius]", 3, 3}}),
@@ -28,6 +87,8 @@ std::vector<Key> keys_of_obstacles() {
             "Straight walls without thickness; discs meet both faces and both ends.",
             [](auto& s) -> auto& { return s.effects.obstacles.segments; })
             .with_rows({{"", "[x0, y0, x1, y1]", 4, 4}}),
+        arcs_key(),
+        polygons_key(),
         key("effects.obstacles.restitution", "1",
             "Share of the normal velocity that is left, of all obstacles.",
             [](auto& s) -> auto& { return s.effects.obstacles.restitution; })
@@ -46,9 +107,25 @@ std::vector<Rule> rules_of_obstacles() {
              }),
         rule("obstacles", "walls that move",
              "obstacles need walls at rest: a disc between the two would have no way out",
-             {"effects.obstacles.discs", "effects.obstacles.segments"},
+             {"effects.obstacles.discs", "effects.obstacles.segments", "effects.obstacles.arcs",
+              "effects.obstacles.polygons"},
              [](const SceneParameters& s) {
                  return has_obstacles(s) && !are_walls_at_rest(s.effects);
+             }),
+        rule("box.shape = \"round\" or \"stadium\"", "sides that are not plain walls",
+             "discs never meet the sides there; 'effects.obstacles' has the keys of the wall",
+             {"box.shape"},
+             [](const SceneParameters& s) {
+                 return s.effects.obstacles.has_shape() && !s.effects.have_plain_boundaries();
+             }),
+        rule("box.shape = \"round\" or \"stadium\"",
+             "\"radial_distribution\", \"wall_pressure\" or \"wall_exchange\"",
+             "these quantities are those of a rectangle and of its sides", {"box.shape"},
+             [](const SceneParameters& s) {
+                 return s.effects.obstacles.has_shape() && s.measurements &&
+                        (s.measurements->measures("radial_distribution") ||
+                         s.measurements->measures("wall_pressure") ||
+                         s.measurements->measures("wall_exchange"));
              }),
         rule("obstacles",
              "discs.generator = \"lattice\", \"triangular\", \"compressed\" or \"legacy\"",
@@ -62,6 +139,45 @@ std::vector<Rule> rules_of_obstacles() {
                          s.generator == Generator::compressed || s.generator == Generator::legacy);
              }),
     };
+}
+
+void check_arcs(const SceneDraft& draft) {
+    const Box box = draft.scene.box;
+    const double size = box.longest(), most = farthest_centre * size;
+    const double period = draft.scene.effects.periods(box).shortest();
+    draft.refuse_rows("effects.obstacles.arcs", [&](const Numbers& n, std::size_t) -> std::string {
+        if (n.size() == 4) return "four numbers; an arc has an angle at either end";
+        if (!(n[2] > 0x1p-30 * size && n[2] <= most))
+            return fmt::format("the radius must be above {:.3g} and at most {:g}, not {}",
+                               0x1p-30 * size, most, n[2]);
+        if (!(std::fabs(n[0]) <= most && std::fabs(n[1]) <= most))
+            return fmt::format("the centre ({}, {}) must be within {:g} of the origin", n[0], n[1],
+                               most);
+        if (n.size() == 5 && !(std::fabs(n[3]) <= 360 && n[4] > n[3] && n[4] - n[3] <= 360))
+            return fmt::format("angles go up from the first, from -360 to 360, by at most 360 "
+                               "degrees, not from {} to {}",
+                               n[3], n[4]);
+        if (!draft.scene.effects.are_periodic()) return {};
+        if (!(n[0] >= 0 && n[0] <= box.x && n[1] >= 0 && n[1] <= box.y))
+            return fmt::format("the centre ({}, {}) is not in the periodic box", n[0], n[1]);
+        if (!(n[2] + draft.scene.radius <= largest_in_period * period))
+            return fmt::format("the radius must be at most {:g}, not {}: with a disc's it would "
+                               "reach through a periodic box and into itself",
+                               largest_in_period * period - draft.scene.radius, n[2]);
+        return {};
+    });
+}
+
+void check_shape(const SceneDraft& draft) {
+    const Box& box = draft.scene.box;
+    const BoxShape shape = draft.scene.effects.obstacles.shape;
+    if (shape == BoxShape::round && !box.is_square())
+        draft.refuse({"box.shape"}, fmt::format("box.shape = \"round\" needs a square, not a box "
+                                                "of {}; try: \"stadium\"",
+                                                sides_text(box)));
+    if (shape == BoxShape::stadium && box.longest() - box.shortest() < 0x1p-20 * box.longest())
+        draft.refuse({"box.shape"}, "box.shape = \"stadium\" needs a box that is longer than it is "
+                                    "high, or higher; try: \"round\"");
 }
 
 void check_obstacles(const SceneDraft& draft) {
@@ -83,18 +199,31 @@ void check_obstacles(const SceneDraft& draft) {
                                largest_in_period * period - radius, n[2]);
         return {};
     });
+    const auto segment_problem = [&](double x0, double y0, double x1, double y1) -> std::string {
+        if (!is_inside(x0, y0) || !is_inside(x1, y1))
+            return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the "
+                               "box",
+                               x0, y0, x1, y1);
+        const double length = std::hypot(x1 - x0, y1 - y0);
+        if (!(length > 0x1p-30 * size))
+            return fmt::format("a segment of length {}: a point is a fixed disc of radius 0",
+                               length);
+        return {};
+    };
+    draft.refuse_rows("effects.obstacles.segments", [&](const Numbers& n, std::size_t) {
+        return segment_problem(n[0], n[1], n[2], n[3]);
+    });
     draft.refuse_rows(
-        "effects.obstacles.segments", [&](const Numbers& n, std::size_t) -> std::string {
-            if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3]))
-                return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the "
-                                   "box",
-                                   n[0], n[1], n[2], n[3]);
-            const double length = std::hypot(n[2] - n[0], n[3] - n[1]);
-            if (!(length > 0x1p-30 * size))
-                return fmt::format("a segment of length {}: a point is a fixed disc of radius 0",
-                                   length);
+        "effects.obstacles.polygons", [&](const Numbers& n, std::size_t) -> std::string {
+            if (n.size() % 2 != 0) return fmt::format("{} numbers are no pairs x, y", n.size());
+            for (const Segment& edge : edges_of(n)) {
+                std::string text = segment_problem(edge.x0, edge.y0, edge.x1, edge.y1);
+                if (!text.empty()) return text;
+            }
             return {};
         });
+    check_arcs(draft);
+    check_shape(draft);
 }
 
 std::string summary_of_obstacles(const Effects& effects) {
@@ -103,10 +232,15 @@ std::string summary_of_obstacles(const Effects& effects) {
     const auto counted = [](std::size_t n, const char* what) {
         return n == 0 ? std::string() : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
-    const std::string discs = counted(all.discs.size(), "fixed disc"),
-                      segments = counted(all.segments.size(), "segment");
-    return discs + (discs.empty() || segments.empty() ? "" : " and ") + segments +
-           (all.restitution < 1 ? fmt::format(" of restitution {:g}", all.restitution) : "");
+    std::string text;
+    for (const std::string& part :
+         {counted(all.discs.size(), "fixed disc"), counted(all.segments.size(), "segment"),
+          counted(all.arcs.size(), "arc"), counted(all.polygons.size(), "polygon"),
+          std::string(all.shape == BoxShape::round     ? "a round wall"
+                      : all.shape == BoxShape::stadium ? "a stadium's wall"
+                                                       : "")})
+        if (!part.empty()) text += (text.empty() ? "" : " and ") + part;
+    return text + (all.restitution < 1 ? fmt::format(" of restitution {:g}", all.restitution) : "");
 }
 
 } // namespace

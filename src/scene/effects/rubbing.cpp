@@ -63,15 +63,15 @@ std::vector<Key> keys_of_rubbing() {
     }
     add_surface(
         all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.obstacles.surface; },
-        {"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
-         [](const SceneParameters& s) { return has_obstacles(s); }},
+        {no_obstacles, has_obstacles},
         {"without effects.obstacles.tangential_restitution above -1",
          [](const SceneParameters& s) {
              return s.effects.obstacles.surface.tangential_restitution != -1;
          }},
         {"without effects.obstacles.tangential_restitution above -1",
          [](const SceneParameters& s) { return s.effects.obstacles.surface.rubs(); }},
-        "Velocity of the surface, counterclockwise around the body, which stays where it is.");
+        "Velocity of the surface, counterclockwise around the body, which stays where it is. Arcs "
+        "and the wall of a 'box.shape' turn around their centre.");
     return all;
 }
 

@@ -53,7 +53,8 @@ std::vector<Rule> rules_of_shear() {
              }),
         rule("sheared sides", "drag or obstacles",
              "both stand still, and the flow has no place where it does",
-             {"effects.drag.rate", "effects.obstacles.discs", "effects.obstacles.segments"},
+             {"effects.drag.rate", "effects.obstacles.discs", "effects.obstacles.segments",
+              "effects.obstacles.arcs", "effects.obstacles.polygons", "box.shape"},
              [](const SceneParameters& s) {
                  return s.effects.are_sheared() && (s.effects.drag != 0 || has_obstacles(s));
              }),

@@ -96,6 +96,20 @@ def test_obstacles_are_drawn_with_their_images(program: Path, tmp_path: Path) ->
     assert len(lines.get_segments()) == 9
 
 
+def test_walls_of_other_shapes_are_drawn(program: Path, tmp_path: Path) -> None:
+    scene = gas(count=5, steps=0)
+    scene["box"] = {"size": [20, 10], "shape": "stadium"}
+    scene["discs"] = {"count": 5, "radius": 0.3}
+    obstacles = {"arcs": [[5, 5, 1], [10, 5, 2, 0, 90]], "polygons": [[14, 3, 16, 3, 15, 5]]}
+    scene["effects"] = {"obstacles": obstacles}
+    ax = plot.frame(carrom.run(scene, folder=tmp_path / "run"))
+    polygon, circle, arc, wall = ax.collections[1].get_segments()
+    assert np.allclose(polygon[0], polygon[-1])
+    assert np.allclose(np.hypot(*(circle - [5, 5]).T), 1)
+    assert np.allclose(arc[[0, -1]], [[12, 5], [10, 7]])
+    assert np.allclose([wall.min(axis=0), wall.max(axis=0)], [[0, 0], [20, 10]], atol=0.01)
+
+
 def test_a_movie_has_all_frames(run: carrom.Run, tmp_path: Path) -> None:
     path = plot.movie(run, tmp_path / "m.gif", dpi=40, rate=10)
     with Image.open(path) as movie:

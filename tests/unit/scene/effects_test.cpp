@@ -116,7 +116,8 @@ TEST_CASE("Obstacles are read, each wrong one is named") {
     CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 20]]"}),
               "a point is a fixed disc of radius 0"));
     CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}),
-              "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
+              "no meaning without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a "
+              "'box.shape'"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=lattice"}),
               "know nothing of obstacles"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving",

@@ -46,8 +46,10 @@ TEST_CASE("Walls that rub and slide are read, and keys without a meaning named")
                    "no meaning without box.top.kind = \"wall\", \"moving\" or \"oscillating\""));
     CHECK(mentions(rubbing_problems({"box.top.tangential_restitution=1.5"}),
                    "from -1 to 1, not 1.5"));
-    CHECK(mentions(rubbing_problems({"effects.obstacles.tangential_restitution=0"}),
-                   "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
+    CHECK(mentions(
+        rubbing_problems({"effects.obstacles.tangential_restitution=0"}),
+        "no meaning without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a "
+        "'box.shape'"));
     CHECK(mentions(rubbing_problems({"box.top.tangential_restitution=0.5",
                                      "effects.growth.rate=0.01", "time.method=event-driven"}),
                    "cannot have growing discs together with sides that are no"));

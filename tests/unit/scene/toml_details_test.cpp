@@ -131,7 +131,7 @@ TEST_CASE("A message says what is accepted") {
     CHECK(says("time.steps=2.5", "must be a whole number from 0 to 2^53, not 2.5"));
     CHECK(says("time.steps=ten", "must be a whole number from 0 to 2^53, not 'ten'"));
     CHECK(says("time.method=event", "must be \"time-stepped\" or \"event-driven\", not 'event'"));
-    CHECK(says("discs.radius=nan", "must be a number from 2^-230 to 2^250, not nan"));
+    CHECK(says("discs.radius=nan", "must be a number 0, or from 2^-230 to 2^250, not nan"));
     CHECK(says("box.periodic=true", "try: box.left.kind = \"periodic\""));
 }
 

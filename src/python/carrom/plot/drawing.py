@@ -154,7 +154,9 @@ class Picture:
         self.style = style
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
         _add_obstacles(ax, scene, first.box)
-        self.sides = Rectangle((0, 0), 0, 0, fill=False, edgecolor="0.3", linewidth=1)
+        has_shape = scene.get("box", {}).get("shape", "rectangle") != "rectangle"
+        edge = "none" if has_shape else "0.3"
+        self.sides = Rectangle((0, 0), 0, 0, fill=False, edgecolor=edge, linewidth=1)
         ax.add_patch(self.sides)
         self.discs = EllipseCollection(
             [],
@@ -252,7 +254,7 @@ class Picture:
 
 
 def _add_obstacles(axes: Axes, scene: Mapping[str, Any], box: Array) -> None:
-    """Draw fixed discs and segments, and their images through periodic sides."""
+    """Draw fixed bodies and the wall of a round box, and their images through periodic sides."""
     obstacles = scene.get("effects", {}).get("obstacles", {})
     walls = scene.get("box", {})
     shifts = [0.0], [0.0]
@@ -266,10 +268,33 @@ def _add_obstacles(axes: Axes, scene: Mapping[str, Any], box: Array) -> None:
         for x, y, radius in obstacles.get("discs", [])
         for dx, dy in moves
     ]
-    lines = [
-        ((x0 + dx, y0 + dy), (x1 + dx, y1 + dy))
-        for x0, y0, x1, y1 in obstacles.get("segments", [])
-        for dx, dy in moves
-    ]
+    paths = [np.reshape(row, (2, 2)) for row in obstacles.get("segments", [])]
+    paths += [_closed(np.reshape(row, (-1, 2))) for row in obstacles.get("polygons", [])]
+    paths += [_arc(*row) for row in obstacles.get("arcs", [])]
+    paths += _wall(walls.get("shape"), float(box[0]), float(box[1]))
+    lines = [path + np.array(move) for path in paths for move in moves]
     axes.add_collection(PatchCollection(circles, facecolors="0.6", edgecolors="none"))
     axes.add_collection(LineCollection(lines, colors="0.4", linewidths=1))
+
+
+def _closed(corners: Array) -> Array:
+    return np.concatenate((corners, corners[:1]))
+
+
+def _arc(x: float, y: float, radius: float, start: float = 0, end: float = 360) -> Array:
+    """Return points of an arc between two angles in degrees, (n, 2)."""
+    angles = np.radians(np.linspace(start, end, 181))
+    return np.stack((x + radius * np.cos(angles), y + radius * np.sin(angles)), axis=1)
+
+
+def _wall(shape: str | None, width: float, height: float) -> list[Array]:
+    """Return the wall of a box that is no rectangle."""
+    radius = min(width, height) / 2
+    if shape == "round":
+        return [_arc(radius, radius, radius)]
+    if shape != "stadium":
+        return []
+    turn = 0 if width >= height else 90
+    high = _arc(width - radius, height - radius, radius, turn - 90, turn + 90)
+    low = _arc(radius, radius, radius, turn + 90, turn + 270)
+    return [_closed(np.concatenate((high, low)))]

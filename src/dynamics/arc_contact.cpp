@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/arc_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "dynamics/never.hpp"
+#include "dynamics/pair_contact.hpp"
+#include "dynamics/parabola.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// When a flight gets farther than `reach` from the centre, and has not passed `wall` yet.
+double way_out(const ArcFlight& f, double reach, double wall) {
+    const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
+    if (!(reach > 0) || !(a > 0)) return never;
+    const double distance = std::sqrt(f.dx * f.dx + f.dy * f.dy);
+    if (b >= 0 && distance >= reach) return distance < wall ? 0 : never;
+    const double speed = std::sqrt(a), most = speed * reach,
+                 x = std::fabs(cross(f.dx, f.dy, f.wx, f.wy));
+    const double square = (most - x) * (most + x);
+    // A flight along the wall that rounding has put outside of it all the way.
+    if (!(square > 0)) return b < 0 && x < speed * wall ? -b / a : never;
+    const double root = std::sqrt(square);
+    return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
+}
+
+/// The times at which the distance stops falling or rising, ascending.
+struct Turns {
+    std::array<double, 3> times{};
+    std::size_t n = 0;
+};
+
+Turns turns_of(const Parabola& flight) {
+    Turns turns;
+    const auto rate = [&flight](double s) { return flight.rate(s); };
+    double start = 0;
+    bool falls = flight.rate(0).value < 0;
+    const auto [first, second] = flight.bends();
+    for (const double bend : {first, second, never}) {
+        if (!(bend > start)) continue;
+        if (bend == never && !falls) break; // it grows ever faster
+        const double end = bend == never ? flight.late(start) : bend;
+        const bool falls_at_end = bend != never && flight.rate(end).value < 0;
+        if (falls != falls_at_end) {
+            turns.times[turns.n++] = root_between(start, end, falls, rate);
+            falls = falls_at_end;
+        }
+        if (bend == never) break;
+        start = end;
+    }
+    return turns;
+}
+
+/// The time of the contact while the distance falls from `begin` to `end`, or `never`.
+double contact_while_falling(Parabola flight, double outer, double wall, double begin, double end) {
+    flight.reach = outer;
+    if (flight.gap(begin).value <= 0) return flight.gap(begin).value + outer < wall ? never : begin;
+    if (!(flight.gap(end).value < 0)) return never;
+    return root_between(begin, end, false, [&flight](double s) { return flight.gap(s); });
+}
+
+/// The same while the distance rises; `end` may be `never`.
+double contact_while_rising(Parabola flight, double inner, double wall, double begin, double end) {
+    flight.reach = inner;
+    if (!(inner > 0)) return never;
+    if (flight.gap(begin).value >= 0) return flight.gap(begin).value + inner < wall ? begin : never;
+    if (end == never)
+        for (end = flight.late(begin); !(flight.gap(end).value > 0);) end += end - begin;
+    if (!(flight.gap(end).value > 0)) return never;
+    return root_between(begin, end, true, [&flight](double s) { return flight.gap(s); });
+}
+
+} // namespace
+
+double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span) {
+    const auto [dx, dy, wx, wy] = flight;
+    const auto is_there = [&](double s) {
+        const double x = dx + wx * s, y = dy + wy * s;
+        return span.holds(x, y, std::sqrt(x * x + y * y));
+    };
+    // A centre inside of the arc overlaps its outer face by more than a radius.
+    const double in = contact_delay(-dx, -dy, -wx, -wy, arc_radius + radius, radius);
+    if (in >= 0 && is_there(in)) return in;
+    const double out = way_out(flight, arc_radius - radius, arc_radius);
+    return out < never && is_there(out) ? out : never;
+}
+
+double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
+                           double arc_radius, const ArcSpan& span) {
+    const auto [dx, dy, wx, wy] = flight;
+    const Parabola path{dx, dy, wx, wy, gx, gy, 0};
+    const auto is_there = [&](double s) {
+        const double x = (dx + wx * s) + (0.5 * gx * s) * s, y = (dy + wy * s) + (0.5 * gy * s) * s;
+        return span.holds(x, y, std::sqrt(x * x + y * y));
+    };
+    const Turns turns = turns_of(path);
+    bool falls = path.rate(0).value < 0;
+    double begin = 0;
+    for (std::size_t k = 0; k <= turns.n; ++k, falls = !falls) {
+        const double end = k < turns.n ? turns.times[k] : never;
+        const double time = falls ? contact_while_falling(path, arc_radius + radius, arc_radius,
+                                                          begin, end)
+                                  : contact_while_rising(path, arc_radius - radius, arc_radius,
+                                                         begin, end);
+        if (time < never && is_there(time)) return time;
+        begin = end;
+    }
+    return never;
+}
+
+} // namespace carrom
