@@ -127,6 +127,11 @@ public:
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
     /// Removes the images of own discs from the halo.
     void forget_images();
+    /// Own discs, whose states have been replaced, have no images.
+    void clear_images() {
+        has_images_ = true;
+        forget_images();
+    }
 
     /// The places that a rank with a halo of `reach` sees, in a box of this extent. It
     /// matters along axes that are not periodic.

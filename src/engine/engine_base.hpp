@@ -27,9 +27,15 @@ public:
     void forget_images() final { discs_.forget_images(); }
 
     std::int64_t micro_steps_done() const final { return n_micro_done_; }
-    std::span<const DiscState> own() const final { return discs_.own(); }
+    std::span<const DiscState> own() const final {
+        bring_states();
+        return discs_.own();
+    }
     std::span<const DiscState> departed() const final { return discs_.departed(); }
-    SideSpans side_columns() const final { return discs_.own_columns(); }
+    SideSpans side_columns() const final {
+        bring_states();
+        return discs_.own_columns();
+    }
     SideSpans departed_columns() const final { return discs_.departed_columns().spans(); }
     const SpeciesTable& species_table() const final { return species_; }
     double clock() const final { return time_; }
@@ -58,6 +64,10 @@ protected:
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
+    /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
+    virtual double restart_states();
+    /// Brings `discs_` up to date, in engines that keep their states elsewhere.
+    virtual void bring_states() const {}
     /// Frees what windows keep from one to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
@@ -77,6 +87,9 @@ protected:
     /// **Collective.**
     void refuse_long_flights(double speed) const;
 
+    /// At a sync: counts the flights since the last one as gathered. True if all that have gathered
+    /// are to be added to the sums of stress now.
+    bool begin_flights();
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
     /// Counts the discs that a window sees as work of this rank, and returns their number.
@@ -111,7 +124,6 @@ protected:
 
 private:
     void sync();
-    double restart_states();
     double let_effects_act();
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
