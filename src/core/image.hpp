@@ -32,7 +32,7 @@ struct Image {
     int x = 0, y = 0;
 
     friend bool operator==(const Image&, const Image&) = default;
-    friend Image operator-(Image image) { return {-image.x, -image.y}; }
+    CARROM_DEVICE friend Image operator-(Image image) { return {-image.x, -image.y}; }
 };
 
 /// The displacement from a disc to an image of it, or from one image to another one.
@@ -46,7 +46,9 @@ CARROM_DEVICE inline Image image_of(const DiscState& disc) {
 }
 
 /// Whether the disc's image is the one at its stored place, as nearly all are.
-CARROM_DEVICE inline bool is_unshifted(const DiscState& disc) { return disc.image_x == 0 && disc.image_y == 0; }
+CARROM_DEVICE inline bool is_unshifted(const DiscState& disc) {
+    return disc.image_x == 0 && disc.image_y == 0;
+}
 
 /// Whether both discs' images are displaced alike, which is so for nearly all pairs.
 CARROM_DEVICE inline bool are_shifted_alike(const DiscState& p, const DiscState& q) {

@@ -34,13 +34,14 @@ struct Body {
 template <class B>
 concept Bodies = std::is_trivially_copyable_v<B> &&
                  requires(B changing, const B bodies, const DiscState& p, std::int64_t n,
-                          double time, const Encounter<double>& met, StableArithmetic by, SpeciesView species) {
+                          double time, const Encounter<double>& met, StableArithmetic by,
+                          SpeciesView species) {
                      { B::have_species } -> std::convertible_to<bool>; // radii and masses differ
                      { B::grow } -> std::convertible_to<bool>;
                      // Thousands of collisions of a disc within so many micro-steps do not end.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n);       // times now count from micro-step n
-                     changing.look_up_in(species);     // where radii and masses are
+                     changing.begin_interval(n);   // times now count from micro-step n
+                     changing.look_up_in(species); // where radii and masses are
                      { bodies.largest() } -> std::same_as<double>; // radius, before it has grown
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;

@@ -118,7 +118,7 @@ public:
     ShearedSpace(const Box& box, const Effects& effects)
         : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
 
-    CARROM_DEVICE void begin_interval(std::int64_t n) { periods_.begin_interval(n); }
+    void begin_interval(std::int64_t n) { periods_.begin_interval(n); }
     [[gnu::always_inline]] CARROM_DEVICE Encounter<double> see(const DiscState& p,
                                                                const DiscState& q, double dx,
                                                                double dy, double time) const {

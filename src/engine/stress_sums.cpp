@@ -40,7 +40,8 @@ void StressTerms::add_to(StressSums& sum) {
         xx += term_xx;
         xy += term_xy;
         yy += term_yy;
-        changed |= (term_xx ^ bits_of(from)) | (term_xy ^ bits_of(from_twice)) | (term_yy ^ bits_of(from));
+        changed |= (term_xx ^ bits_of(from)) | (term_xy ^ bits_of(from_twice)) |
+                   (term_yy ^ bits_of(from));
     }
     const bool are_large = changed >> 52 != 0; // an exponent is not that of the constant
     if (are_large || !std::isnormal(from)) {

@@ -119,9 +119,8 @@ struct CudaMachine {
             scratch.memory.reset();
             scratch = {allocate(needed), needed};
         }
-        check_cuda(
-            cub::DeviceScan::ExclusiveSum(scratch.memory.get(), needed, numbers, numbers, n),
-            "scan");
+        check_cuda(cub::DeviceScan::ExclusiveSum(scratch.memory.get(), needed, numbers, numbers, n),
+                   "scan");
     }
 
 private:

@@ -63,8 +63,8 @@ struct DeviceCells {
     }
     /// Calls visit(slot, image) for each disc in the cells around `cell`, itself included. The disc
     /// is displaced by `image`, beside what its state says.
-    template <class Visit> CARROM_DEVICE void for_each_near(std::uint32_t cell,
-                                                            const Visit& visit) const {
+    template <class Visit>
+    CARROM_DEVICE void for_each_near(std::uint32_t cell, const Visit& visit) const {
         const int column = static_cast<int>(cell) % x.n, row = static_cast<int>(cell) / x.n;
         const int x_end = x.last(column) + 1, y_end = y.last(row) + 1;
         for (int at_y = y.first(row); at_y < y_end; ++at_y) {

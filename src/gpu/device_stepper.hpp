@@ -2,8 +2,8 @@
 // The stepper of a machine: owns the memory, and runs the kernels in their order.
 //
 // Memory is 64 bytes a disc for its state, 64 for a second copy while discs are sorted, 8 for cells
-// and places in them, and some 10 for the table of cells. Between two sorts the second copy is free,
-// and holds the next events and lists.
+// and places in them, and some 10 for the table of cells. Between two sorts the second copy is
+// free, and holds the next events and lists.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ template <class OfMotion, class Machine> class DeviceStepper final : public Step
 
 public:
     DeviceStepper(const OfMotion& motion, const SpeciesTable& species, std::uint32_t n)
-        : n_(n), world_(D(motion)), discs_(allocate<DiscState>(n)),
-          spare_(allocate<DiscState>(n)), cell_(allocate<std::uint32_t>(n)),
-          place_(allocate<std::uint32_t>(n)), counters_(allocate<DeviceCounters>(1)),
+        : n_(n), world_(D(motion)), discs_(allocate<DiscState>(n)), spare_(allocate<DiscState>(n)),
+          cell_(allocate<std::uint32_t>(n)), place_(allocate<std::uint32_t>(n)),
+          counters_(allocate<DeviceCounters>(1)),
           stripes_(allocate<StressPieces>(World<D>::n_stripes)) {
         world_.n = n;
         world_.cell = as<std::uint32_t>(cell_);
@@ -34,10 +34,10 @@ public:
         write_counters({});
         Machine::zero(stripes_.get(), sizeof(StressPieces) * World<D>::n_stripes);
         if constexpr (OfMotion::has_species)
-            world_.dynamics.look_up_species_in(species.copied_by([&](const auto* from,
-                                                                     std::size_t n_of_them) {
-                return copy_of_table(from, n_of_them);
-            }));
+            world_.dynamics.look_up_species_in(
+                species.copied_by([&](const auto* from, std::size_t n_of_them) {
+                    return copy_of_table(from, n_of_them);
+                }));
         point_at_discs();
     }
 
@@ -80,9 +80,7 @@ private:
     template <class T> static Memory allocate(std::size_t n) {
         return Machine::allocate(n * sizeof(T));
     }
-    template <class T> static T* as(const Memory& memory) {
-        return static_cast<T*>(memory.get());
-    }
+    template <class T> static T* as(const Memory& memory) { return static_cast<T*>(memory.get()); }
     template <class T> const T* copy_of_table(const T* from, std::size_t n) {
         tables_.push_back(allocate<T>(n));
         Machine::copy_to_device(tables_.back().get(), from, n * sizeof(T));
@@ -157,8 +155,7 @@ private:
         Machine::for_each(n_eights, Collect<D>{world_, m});
         Machine::for_each_of(&counters->n_active, n_, Match<D>{world_, m});
         const Waiting<D> waiting{world_, m};
-        for (int round = 0; round < rounds_of_all; ++round)
-            Machine::run_round(waiting, round, n_);
+        for (int round = 0; round < rounds_of_all; ++round) Machine::run_round(waiting, round, n_);
         Machine::finish_rounds(waiting, rounds_of_all);
         Machine::for_each_of(&counters->n_active, n_, Carry<D>{world_, m});
         if (!is_last) {

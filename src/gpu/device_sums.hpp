@@ -81,16 +81,13 @@ struct DeviceTerms {
 
 /// Adds to `sums` what threads have added to the stripes.
 inline void add_stripes(std::span<const StressPieces> stripes, StressSums& sums) {
-    __extension__ using Wide = unsigned __int128;
+    __extension__ typedef __int128 Wide; // NOLINT: nvcc takes the extension of no other form
     const auto add = [&](ExactSum& sum, SumPieces StressPieces::* pieces) {
         Wide total = 0;
         for (const StressPieces& stripe : stripes)
-            for (int k = 0; k < 4; ++k) {
-                // Pieces have signs: they are extended to 128 bits.
-                __extension__ const auto wide = static_cast<__int128>(
-                    static_cast<std::int64_t>((stripe.*pieces).piece[k]));
-                total += static_cast<Wide>(wide) << (32 * k);
-            }
+            for (int k = 0; k < 4; ++k) // pieces have signs
+                total += static_cast<Wide>(static_cast<std::int64_t>((stripe.*pieces).piece[k]))
+                         << (32 * k);
         sum.add_words(static_cast<std::uint64_t>(total), static_cast<std::uint64_t>(total >> 64));
     };
     add(sums.xx, &StressPieces::xx);

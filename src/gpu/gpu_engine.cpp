@@ -41,7 +41,8 @@ template <class Dynamics>
 GpuEngine<Dynamics>::GpuEngine(const SceneParameters& scene, StoredState state,
                                const Communicator& communicator, const Tuning& tuning,
                                const DeviceKind& device)
-    : Base(scene, std::move(state), communicator, tuning), on_host_(&discs_) {
+    : Base(scene, std::move(state), communicator, tuning), facts_(device.facts()),
+      on_host_(&discs_), copying_time_(&phases_) {
     this->distribute();
     discs_.forget_images();
     stepper_ = device.make_stepper(dynamics_.motion(), dynamics_.species_table(),
@@ -51,6 +52,7 @@ GpuEngine<Dynamics>::GpuEngine(const SceneParameters& scene, StoredState state,
 }
 
 template <class Dynamics> void GpuEngine<Dynamics>::put_states() {
+    const PhaseClock::Scope scope(phases_, Phase::exchange);
     stepper_->put(discs_.own());
     is_host_current_ = true;
 }
@@ -58,6 +60,7 @@ template <class Dynamics> void GpuEngine<Dynamics>::put_states() {
 /// Discs come in the order of the device's memory.
 template <class Dynamics> void GpuEngine<Dynamics>::bring_states() const {
     if (is_host_current_) return;
+    const PhaseClock::Scope scope(*copying_time_, Phase::exchange);
     is_host_current_ = true;
     on_host_->forget_halo();
     on_host_->drop_grid(); // it was made for the old order
@@ -134,8 +137,13 @@ template <class Dynamics> int GpuEngine<Dynamics>::choose_length(int n_left) con
 
 template <class Dynamics> WindowNeeds GpuEngine<Dynamics>::needs() const {
     const auto n = static_cast<double>(discs_.n_total());
-    return {dynamics_.box(), dynamics_.radius() + dynamics_.slack(), n, window_speed_,
-            hits_per_micro_step_, n, nullptr};
+    return {dynamics_.box(),
+            dynamics_.radius() + dynamics_.slack(),
+            n,
+            window_speed_,
+            hits_per_micro_step_,
+            n,
+            nullptr};
 }
 
 template <class Dynamics> void GpuEngine<Dynamics>::take_stress() {

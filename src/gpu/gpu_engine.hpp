@@ -22,6 +22,7 @@ public:
               const Tuning& tuning, const DeviceKind& device);
 
     void add_to(Totals& totals) override;
+    DeviceFacts device() const override { return facts_; }
 
 private:
     using Base = EngineBase<Dynamics>;
@@ -43,8 +44,10 @@ private:
     void put_states();
     void refuse_followers() const;
 
+    DeviceFacts facts_;
     std::unique_ptr<Stepper> stepper_;
-    StripDiscs* on_host_ = nullptr; ///< discs_, which reading may bring up to date
+    StripDiscs* on_host_ = nullptr;      ///< discs_, which reading may bring up to date
+    PhaseClock* copying_time_ = nullptr; ///< phases_, for the same reason
     mutable bool is_host_current_ = true;
     double window_speed_ = 0;        ///< the window's reach allows for it
     double speed_allowance_ = 1.02;  ///< for the next window, over the largest speed

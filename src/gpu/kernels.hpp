@@ -83,8 +83,7 @@ template <class D> struct Collect {
         const std::uint8_t wanted = world.number_of(m);
         const std::uint32_t end = std::min(world.n, (i + 1) * at_once);
         for (LocalIndex k = i * at_once; k < end; ++k)
-            if (world.micro[k] == wanted)
-                world.active[fetch_add(world.counters->n_active, 1)] = k;
+            if (world.micro[k] == wanted) world.active[fetch_add(world.counters->n_active, 1)] = k;
     }
 };
 

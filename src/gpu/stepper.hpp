@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
 #include "core/disc_state.hpp"
 #include "dynamics/species.hpp"
+#include "engine/device_facts.hpp"
 #include "engine/stress_sums.hpp"
 #include "gpu/device_dynamics.hpp"
 #include "time_stepped/window.hpp"
@@ -50,12 +50,6 @@ public:
     virtual double restart(double time, bool ends_flights, const DeviceWindow& window) = 0;
     /// Adds to `sums`, of the scale that windows had, what has been gathered, and forgets it.
     virtual void take_stress(StressSums& sums) = 0;
-};
-
-/// For messages and reports.
-struct DeviceFacts {
-    std::string name;
-    std::uint64_t bytes = 0, free_bytes = 0; ///< of its memory
 };
 
 /// Bytes of the device's memory that a disc needs, and that any run needs.

@@ -31,8 +31,8 @@ static_assert(longest_window < no_micro);
 
 /// A disc's first candidate.
 struct NextEvent {
-    double time = 0;                 ///< in-step time of its micro-step
-    LocalIndex partner = no_partner; ///< slot of the other disc, or `wall_index`
+    double time = 0;                       ///< in-step time of its micro-step
+    LocalIndex partner = no_partner;       ///< slot of the other disc, or `wall_index`
     std::int16_t image_x = 0, image_y = 0; ///< the other disc is displaced by so many boxes
     std::uint8_t micro = no_micro;
 };
@@ -45,8 +45,8 @@ struct DeviceCounters {
     std::uint32_t n_active = 0;  ///< discs with a candidate in the present micro-step
     std::uint32_t n_changed = 0; ///< discs that need another first candidate
     std::uint32_t n_waiting[rounds_of_all + 2] = {};
-    std::uint32_t is_cut = 0;  ///< discs are too fast for the rest of the window
-    std::uint32_t n_micro = 0; ///< micro-steps of the window that are done
+    std::uint32_t is_cut = 0;                   ///< discs are too fast for the rest of the window
+    std::uint32_t n_micro = 0;                  ///< micro-steps of the window that are done
     std::uint64_t n_candidates = 0, n_kept = 0; ///< since the run began
     Largest squared_speed;                      ///< since the last sync, or of all discs
 };
@@ -69,7 +69,7 @@ template <class D> struct World {
     LocalIndex* partner = nullptr;
     std::int16_t *image_x = nullptr, *image_y = nullptr;
     std::uint8_t* micro = nullptr;
-    std::uint8_t* taken = nullptr; ///< the disc takes part in an event of this micro-step
+    std::uint8_t* taken = nullptr;      ///< the disc takes part in an event of this micro-step
     std::uint32_t* is_listed = nullptr; ///< among `changed`
     LocalIndex *active = nullptr, *changed = nullptr;
     LocalIndex* waiting[2] = {};

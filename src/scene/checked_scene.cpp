@@ -146,6 +146,7 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
             if (effect.check_room) effect.check_room(draft);
     }
     check_rules(draft);
+    check_gpu(draft);
 }
 
 } // namespace carrom

@@ -200,6 +200,7 @@ struct SceneParameters {
     Arithmetic arithmetic = Arithmetic::stable;
     bool contraction = false; ///< in the products and sums of the naive formula
     std::optional<double> accuracy;
+    bool gpu = false; ///< a GPU steps the discs
     StopConditions stop;
     /// The last step that is sure to come: what is taken often enough up to there is never taken
     /// too rarely.

@@ -38,7 +38,8 @@ public:
     /// Carries out the bounce at t = time(disc, m). A corner reverses both velocities and counts
     /// once. `spin` is null where discs do not turn.
     CARROM_DEVICE void bounce(DiscState& disc, double m, double t, double* spin) const {
-        if (has_obstacles() && t != side_time(disc, m)) return bounce_off_obstacle(disc, m, t, spin);
+        if (has_obstacles() && t != side_time(disc, m))
+            return bounce_off_obstacle(disc, m, t, spin);
         const double x_time = side_time(disc, Axis::x, m), y_time = side_time(disc, Axis::y, m);
         advance(disc, m, t);
         if (x_time == t && is_open(disc, Axis::x)) return depart(disc, Axis::x, m + t, spin);
@@ -64,8 +65,8 @@ public:
 
     /// Stops a disc that has just collided at t, if something is in its way before the micro-step
     /// ends. `left` is the obstacle that it has just left.
-    [[gnu::always_inline]] CARROM_DEVICE void stop(DiscState& disc, double m, double t,
-                                     std::uint32_t left = ObstacleContact::no_body) const {
+    [[gnu::always_inline]] CARROM_DEVICE void stop(
+        DiscState& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
         const Real rest = 1 - static_cast<Real>(t);
         const Real at_side = std::min(side_stop(disc, Axis::x, rest),
                                       side_stop(disc, Axis::y, rest));
@@ -86,7 +87,8 @@ private:
         Dynamics::advance(disc, static_cast<Real>(m) + static_cast<Real>(t));
     }
 
-    [[gnu::always_inline]] CARROM_DEVICE double wall_time(const DiscState& disc, Axis axis, double m) const {
+    [[gnu::always_inline]] CARROM_DEVICE double wall_time(const DiscState& disc, Axis axis,
+                                                          double m) const {
         if (dynamics_.is_periodic_along(axis)) return never;
         const State d(disc);
         return dynamics_.resting_walls(axis, disc)
@@ -108,7 +110,8 @@ private:
                dynamics_.sides().is_open_ahead(disc, axis);
     }
     /// Through an open side a disc leaves when its centre is a radius beyond it.
-    [[gnu::always_inline]] CARROM_DEVICE double side_time(const DiscState& disc, Axis axis, double m) const {
+    [[gnu::always_inline]] CARROM_DEVICE double side_time(const DiscState& disc, Axis axis,
+                                                          double m) const {
         if constexpr (Dynamics::may_lose_discs) {
             if (is_open(disc, axis)) return departure_time(disc, axis, m);
         }
@@ -134,7 +137,8 @@ private:
         dynamics_.sides().reverse(disc, axis, dynamics_.body_of(disc), spin);
     }
 
-    [[gnu::always_inline]] CARROM_DEVICE Real side_stop(const DiscState& disc, Axis axis, Real rest) const {
+    [[gnu::always_inline]] CARROM_DEVICE Real side_stop(const DiscState& disc, Axis axis,
+                                                        Real rest) const {
         if (dynamics_.is_periodic_along(axis) || is_open(disc, axis))
             return RestingWalls<Real>::never;
         const State d(disc);
@@ -156,10 +160,11 @@ private:
         }
     }
     /// Unless a side stops the disc before.
-    CARROM_DEVICE bool stops_at_obstacle(DiscState& disc, double m, double at_side, std::uint32_t left) const {
+    CARROM_DEVICE bool stops_at_obstacle(DiscState& disc, double m, double at_side,
+                                         std::uint32_t left) const {
         if constexpr (Dynamics::may_have_obstacles) {
-            const ObstacleContact contact = dynamics_.first_obstacle(
-                disc, {disc.tau, m + 1, true, left});
+            const ObstacleContact contact = dynamics_.first_obstacle(disc,
+                                                                     {disc.tau, m + 1, true, left});
             if (!(contact.time < m + 1 && contact.time - disc.tau < at_side)) return false;
             Dynamics::advance(disc, contact.time);
             disc.tau = m + 1;

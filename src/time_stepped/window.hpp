@@ -27,7 +27,9 @@ struct Window {
     CARROM_DEVICE bool is_last_part() const { return part_end == 1; }
     CARROM_DEVICE bool is_part() const { return part_begin > 0 || part_end < 1; }
     CARROM_DEVICE int end_micro() const { return first_micro + n_micro; }
-    CARROM_DEVICE WindowState state_after(int m) const { return static_cast<WindowState>(m - first_micro + 1); }
+    CARROM_DEVICE WindowState state_after(int m) const {
+        return static_cast<WindowState>(m - first_micro + 1);
+    }
     CARROM_DEVICE double begin() const { return first_micro + part_begin; }
     CARROM_DEVICE double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
     /// Strips and cells are made for places at this time. If it is the middle of the
@@ -48,8 +50,8 @@ template <class Real> CARROM_DEVICE Real in_step_time(const PairContact<Real>& c
 
 /// The first micro-step of [from, to) that has this contact as a candidate (0 <= t <= 1), or `to`.
 template <class Real>
-[[gnu::always_inline]] CARROM_DEVICE inline int first_micro_step(const PairContact<Real>& contact, int from,
-                                                   int to) {
+[[gnu::always_inline]] CARROM_DEVICE inline int first_micro_step(const PairContact<Real>& contact,
+                                                                 int from, int to) {
     const double time = contact.base + contact.delay;
     if (!(time < to + 1.0)) return to;
     const int guess = static_cast<int>(time);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine of GPUs with its kernels on the CPU: its bits are those of the brute-force reference on
-// the scenes that tests share, and all that it adds up is what the engine of CPUs adds up.
-#include <limits>
+// The engine of GPUs with its kernels on the CPU: its bits are those of the brute-force reference
+// on the scenes that tests share, and all that it adds up is what the engine of CPUs adds up.
+#include <cstdlib>
+#include <memory>
 #include <optional>
 
 #include "catch.hpp"
@@ -26,9 +27,14 @@ StoredState state_of(const test::TestScene& scene) {
     return state;
 }
 
+/// In a build with CUDA a variable of the environment takes the tests to a GPU.
+const DeviceKind& tested_device() {
+    return std::getenv("CARROM_TEST_GPU") ? *program_gpu().device : serial_device();
+}
+
 std::unique_ptr<Engine> device_engine(const SceneParameters& scene, StoredState state,
                                       const Tuning& tuning = {}) {
-    return make_gpu_engine_on(serial_device(), scene, std::move(state), Communicator::world(),
+    return make_gpu_engine_on(tested_device(), scene, std::move(state), Communicator::world(),
                               tuning);
 }
 std::unique_ptr<Engine> cpu_engine(const SceneParameters& scene, StoredState state,
