@@ -31,7 +31,8 @@ public:
         world_.cell = as<std::uint32_t>(cell_);
         world_.counters = as<DeviceCounters>(counters_);
         world_.stripes = as<StressPieces>(stripes_);
-        write_counters({});
+        const DeviceCounters none;
+        Machine::copy_to_device(counters_.get(), &none, sizeof none);
         Machine::zero(stripes_.get(), sizeof(StressPieces) * World<D>::n_stripes);
         if constexpr (OfMotion::has_species)
             world_.dynamics.look_up_species_in(
@@ -49,7 +50,7 @@ public:
     }
 
     DeviceOutcome run(const DeviceWindow& window) override {
-        begin(window);
+        begin(window, false);
         sort(window.reach);
         Machine::for_each(n_, Predict<D>{world_});
         for (int m = window.window.first_micro; m < window.window.end_micro(); ++m)
@@ -60,10 +61,7 @@ public:
     }
 
     double restart(double time, bool ends_flights, const DeviceWindow& window) override {
-        begin(window);
-        DeviceCounters counters = read_counters();
-        counters.squared_speed = {};
-        write_counters(counters);
+        begin(window, true);
         Machine::for_each(n_, Restart<D>{world_, time, ends_flights});
         return read_counters().squared_speed.value();
     }
@@ -92,18 +90,14 @@ private:
         Machine::copy_to_host(&counters, counters_.get(), sizeof counters);
         return counters;
     }
-    void write_counters(const DeviceCounters& counters) {
-        Machine::copy_to_device(counters_.get(), &counters, sizeof counters);
-    }
 
-    void begin(const DeviceWindow& window) {
+    /// Waits for nothing, because the host has nothing to do with the last window's numbers.
+    void begin(const DeviceWindow& window, bool forgets_speed) {
         world_.window = window.window;
         world_.squared_window_speed = window.speed * window.speed;
         world_.flown = window.flown;
         world_.stress_scale = window.stress_scale;
-        DeviceCounters counters = read_counters();
-        counters.n_micro = counters.is_cut = 0;
-        write_counters(counters);
+        Machine::for_each(1, Begin<D>{world_, forgets_speed});
     }
 
     /// Brings the discs into the order of the cells of this reach.

@@ -25,6 +25,17 @@
 
 namespace carrom {
 
+/// Empties what the host reads after a window, or after a sync: `forgets_speed`.
+template <class D> struct Begin {
+    World<D> world;
+    bool forgets_speed;
+
+    CARROM_DEVICE void operator()(std::uint32_t /*i*/) const {
+        world.counters->n_micro = world.counters->is_cut = 0;
+        if (forgets_speed) world.counters->squared_speed = {};
+    }
+};
+
 /// Slot i gets its cell and its place among the discs of the cell. In a periodic box the disc gets
 /// the image that is in the box at the window's anchor.
 template <class D> struct PutIntoCells {

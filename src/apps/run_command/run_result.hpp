@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/device_facts.hpp"
 #include "measure/order_watch.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
