@@ -60,6 +60,9 @@ find_library(CARROM_CUDART cudart_static REQUIRED DOC "NVIDIA's static runtime l
              HINTS ${cuda_root}/../lib64 ${cuda_root}/../lib
                    ${cuda_root}/../targets/x86_64-linux/lib)
 find_package(Threads REQUIRED)
-target_sources(carrom_gpu PRIVATE ${cuda_object})
-target_link_libraries(carrom_gpu PRIVATE ${CARROM_CUDART} Threads::Threads ${CMAKE_DL_LIBS} rt)
-target_compile_definitions(carrom_gpu PUBLIC CARROM_HAS_CUDA)
+add_library(carrom_cuda_device STATIC EXCLUDE_FROM_ALL ${cuda_object})
+set_target_properties(carrom_cuda_device PROPERTIES LINKER_LANGUAGE CXX)
+target_link_libraries(carrom_cuda_device PUBLIC ${CARROM_CUDART} Threads::Threads ${CMAKE_DL_LIBS}
+                                                rt)
+target_compile_definitions(carrom_cuda_device INTERFACE CARROM_HAS_CUDA)
+target_link_libraries(carrom_gpu PUBLIC carrom_cuda_device)
