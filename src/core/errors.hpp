@@ -8,6 +8,8 @@
 
 #include <carrom/errors.hpp>
 
+#include "core/device.hpp"
+
 namespace carrom {
 
 /// Ends the program when an invariant is broken. Also in Release: a wrong number must never look
@@ -17,10 +19,15 @@ namespace carrom {
 using FailureHandler = void (*)(std::string_view text, const char* file, int line);
 void set_failure_handler(FailureHandler handler);
 
-inline void ensure(bool claim, std::string_view text, const char* file = __builtin_FILE(),
-                   int line = __builtin_LINE()) {
+/// On a GPU it stops the kernel, and the host reports that.
+CARROM_DEVICE inline void ensure(bool claim, std::string_view text,
+                                 const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+#ifdef __CUDA_ARCH__
+    if (!claim) __trap();
+#else
     if (!claim) [[unlikely]]
         fail(text, file, line);
+#endif
 }
 
 } // namespace carrom

@@ -39,7 +39,7 @@ public:
     void add_words(std::uint64_t low, std::uint64_t high);
 
 private:
-    __extension__ using Wide = __int128;
+    __extension__ typedef __int128 Wide; // NOLINT: nvcc takes the extension of no other form
 
     void add_large(double term);
 

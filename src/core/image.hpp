@@ -32,7 +32,7 @@ struct Image {
     int x = 0, y = 0;
 
     friend bool operator==(const Image&, const Image&) = default;
-    friend Image operator-(Image image) { return {-image.x, -image.y}; }
+    CARROM_DEVICE friend Image operator-(Image image) { return {-image.x, -image.y}; }
 };
 
 /// The displacement from a disc to an image of it, or from one image to another one.
@@ -46,7 +46,9 @@ CARROM_DEVICE inline Image image_of(const DiscState& disc) {
 }
 
 /// Whether the disc's image is the one at its stored place, as nearly all are.
-inline bool is_unshifted(const DiscState& disc) { return disc.image_x == 0 && disc.image_y == 0; }
+CARROM_DEVICE inline bool is_unshifted(const DiscState& disc) {
+    return disc.image_x == 0 && disc.image_y == 0;
+}
 
 /// Whether both discs' images are displaced alike, which is so for nearly all pairs.
 CARROM_DEVICE inline bool are_shifted_alike(const DiscState& p, const DiscState& q) {
@@ -54,12 +56,12 @@ CARROM_DEVICE inline bool are_shifted_alike(const DiscState& p, const DiscState&
 }
 
 /// The image is less than 16000 boxes away along each axis (Periods::home).
-inline void set_image(DiscState& disc, Image image) {
+CARROM_DEVICE inline void set_image(DiscState& disc, Image image) {
     disc.image_x = static_cast<std::int16_t>(image.x);
     disc.image_y = static_cast<std::int16_t>(image.y);
 }
 
-inline void move_image(DiscState& disc, Image by) {
+CARROM_DEVICE inline void move_image(DiscState& disc, Image by) {
     set_image(disc, {image_of(disc).x + by.x, image_of(disc).y + by.y});
 }
 
@@ -76,7 +78,7 @@ struct Inside {
 /// A place in [0, period) for one anywhere: a function of the two alone, one rounding away.
 /// Unchanged where there is no period. Adds to `lengths` how many periods it went up, if that is
 /// asked for.
-inline double wrapped(double place, double period, double* lengths = nullptr) {
+CARROM_DEVICE inline double wrapped(double place, double period, double* lengths = nullptr) {
     if (period == 0 || (place >= 0 && place < period)) return place;
     double up = -std::floor(place / period), inside = std::fma(up, period, place);
     if (inside < 0) { // what is left of it may be less than a rounding of the period
@@ -98,10 +100,10 @@ struct Periods {
     double speed = 0;    ///< that row moves along x at this speed; 0 where boxes are at rest
 
     bool are_any() const { return x != 0 || y != 0; }
-    bool are_moving() const { return speed != 0; }
+    CARROM_DEVICE bool are_moving() const { return speed != 0; }
     /// Returns 0 if there are no periods.
     double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
-    double along(Axis axis) const { return carrom::along(axis, x, y); }
+    CARROM_DEVICE double along(Axis axis) const { return carrom::along(axis, x, y); }
     /// The shift of the row above the box.
     CARROM_DEVICE double offset_at(double time) const { return offset + speed * time; }
 
@@ -132,7 +134,7 @@ struct Periods {
     }
 
     /// Where the disc's image is, and how fast it flies along x.
-    [[gnu::always_inline]] double x_of(const DiscState& disc, double time) const {
+    [[gnu::always_inline]] CARROM_DEVICE double x_of(const DiscState& disc, double time) const {
         if (is_unshifted(disc)) return disc.x_at(time);
         const double at_rest = shifted_x(disc, time);
         return are_moving() ? moved(at_rest, disc, time) : at_rest;
@@ -141,7 +143,7 @@ struct Periods {
     [[gnu::always_inline]] double x_at_rest(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
     }
-    [[gnu::always_inline]] double y_of(const DiscState& disc, double time) const {
+    [[gnu::always_inline]] CARROM_DEVICE double y_of(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
     }
     CARROM_DEVICE double vx_of(const DiscState& disc) const {
@@ -153,12 +155,12 @@ struct Periods {
     }
 
     /// The image that is in the box, to within a rounding.
-    Image home(const DiscState& disc, double time) const {
+    CARROM_DEVICE Image home(const DiscState& disc, double time) const {
         const int up = lengths(disc.y_at(time), y);
         return {lengths(disc.x_at(time) + up * offset_at(time), x), up};
     }
     /// Replaces a state at `time` by that of the image in the box.
-    void wrap(DiscState& disc, double time) const {
+    CARROM_DEVICE void wrap(DiscState& disc, double time) const {
         double up = 0;
         disc.y = wrapped(disc.y, y, &up);
         if (up != 0 && are_moving()) {
@@ -188,21 +190,21 @@ struct Periods {
 
 private:
     // Not inlined, so that the common case, an unshifted disc, is.
-    [[gnu::noinline]] double shifted_x(const DiscState& disc, double time) const {
+    [[gnu::noinline]] CARROM_DEVICE double shifted_x(const DiscState& disc, double time) const {
         return disc.x_at(time) + image_of(disc).x * x;
     }
-    [[gnu::noinline, gnu::cold]] double moved(double at_rest, const DiscState& disc,
-                                              double time) const {
+    [[gnu::noinline, gnu::cold]] CARROM_DEVICE double moved(double at_rest, const DiscState& disc,
+                                                            double time) const {
         return at_rest + image_of(disc).y * offset_at(time);
     }
-    [[gnu::noinline]] double shifted_y(const DiscState& disc, double time) const {
+    [[gnu::noinline]] CARROM_DEVICE double shifted_y(const DiscState& disc, double time) const {
         return disc.y_at(time) + image_of(disc).y * y;
     }
     [[gnu::noinline]] CARROM_DEVICE Shift shifted_between(const DiscState& p, const DiscState& q,
                                                           double time) const {
         return shift_of({image_of(q).x - image_of(p).x, image_of(q).y - image_of(p).y}, time);
     }
-    static int lengths(double place, double period) {
+    CARROM_DEVICE static int lengths(double place, double period) {
         if (period == 0 || (place >= 0 && place < period)) return 0;
         const double n = std::floor(place / period);
         ensure(std::fabs(n) < 16000, "a disc flies through the box thousands of times from sync to "

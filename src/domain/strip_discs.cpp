@@ -235,7 +235,7 @@ Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
 }
 
 void StripDiscs::forget_images() {
-    if (!periods_.are_any()) return;
+    if (!has_images_) return;
 #pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_own_ >= least_for_threads)
     for (std::size_t i = 0; i < n_own_; ++i) set_image(discs_[i], {});
     has_images_ = false;

@@ -130,6 +130,11 @@ public:
     /// All own discs are in the box, and none is displaced. So until the next migration only those
     /// that were near its sides when they were sorted can need another image.
     void note_wrapped() { has_images_ = true; }
+    /// Own discs, whose states have been replaced, have no images.
+    void clear_images() {
+        has_images_ = true;
+        forget_images();
+    }
 
     /// The places that a rank with a halo of `reach` sees, in a box of this extent. It
     /// matters along axes that are not periodic.

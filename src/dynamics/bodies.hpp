@@ -35,12 +35,14 @@ struct Body {
 template <class B>
 concept Bodies = std::is_trivially_copyable_v<B> &&
                  requires(B changing, const B bodies, const DiscState& p, std::int64_t n,
-                          double time, const Encounter<double>& met, StableArithmetic by) {
+                          double time, const Encounter<double>& met, StableArithmetic by,
+                          SpeciesView species) {
                      { B::have_species } -> std::convertible_to<bool>; // radii and masses differ
                      { B::grow } -> std::convertible_to<bool>;
                      // Thousands of collisions of a disc within so many micro-steps do not end.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n); // times now count from micro-step n
+                     changing.begin_interval(n);   // times now count from micro-step n
+                     changing.look_up_in(species); // where radii and masses are
                      { bodies.largest() } -> std::same_as<double>; // radius, before it has grown
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;
@@ -61,6 +63,7 @@ public:
         : radius_(radius), diameter_(2 * radius) {}
 
     CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
+    static void look_up_in(SpeciesView /*species*/) {}
     CARROM_DEVICE double largest() const { return radius_; }
     CARROM_DEVICE SizeAndMass of(const DiscState& /*disc*/) const { return {radius_, 1}; }
     CARROM_DEVICE Body at(const DiscState& /*disc*/, double /*time*/) const {
@@ -93,6 +96,7 @@ public:
         : radius_(radius), species_(species) {}
 
     CARROM_DEVICE static void begin_interval(std::int64_t /*n*/) {}
+    void look_up_in(SpeciesView species) { species_ = species; }
     CARROM_DEVICE double largest() const { return radius_; }
     CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
         return species_.of(disc.id);
@@ -134,6 +138,7 @@ public:
     }
     /// From now on radii are the scene's times `size`; without a rate.
     void resize(double size) { at_sync_ = size_ = size; }
+    void look_up_in(SpeciesView species) { species_ = species; }
     CARROM_DEVICE double largest() const { return radius_; }
     CARROM_DEVICE const SizeAndMass& of(const DiscState& disc) const {
         return species_.of(disc.id);

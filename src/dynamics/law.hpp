@@ -63,10 +63,10 @@ public:
             const double half = (p_has.mass + q_has.mass) / 2;
             push_apart(p, q, met, Real{1}, static_cast<Real>(q_has.mass / half),
                        static_cast<Real>(p_has.mass / half));
-        } else if (!has_spin()) {
-            loss = meet_smooth(p, q, {met.ex, met.ey, met.wx, met.wy}, p_has, q_has, since);
         } else {
-            loss = meet_rough(p, q, {met.ex, met.ey, met.wx, met.wy}, p_has, q_has, since, spins);
+            const Encounter<double> seen{met.ex, met.ey, met.wx, met.wy};
+            loss = has_spin() ? meet_rough(p, q, seen, p_has, q_has, since, spins)
+                              : meet_smooth(p, q, seen, p_has, q_has, since);
         }
         p.pair_collisions += 1;
         q.pair_collisions += 1;

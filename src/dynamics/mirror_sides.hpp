@@ -35,7 +35,8 @@ public:
         const State d(disc);
         return d.tau + walls(axis).delay(along(axis, d.x, d.y), along(axis, d.vx, d.vy));
     }
-    bool may_meet(const DiscState& disc, double time, double margin, const Body& /*body*/) const {
+    CARROM_DEVICE bool may_meet(const DiscState& disc, double time, double margin,
+                                const Body& /*body*/) const {
         const double x = disc.x_at(time), y = disc.y_at(time);
         return !(x > x_walls_.low() + margin && x < x_walls_.high() - margin &&
                  y > y_walls_.low() + margin && y < y_walls_.high() - margin);
@@ -47,7 +48,8 @@ public:
         disc.wall_collisions += 1;
         return {};
     }
-    static void reverse(DiscState& disc, Axis axis, const Body& /*body*/, double* /*spin*/) {
+    CARROM_DEVICE static void reverse(DiscState& disc, Axis axis, const Body& /*body*/,
+                                      double* /*spin*/) {
         double& velocity = axis == Axis::x ? disc.vx : disc.vy;
         velocity = -velocity;
     }

@@ -19,7 +19,7 @@ public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
     /// Walls at 0 and `length`, for the centres of discs of that radius.
-    RestingWalls(Real length, Real radius, Real band)
+    CARROM_DEVICE RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 
     CARROM_DEVICE Real low() const { return low_; }

@@ -102,8 +102,8 @@ public:
     CARROM_DEVICE static double squared_speed_at(const DiscState& disc, double /*time*/) {
         return squared_speed_of(disc);
     }
-    const Periods& periods() const { return periods_; }
-    void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
+    CARROM_DEVICE const Periods& periods() const { return periods_; }
+    CARROM_DEVICE void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
 
 private:
     Periods periods_;
@@ -118,7 +118,7 @@ public:
     ShearedSpace(const Box& box, const Effects& effects)
         : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
 
-    CARROM_DEVICE void begin_interval(std::int64_t n) { periods_.begin_interval(n); }
+    void begin_interval(std::int64_t n) { periods_.begin_interval(n); }
     [[gnu::always_inline]] CARROM_DEVICE Encounter<double> see(const DiscState& p,
                                                                const DiscState& q, double dx,
                                                                double dy, double time) const {
@@ -138,8 +138,8 @@ public:
         set_image(at_home, periods_.home(disc, time));
         return squared_speed(at_home);
     }
-    const Periods& periods() const { return periods_; }
-    void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
+    CARROM_DEVICE const Periods& periods() const { return periods_; }
+    CARROM_DEVICE void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
 
 private:
     Periods periods_;

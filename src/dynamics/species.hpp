@@ -66,6 +66,15 @@ public:
 
     const SizeAndMass& of(DiscId id) const { return view_.of(id); }
     SpeciesView view() const { return view_; }
+    /// A view of copies of the table. `copy(numbers, n)` makes one of each part, which must stay,
+    /// and returns where it is.
+    template <class Copy> SpeciesView copied_by(const Copy& copy) const {
+        const SpeciesView::Range* ranges = copy(table_->ranges.data(), table_->ranges.size());
+        if (table_->sizes.empty()) return {ranges, nullptr, nullptr};
+        const SizeAndMass* sizes = copy(table_->sizes.data(), table_->sizes.size());
+        if (table_->species_of_id.empty()) return {ranges, sizes, nullptr};
+        return {ranges, sizes, copy(table_->species_of_id.data(), table_->species_of_id.size())};
+    }
 
 private:
     struct Table {

@@ -27,7 +27,7 @@ namespace carrom {
 template <class Real> struct RoundedState {
     Real x, y, vx, vy, tau;
 
-    explicit RoundedState(const DiscState& disc)
+    CARROM_DEVICE explicit RoundedState(const DiscState& disc)
         : x(static_cast<Real>(disc.x)), y(static_cast<Real>(disc.y)),
           vx(static_cast<Real>(disc.vx)), vy(static_cast<Real>(disc.vy)),
           tau(static_cast<Real>(disc.tau)) {}
@@ -66,8 +66,8 @@ public:
                         16 * std::numeric_limits<Real>::epsilon() *
                             static_cast<Real>(box.longest()));
     }
-    double slack() const { return slack_; }
-    double place_rounding() const { return place_rounding_; }
+    CARROM_DEVICE double slack() const { return slack_; }
+    CARROM_DEVICE double place_rounding() const { return place_rounding_; }
     bool parts_overlaps() const { return formula_ == ContactFormula::stable; }
 
     CARROM_DEVICE static void advance(DiscState& disc, double time) {

@@ -29,7 +29,7 @@ public:
     static Frame at(double /*time*/) { return {}; }
     static void restart(DiscState& /*disc*/, double /*time*/) {}
     static constexpr double slowing_at(double /*time*/) { return 1; }
-    static FlightIntegral flight_integral_at(double time) { return {time, 0, 0, 0, 0}; }
+    static constexpr FlightIntegral flight_integral_at(double time) { return {time, 0, 0, 0, 0}; }
     static constexpr double pair_weight_at(double time) { return time; }
     static constexpr double jump_at(Axis /*axis*/, double /*time*/) { return 0; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }

@@ -16,6 +16,7 @@
 #include "domain/domains.hpp"
 #include "dynamics/species.hpp"
 #include "engine/collision.hpp"
+#include "engine/device_facts.hpp"
 #include "engine/loss_sums.hpp"
 #include "engine/pair_event.hpp"
 #include "engine/stored_state.hpp"
@@ -56,6 +57,8 @@ public:
     /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
 
+    /// The GPU that steps the discs; its name is empty if there is none.
+    virtual DeviceFacts device() const { return {}; }
     /// What a disc takes beyond one of an even gas, because discs crowd. The same on all ranks.
     virtual double bytes_for_crowds() const { return 0; }
     /// **Collective.**

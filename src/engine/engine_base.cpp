@@ -91,6 +91,7 @@ template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
 
 template <class Dynamics>
 void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered) {
+    bring_states();
     set_departed_aside();
     migrate();
     const double radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
@@ -185,15 +186,19 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     discs_.rebalance(0, tuning_.rebalance_above, std::exchange(rank_work_, {}));
 }
 
-/// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
+template <class Dynamics> bool EngineBase<Dynamics>::begin_flights() {
+    const bool ends_flights = n_micro_done_ % flight_length_ == 0;
+    flown_before_ = ends_flights ? 0 : flown_before_ + time_;
+    return ends_flights;
+}
+
 template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     discs_.forget_halo();
     DiscStates& discs = discs_.all();
     const auto n = static_cast<std::int64_t>(discs.size());
     const bool frame_moves = dynamics_.frame_at(time_).is_moving;
     const FlightIntegral flight = flight_integral();
-    const bool ends_flights = n_micro_done_ % flight_length_ == 0;
-    flown_before_ = ends_flights ? 0 : flown_before_ + time_;
+    const bool ends_flights = begin_flights();
     double fastest = 0;
     const bool is_work_asked = Dynamics::has_moving_images && work_ != nullptr;
     if (is_work_asked) *work_ -= energy_of_own();

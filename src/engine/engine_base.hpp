@@ -30,9 +30,15 @@ public:
     }
 
     std::int64_t micro_steps_done() const final { return n_micro_done_; }
-    std::span<const DiscState> own() const final { return discs_.own(); }
+    std::span<const DiscState> own() const final {
+        bring_states();
+        return discs_.own();
+    }
     std::span<const DiscState> departed() const final { return discs_.departed(); }
-    SideSpans side_columns() const final { return discs_.own_columns(); }
+    SideSpans side_columns() const final {
+        bring_states();
+        return discs_.own_columns();
+    }
     SideSpans departed_columns() const final { return discs_.departed_columns().spans(); }
     const SpeciesTable& species_table() const final { return species_; }
     double size() const final {
@@ -68,6 +74,10 @@ protected:
     /// Effects have changed velocities since then, before flights. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void take_speed(double largest_speed) = 0;
+    /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
+    virtual double restart_states();
+    /// Brings `discs_` up to date, in engines that keep their states elsewhere.
+    virtual void bring_states() const {}
     /// Frees what windows keep from one to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
@@ -87,6 +97,9 @@ protected:
     /// **Collective.**
     void refuse_long_flights(double speed) const;
 
+    /// At a sync: counts the flights since the last one as gathered. True if all that have gathered
+    /// are to be added to the sums of stress now.
+    bool begin_flights();
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
     /// Counts the discs that a window sees as work of this rank, and returns their number.
@@ -121,7 +134,6 @@ protected:
 
 private:
     void sync();
-    double restart_states();
     double let_effects_act();
     void let_effects_begin();
     double largest_speed_of_all_states() const;

@@ -12,10 +12,13 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
+#include "core/device.hpp"
 #include "core/disc_state.hpp"
 #include "core/exact_sum.hpp"
 #include "core/flight_integral.hpp"
@@ -48,6 +51,46 @@ struct StressSums {
     ExactSum energy; ///< the integral of the sum of m v^2
 };
 
+// Terms are rounded to whole units. A number of less than 2^51 units that is added to `unit_shift`
+// leaves its nearest integer in the last bits. The bits of such sums can be added up as integers.
+constexpr double unit_shift = 0x1.8p52;
+constexpr double most_rounded_units = 0x1p51;
+
+CARROM_DEVICE inline std::uint64_t bits_of(double number) {
+    return std::bit_cast<std::uint64_t>(number);
+}
+
+/// Subtracts a term from a sum: an ExactSum, or one that a GPU adds to.
+template <class Sum> CARROM_DEVICE void subtract_rounded(Sum& sum, double term) {
+    const double units = term * sum.scale();
+    if (std::fabs(units) < most_rounded_units)
+        sum.add_units(static_cast<std::int64_t>(bits_of(unit_shift) - bits_of(unit_shift + units)));
+    else
+        sum.add(-term);
+}
+
+/// Adds to the sums that a disc has got the impulse (ix, iy) from another one at the separation
+/// `to`. The sum counts the mean of xy and yx, because rough discs make them differ.
+template <class Sums>
+CARROM_DEVICE void add_impulse(Sums& sums, double ix, double iy, const Separation& to) {
+    subtract_rounded(sums.xx, ix * to.x);
+    subtract_rounded(sums.xy, 0.5 * (ix * to.y + iy * to.x));
+    subtract_rounded(sums.yy, iy * to.y);
+}
+
+/// Does what StressSums::add_flight does, but not for the energy. `terms` are StressTerms or the
+/// like.
+template <class Terms, class Sums>
+CARROM_DEVICE void add_flight_to(Terms& terms, Sums& sums, double mass, const DiscState& disc,
+                                 const FlightIntegral& integral) {
+    const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y;
+    terms.add(-mass * vx, -mass * vy, {integral.weight * vx, integral.weight * vy}, sums);
+    if (integral.rest_x != 0 || integral.rest_y != 0)
+        terms.add(-mass * integral.rest_x, -mass * integral.rest_y,
+                  {integral.rest_x, integral.rest_y}, sums);
+    if (integral.more_y != 0) terms.add(0, -mass * integral.more_y, {0, integral.more_y}, sums);
+}
+
 /// Terms that wait to be added to sums, because adding many at a time takes a third of the work.
 class StressTerms {
 public:
@@ -62,7 +105,9 @@ public:
     }
     /// Does what StressSums::add_flight does, but not for the energy.
     void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral,
-                    StressSums& sum);
+                    StressSums& sum) {
+        add_flight_to(*this, sum, mass, disc, integral);
+    }
     /// Adds the terms that are left, and forgets them.
     void add_to(StressSums& sum);
 
@@ -81,7 +126,7 @@ private:
 /// form of impulse times distance for another distance, so both parts are one term.
 template <class Dynamics> class PairStress {
 public:
-    PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
+    CARROM_DEVICE PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
         if constexpr (Dynamics::has_species) wx_ = q.vx - p.vx, wy_ = q.vy - p.vy;
     }
 
@@ -90,10 +135,11 @@ public:
 
     /// Called after it, at `time`, with the separation from p to q. Flights have gathered stress
     /// for `flown` before the last sync. Returns p's impulse along x.
-    [[gnu::always_inline]] double add_to(StressTerms& terms, StressSums& sum,
-                                         const Dynamics& dynamics, const DiscState& p,
-                                         const DiscState& q, const Separation& to, double time,
-                                         double flown) const {
+    template <class Terms, class Sums>
+    [[gnu::always_inline]] CARROM_DEVICE double add_to(Terms& terms, Sums& sum,
+                                                       const Dynamics& dynamics, const DiscState& p,
+                                                       const DiscState& q, const Separation& to,
+                                                       double time, double flown) const {
         const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
         // If masses are equal, q has lost what p has gained, so half of u is known afterwards.
         double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
@@ -121,19 +167,23 @@ private:
 /// whose other disc does not move.
 template <class Dynamics> class WallStress {
 public:
-    explicit WallStress(const DiscState& disc) : vx_(disc.vx), vy_(disc.vy) {}
+    CARROM_DEVICE explicit WallStress(const DiscState& disc) : vx_(disc.vx), vy_(disc.vy) {}
 
     /// After it, as PairStress::add_to.
-    [[gnu::always_inline]] void add_to(StressTerms& terms, StressSums& sum,
-                                       const Dynamics& dynamics, const DiscState& disc, double time,
-                                       double flown) const {
+    template <class Terms, class Sums>
+    [[gnu::always_inline]] CARROM_DEVICE void add_to(Terms& terms, Sums& sum,
+                                                     const Dynamics& dynamics,
+                                                     const DiscState& disc, double time,
+                                                     double flown) const {
         FlightIntegral integral = dynamics.flight_integral_at(time);
         integral.weight += flown;
         const double mass = dynamics.mass_of(disc);
-        if (Dynamics::may_lose_discs && disc.has_departed()) {
-            DiscState before = disc;
-            before.vx = vx_, before.vy = vy_;
-            return sum.add_flight(mass, before, integral);
+        if constexpr (Dynamics::may_lose_discs) {
+            if (disc.has_departed()) {
+                DiscState before = disc;
+                before.vx = vx_, before.vy = vy_;
+                return sum.add_flight(mass, before, integral);
+            }
         }
         const double ix = mass * (disc.vx - vx_), iy = mass * (disc.vy - vy_);
         const double ux = integral.weight * (disc.vx + vx_ + 2 * integral.shift_x),

@@ -152,6 +152,7 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
     }
     check_rules(draft);
     take_frozen(draft);
+    check_gpu(draft);
 }
 
 } // namespace carrom

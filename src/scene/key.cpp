@@ -60,6 +60,7 @@ const std::vector<Key>& keys() {
             list.insert(list.end(), part.begin(), part.end());
         };
         add(keys_of_time());
+        add(keys_of_machine());
         add(keys_of_sizes());
         add(keys_of_effects());
         add(keys_of_output());
@@ -79,6 +80,7 @@ const std::vector<Table>& tables() {
             {"time", "How long, and by which method."},
             {"time.stop", "What ends a run before its last step. It is checked at the end of each "
                           "step with a sync, and the report says what ended the run."},
+            {"machine", "What steps the discs; no key of machine changes a bit of the result."},
             {"box.left", "One side of the box. `[box.right]`, `[box.bottom]` and `[box.top]` have "
                          "the same keys."},
             {.name = "box.right", .is_like_another = true},

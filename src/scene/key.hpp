@@ -159,7 +159,10 @@ Effects per_micro_step(const SceneParameters& scene);
 std::vector<Key> keys_of_discs();
 std::vector<Key> keys_of_sizes(); ///< discs.radius as a table
 std::vector<Key> keys_of_time();
+std::vector<Key> keys_of_machine();
 std::vector<Key> keys_of_effects();
 std::vector<Key> keys_of_output();
+
+std::vector<Rule> rules_of_machine();
 
 } // namespace carrom

@@ -16,10 +16,11 @@ namespace carrom {
 
 struct Quantity {
     std::string_view name;
-    std::string_view help;        ///< for the page of keys
-    std::vector<Key> keys = {};   ///< its settings; quantities can share one
-    bool has_history = false;     ///< its tables grow with each sample
-    std::vector<Rule> rules = {}; ///< features that it does not go with
+    std::string_view help;           ///< for the page of keys
+    std::vector<Key> keys = {};      ///< its settings; quantities can share one
+    bool has_history = false;        ///< its tables grow with each sample
+    bool follows_collisions = false; ///< one by one; a GPU lists none
+    std::vector<Rule> rules = {};    ///< features that it does not go with
     void (*check)(
         const SceneDraft&) = {}; ///< for a valid box and valid discs; shared ones run once
     void (*check_times)(const SceneDraft&) = {}; ///< after the times of the scene are known

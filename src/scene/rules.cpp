@@ -83,8 +83,9 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part : {rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
-                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
+        for (const auto& part :
+             {rules_of_starts(), rules_of_machine(), rules_of_outputs(), rules_of_quantities(),
+              rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         for (const BoundaryDeclaration& kind : all_boundaries())
             list.insert(list.end(), kind.rules.begin(), kind.rules.end());

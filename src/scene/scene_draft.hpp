@@ -82,6 +82,8 @@ bool check_discs(const SceneDraft& draft);
 
 /// Refuses conditions of `[time.stop]` on what the scene's discs do not have.
 void check_stop(const SceneDraft& draft);
+/// Reports what the scene has and a GPU cannot do, if one is asked for.
+void check_gpu(const SceneDraft& draft);
 
 /// Checks whether `discs.columns` can be those of lines of discs.
 void check_columns(const SceneDraft& draft);

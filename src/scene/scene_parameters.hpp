@@ -224,6 +224,7 @@ struct SceneParameters {
     Arithmetic arithmetic = Arithmetic::stable;
     bool contraction = false; ///< in the products and sums of the naive formula
     std::optional<double> accuracy;
+    bool gpu = false; ///< a GPU steps the discs
     StopConditions stop;
     /// Whether discs of the start become obstacles.
     bool freezes() const {

@@ -10,6 +10,7 @@
 #include "engine/engine.hpp"
 #include "engine/state_sums.hpp"
 #include "event_driven/event_driven_engine.hpp"
+#include "gpu/gpu.hpp"
 #include "scene/effects/effect.hpp"
 #include "statistics/motion.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
@@ -71,6 +72,7 @@ std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState sta
                                    const Communicator& communicator, const Tuning& tuning) {
     if (scene.method == Method::event_driven)
         return make_event_driven_engine(scene, std::move(state), communicator, tuning);
+    if (scene.gpu) return make_gpu_engine(scene, std::move(state), communicator, tuning);
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 

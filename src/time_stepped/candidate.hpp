@@ -22,7 +22,7 @@ struct Candidate {
     double time = 0;                  ///< in-step time of its micro-step, in [0, 1]
     LocalIndex p = 0, q = wall_index; ///< p has the lower id
 
-    bool is_wall() const { return q == wall_index; }
+    CARROM_DEVICE bool is_wall() const { return q == wall_index; }
 };
 static_assert(sizeof(Candidate) == 16);
 using Candidates = RawVector<Candidate>;
@@ -30,9 +30,9 @@ using Candidates = RawVector<Candidate>;
 /// Orders by time, then id of P, then wall before pair, then id of Q: exactly, without a tolerance.
 class TotalOrder {
 public:
-    explicit TotalOrder(std::span<const DiscState> discs) : discs_(discs) {}
+    CARROM_DEVICE explicit TotalOrder(std::span<const DiscState> discs) : discs_(discs) {}
 
-    bool operator()(const Candidate& a, const Candidate& b) const {
+    CARROM_DEVICE bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
             return discs_[a.p].id < discs_[b.p].id; // the ids may be equal: two images of one disc

@@ -26,23 +26,20 @@ template <class Dynamics> class StepWalls {
     using State = typename Dynamics::Arithmetic::State;
 
 public:
-    explicit StepWalls(const Dynamics& dynamics) : dynamics_(dynamics) {}
+    CARROM_DEVICE explicit StepWalls(const Dynamics& dynamics) : dynamics_(dynamics) {}
 
     /// The time of the disc's first bounce in m, or `never`.
-    double time(const DiscState& disc, double m) const {
+    CARROM_DEVICE double time(const DiscState& disc, double m) const {
         const double at_side = side_time(disc, m);
-        if (!dynamics_.has_obstacles()) return at_side;
+        if (!has_obstacles()) return at_side;
         return std::min(at_side, obstacle(disc, m).time - m);
     }
 
     /// Carries out the bounce at t = time(disc, m). A corner reverses both velocities and counts
     /// once. `spin` is null where discs do not turn.
-    void bounce(DiscState& disc, double m, double t, double* spin) const {
-        if (dynamics_.has_obstacles() && t != side_time(disc, m)) {
-            const ObstacleContact contact = obstacle(disc, m);
-            dynamics_.bounce_off(disc, contact.body, contact.time, never, spin);
-            return stop(disc, m, t, contact.body);
-        }
+    CARROM_DEVICE void bounce(DiscState& disc, double m, double t, double* spin) const {
+        if (has_obstacles() && t != side_time(disc, m))
+            return bounce_off_obstacle(disc, m, t, spin);
         const double x_time = side_time(disc, Axis::x, m), y_time = side_time(disc, Axis::y, m);
         advance(disc, m, t);
         if (x_time == t && is_open(disc, Axis::x)) return depart(disc, Axis::x, m + t, spin);
@@ -58,8 +55,8 @@ public:
     }
 
     /// The walls that the disc bounces off at t; none if it is an obstacle.
-    MetWalls met(const DiscState& before, double m, double t) const {
-        if (dynamics_.has_obstacles() && t != side_time(before, m)) return {};
+    CARROM_DEVICE MetWalls met(const DiscState& before, double m, double t) const {
+        if (has_obstacles() && t != side_time(before, m)) return {};
         DiscState disc = before;
         const double x_time = wall_time(disc, Axis::x, m), y_time = wall_time(disc, Axis::y, m);
         advance(disc, m, t);
@@ -75,12 +72,12 @@ public:
 
     /// Stops a disc that has just collided at t, if something is in its way before the micro-step
     /// ends. `left` is the obstacle that it has just left.
-    [[gnu::always_inline]] void stop(DiscState& disc, double m, double t,
-                                     std::uint32_t left = ObstacleContact::no_body) const {
+    [[gnu::always_inline]] CARROM_DEVICE void stop(
+        DiscState& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
         const Real rest = 1 - static_cast<Real>(t);
         const Real at_side = std::min(side_stop(disc, Axis::x, rest),
                                       side_stop(disc, Axis::y, rest));
-        if (dynamics_.has_obstacles() && stops_at_obstacle(disc, m, at_side, left)) return;
+        if (has_obstacles() && stops_at_obstacle(disc, m, at_side, left)) return;
         if (at_side == RestingWalls<Real>::never) return;
         const State d(disc);
         const Real x = d.x + d.vx * at_side, y = d.y + d.vy * at_side;
@@ -90,42 +87,47 @@ public:
     }
 
 private:
-    static void advance(DiscState& disc, double m, double t) {
+    CARROM_DEVICE bool has_obstacles() const {
+        return Dynamics::may_have_obstacles && dynamics_.has_obstacles();
+    }
+    CARROM_DEVICE static void advance(DiscState& disc, double m, double t) {
         Dynamics::advance(disc, static_cast<Real>(m) + static_cast<Real>(t));
     }
 
-    [[gnu::always_inline]] double wall_time(const DiscState& disc, Axis axis, double m) const {
+    [[gnu::always_inline]] CARROM_DEVICE double wall_time(const DiscState& disc, Axis axis,
+                                                          double m) const {
         if (dynamics_.is_periodic_along(axis)) return never;
         const State d(disc);
         return dynamics_.resting_walls(axis, disc)
             .time(along(axis, d.x, d.y), along(axis, d.vx, d.vy), d.tau, static_cast<Real>(m));
     }
-    bool touches(const DiscState& disc, Axis axis) const {
+    CARROM_DEVICE bool touches(const DiscState& disc, Axis axis) const {
         if (dynamics_.is_periodic_along(axis)) return false;
         const State d(disc);
         return dynamics_.resting_walls(axis, disc)
             .touches(along(axis, d.x, d.y), along(axis, d.vx, d.vy));
     }
-    bool is_at_wall(const DiscState& disc, Axis axis) const {
+    CARROM_DEVICE bool is_at_wall(const DiscState& disc, Axis axis) const {
         return touches(disc, axis) && !is_open(disc, axis);
     }
 
     /// Whether the disc flies towards an open side.
-    bool is_open(const DiscState& disc, Axis axis) const {
+    CARROM_DEVICE bool is_open(const DiscState& disc, Axis axis) const {
         return Dynamics::may_lose_discs && along(axis, disc.vx, disc.vy) != 0 &&
                dynamics_.sides().is_open_ahead(disc, axis);
     }
     /// Through an open side a disc leaves when its centre is a radius beyond it.
-    [[gnu::always_inline]] double side_time(const DiscState& disc, Axis axis, double m) const {
+    [[gnu::always_inline]] CARROM_DEVICE double side_time(const DiscState& disc, Axis axis,
+                                                          double m) const {
         if constexpr (Dynamics::may_lose_discs) {
             if (is_open(disc, axis)) return departure_time(disc, axis, m);
         }
         return wall_time(disc, axis, m);
     }
-    [[gnu::always_inline]] double side_time(const DiscState& disc, double m) const {
+    [[gnu::always_inline]] CARROM_DEVICE double side_time(const DiscState& disc, double m) const {
         return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m));
     }
-    double departure_time(const DiscState& disc, Axis axis, double m) const {
+    CARROM_DEVICE double departure_time(const DiscState& disc, Axis axis, double m) const {
         const auto& sides = dynamics_.sides();
         const double x = along(axis, disc.x, disc.y), v = along(axis, disc.vx, disc.vy);
         const double line = sides.departure(sides.side_ahead(disc, axis), dynamics_.body_of(disc)),
@@ -133,32 +135,47 @@ private:
         if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
         return std::clamp((disc.tau - m) + (line - x) / v, 0.0, 1.0);
     }
-    void depart(DiscState& disc, Axis axis, double time, double* spin) const {
+    CARROM_DEVICE void depart(DiscState& disc, Axis axis, double time, double* spin) const {
         if constexpr (Dynamics::may_lose_discs)
             dynamics_.sides().depart(disc, Boundaries::side_ahead(disc, axis), time,
                                      dynamics_.body_of(disc), spin);
     }
-    void reverse(DiscState& disc, Axis axis, double* spin) const {
+    CARROM_DEVICE void reverse(DiscState& disc, Axis axis, double* spin) const {
         dynamics_.sides().reverse(disc, axis, dynamics_.body_of(disc), spin);
     }
 
-    [[gnu::always_inline]] Real side_stop(const DiscState& disc, Axis axis, Real rest) const {
+    [[gnu::always_inline]] CARROM_DEVICE Real side_stop(const DiscState& disc, Axis axis,
+                                                        Real rest) const {
         if (dynamics_.is_periodic_along(axis) || is_open(disc, axis))
             return RestingWalls<Real>::never;
         const State d(disc);
         return dynamics_.resting_walls(axis, disc)
             .stop(along(axis, d.x, d.y), along(axis, d.vx, d.vy), rest);
     }
-    ObstacleContact obstacle(const DiscState& disc, double m) const {
-        return dynamics_.first_obstacle(disc, {m, m + 1});
+    CARROM_DEVICE ObstacleContact obstacle(const DiscState& disc, double m) const {
+        if constexpr (Dynamics::may_have_obstacles)
+            return dynamics_.first_obstacle(disc, {m, m + 1});
+        else
+            return {};
+    }
+    CARROM_DEVICE void bounce_off_obstacle(DiscState& disc, double m, double t,
+                                           double* spin) const {
+        if constexpr (Dynamics::may_have_obstacles) {
+            const ObstacleContact contact = obstacle(disc, m);
+            dynamics_.bounce_off(disc, contact.body, contact.time, never, spin);
+            stop(disc, m, t, contact.body);
+        }
     }
     /// Unless a side stops the disc before.
-    bool stops_at_obstacle(DiscState& disc, double m, double at_side, std::uint32_t left) const {
-        const ObstacleContact contact = dynamics_.first_obstacle(disc,
-                                                                 {disc.tau, m + 1, true, left});
-        if (!(contact.time < m + 1 && contact.time - disc.tau < at_side)) return false;
-        Dynamics::advance(disc, contact.time);
-        disc.tau = m + 1;
+    CARROM_DEVICE bool stops_at_obstacle(DiscState& disc, double m, double at_side,
+                                         std::uint32_t left) const {
+        if constexpr (Dynamics::may_have_obstacles) {
+            const ObstacleContact contact = dynamics_.first_obstacle(disc,
+                                                                     {disc.tau, m + 1, true, left});
+            if (!(contact.time < m + 1 && contact.time - disc.tau < at_side)) return false;
+            Dynamics::advance(disc, contact.time);
+            disc.tau = m + 1;
+        }
         return true;
     }
 

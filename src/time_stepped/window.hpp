@@ -24,32 +24,34 @@ struct Window {
     double part_begin = 0; ///< 0 unless the micro-step is cut
     double part_end = 1;   ///< the last part of a micro-step includes its end
 
-    bool is_last_part() const { return part_end == 1; }
-    bool is_part() const { return part_begin > 0 || part_end < 1; }
-    int end_micro() const { return first_micro + n_micro; }
-    WindowState state_after(int m) const { return static_cast<WindowState>(m - first_micro + 1); }
-    double begin() const { return first_micro + part_begin; }
-    double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
+    CARROM_DEVICE bool is_last_part() const { return part_end == 1; }
+    CARROM_DEVICE bool is_part() const { return part_begin > 0 || part_end < 1; }
+    CARROM_DEVICE int end_micro() const { return first_micro + n_micro; }
+    CARROM_DEVICE WindowState state_after(int m) const {
+        return static_cast<WindowState>(m - first_micro + 1);
+    }
+    CARROM_DEVICE double begin() const { return first_micro + part_begin; }
+    CARROM_DEVICE double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
     /// Strips and cells are made for places at this time. If it is the middle of the
     /// window, no disc gets further away than half the window takes it. Discs that fly
     /// on after a collision could, so a window of several micro-steps uses its start.
-    double anchor() const {
+    CARROM_DEVICE double anchor() const {
         return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2;
     }
-    bool holds(double in_step_time) const {
+    CARROM_DEVICE bool holds(double in_step_time) const {
         return in_step_time >= part_begin && (in_step_time < part_end || is_last_part());
     }
 };
 
 /// In-step time of a contact as micro-step m sees it.
-template <class Real> Real in_step_time(const PairContact<Real>& contact, int m) {
+template <class Real> CARROM_DEVICE Real in_step_time(const PairContact<Real>& contact, int m) {
     return (contact.base - static_cast<Real>(m)) + contact.delay;
 }
 
 /// The first micro-step of [from, to) that has this contact as a candidate (0 <= t <= 1), or `to`.
 template <class Real>
-[[gnu::always_inline]] inline int first_micro_step(const PairContact<Real>& contact, int from,
-                                                   int to) {
+[[gnu::always_inline]] CARROM_DEVICE inline int first_micro_step(const PairContact<Real>& contact,
+                                                                 int from, int to) {
     const double time = contact.base + contact.delay;
     if (!(time < to + 1.0)) return to;
     const int guess = static_cast<int>(time);

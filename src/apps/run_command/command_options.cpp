@@ -10,14 +10,18 @@
 
 namespace carrom {
 
+namespace {
+constexpr auto unbounded = std::numeric_limits<std::int64_t>::max();
+} // namespace
+
 std::vector<Option> run_options(RunOptions& run) {
-    constexpr auto unbounded = std::numeric_limits<std::int64_t>::max();
     constexpr const char* costs = "Cost only, never bits";
     return {
         {"INPUT", "", "SCENE.toml, FILE.in, or - for standard input", &run.input},
         {"--threads", "T",
          "Threads per rank; default OMP_NUM_THREADS if set, else this rank's share of the cores",
          number(run.threads, 1, 1024)},
+        {"--gpu", "", "Step the discs on a GPU, with the same bits: machine.gpu=true", &run.gpu},
         {"-o,--folder", "FOLDER",
          "The folder for all that the run writes, instead of output.folder", &run.folder},
         {"--resume", "",
@@ -90,6 +94,7 @@ RunOptions completed(RunOptions options, std::vector<Problem>& problems) {
     };
     take_out_keys_alone(options.overrides, problems);
     if (!options.folder.empty()) set("output.folder", options.folder);
+    if (options.gpu) set("machine.gpu", true);
     if (options.accuracy) set("time.accuracy", *options.accuracy);
     if (options.steps) set("time.steps", *options.steps);
     if (options.resume && !options.restart.empty())

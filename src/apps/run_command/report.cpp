@@ -86,7 +86,10 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
-void add_stop(nlohmann::ordered_json& report, const RunResult& result) {
+/// What only some runs have.
+void add_stop_and_gpu(nlohmann::ordered_json& report, const RunResult& result) {
+    if (!result.device.name.empty())
+        report["gpu"] = {{"name", result.device.name}, {"memory_bytes", result.device.bytes}};
     if (const auto& reason = result.stop_reason)
         report["stopped_by"] = {{"key", reason->key},
                                 {"limit", reason->limit},
@@ -201,7 +204,7 @@ std::string report_text(const SceneParameters& scene, const RunResult& result) {
         {"imbalance", result.imbalance},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
-    add_stop(report, result);
+    add_stop_and_gpu(report, result);
     add_thermodynamics(report, scene, result.averages);
     if (scene.method == Method::time_stepped)
         report["lost_collisions"] = lost_collisions_json(lost_collisions(scene, result));

@@ -170,6 +170,10 @@ void check_every_step(DiscSystem& system, const SceneParameters& scene) {
         throw InputError({{"--check", 0,
                            "its bounds are those of time.precision = \"double\" and "
                            "time.arithmetic = \"stable\"; leave one out"}});
+    if (scene.gpu)
+        throw InputError({{"--check", 0,
+                           "it follows single collisions, which a GPU does not list; leave "
+                           "machine.gpu or --check out"}});
     if (scene.effects.have_open_boundaries())
         throw InputError(
             {{"--check", 0,

@@ -54,6 +54,7 @@ void fill_end(RunResult& result, const Run& run) {
              "collisions of pairs with an earlier one of the same disc: ids or roundings decide "
              "their order",
              result.runs.simultaneous});
+    result.device = system.engine().device();
     result.ranks_across = system.engine().most_ranks_across();
 }
 

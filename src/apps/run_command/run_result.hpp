@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/device_facts.hpp"
 #include "measure/order_watch.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
@@ -29,6 +30,7 @@ struct RunResult {
     int ranks = 1;
     int ranks_across = 1;    ///< ranks that share a strip, at most
     int threads = 1;         ///< per rank; the largest if ranks differ
+    DeviceFacts device;      ///< the GPU; its name is empty if there was none
     double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
     Averages averages;       ///< over the run, restarts included
     std::vector<WatchedNumber> watched; ///< order and energy, if they may change

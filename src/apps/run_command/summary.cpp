@@ -173,9 +173,13 @@ std::string time_lines(const RunResult& result, std::int64_t last_step) {
     const std::string across = result.ranks_across == 1
                                    ? ""
                                    : fmt::format(" (up to {} share a strip)", result.ranks_across);
-    text += labelled_line("machine", fmt::format("{}{} x {}, {:.0f} bytes per disc at the peak",
+    const std::string device = result.device.name.empty()
+                                   ? ""
+                                   : fmt::format(", {} with {:.3g} GB", result.device.name,
+                                                 1e-9 * static_cast<double>(result.device.bytes));
+    text += labelled_line("machine", fmt::format("{}{} x {}{}, {:.0f} bytes per disc at the peak",
                                                  plural(result.ranks, "rank"), across,
-                                                 plural(result.threads, "thread"),
+                                                 plural(result.threads, "thread"), device,
                                                  result.peak_bytes_per_disc));
     text += labelled_line("phases", phases_text(result));
     if (result.ranks > 1) text += labelled_line("imbalance", imbalance_text(result));

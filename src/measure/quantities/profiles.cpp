@@ -172,8 +172,7 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Fields of a block that has ended: all species together, each of them if they are apart, and
-    /// the whole box.
+    /// Fields of an ended block: all species together, each if they are apart, and the whole box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -391,6 +390,7 @@ MeasuredQuantity profiles_quantity() {
                       .integer("1", "1: \"profiles\" has tables of each species as well.")
                       .within({0, 1}),
                   hdf5_key()},
+         .follows_collisions = true,
          .check = check_grid,
          .check_times = warn_without_blocks},
         make_measurement<Profiles>,

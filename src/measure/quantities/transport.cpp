@@ -253,6 +253,7 @@ MeasuredQuantity transport_quantity() {
     return {{.name = "transport",
              .help = "Viscosities and thermal conductivity from exact integrals over events.",
              .keys = {correlation_points_key(), hdf5_key()},
+             .follows_collisions = true,
              .rules = {{.one = "\"transport\"",
                         .other = "walls or effects",
                         .why = "it takes equal elastic discs in a box that is periodic all round",

@@ -101,6 +101,7 @@ MeasuredQuantity wall_exchange_quantity() {
     return {{.name = "wall_exchange",
              .help = "Energy and momentum along it that each side gives to the discs.",
              .has_history = true,
+             .follows_collisions = true,
              .rules = rules_of_walls<measures_exchange>("\"wall_exchange\"")},
             make_measurement<WallExchange>,
             {"wall_exchange_history"}};

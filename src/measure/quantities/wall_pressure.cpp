@@ -102,6 +102,7 @@ MeasuredQuantity wall_pressure_quantity() {
     return {{.name = "wall_pressure",
              .help = "Pressure on each side of the box, from all collisions with it.",
              .has_history = true,
+             .follows_collisions = true,
              .rules = rules_of_walls<measures_wall_pressure>("\"wall_pressure\"")},
             make_measurement<WallPressure>,
             {"wall_pressure_history"}};

@@ -34,6 +34,7 @@ def run(
     steps: int | None = None,
     overwrite: bool = False,
     check: bool = False,
+    gpu: bool = False,
     accuracy: float | None = None,
     progress: ProgressLike = None,
     program: str | os.PathLike[str] | None = None,
@@ -52,6 +53,7 @@ def run(
         steps: steps to run, instead of the scene's
         overwrite: remove a run that is in the folder; without it such a run is an error
         check: check all invariants after each step
+        gpu: step the discs on a GPU; the bits are the same
         accuracy: choose the fastest method with at most this relative error
         progress: True or False; None shows progress on terminals and in notebooks. Or a
             function that is called about five times a second and at the end, with the step and
@@ -78,6 +80,7 @@ def run(
     ):
         words = [str(file.path), *set_options(file.overrides)]
         words += ["--overwrite"] if overwrite else []
+        words += ["--gpu"] if gpu else []
         words += ["--accuracy", repr(float(accuracy))] if accuracy is not None else []
         words += common_options(threads, steps, check, options)
         try:

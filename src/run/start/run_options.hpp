@@ -27,6 +27,7 @@ struct RunOptions {
     std::string report; ///< empty for none
     std::string folder; ///< by the command line; also among the overrides
     bool quiet = false;
+    bool gpu = false;   ///< by the command line; also among the overrides
     bool check = false; ///< hold every step to its invariants
 
     std::optional<int> threads;

@@ -26,8 +26,9 @@ struct BoundaryDeclaration {
     bool has_restitution = false;
     // What other features ask of a side: a kind that does not say that it can, does not go with
     // them.
-    bool is_at_rest = true;           ///< its line stays where it is
-    bool takes_growing_discs = false; ///< a disc may grow towards it
+    bool is_at_rest = true;                         ///< its line stays where it is
+    bool takes_growing_discs = false;               ///< a disc may grow towards it
+    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration
     /// Keys of one side, such as box.left.speed.
     std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
     /// Tables and keys that all sides of this kind share.

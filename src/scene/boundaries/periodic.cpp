@@ -52,11 +52,11 @@ BoundaryDeclaration periodic() {
     return {.kind = BoundaryKind::periodic,
             .help = "in pairs, the box repeats itself",
             .takes_growing_discs = true,
+            .runs_on_gpu = [](const Boundary&) { return true; },
             .rules = rules_of_periodic_sides(),
             .check_room = check_periodic_box,
-            .summary = [](const Boundary&, std::string_view name) {
-                return fmt::format("{} side periodic", name);
-            }};
+            .summary = [](const Boundary&,
+                          std::string_view name) { return fmt::format("{} side periodic", name); }};
 }
 
 } // namespace boundaries

@@ -9,9 +9,12 @@ BoundaryDeclaration wall() {
             .help = "at rest",
             .has_restitution = true,
             .takes_growing_discs = true,
-            .summary = [](const Boundary& side, std::string_view name) {
-                return fmt::format("{} wall{}", name, loss_text(side));
-            }};
+            .runs_on_gpu =
+                [](const Boundary& side) { return side.restitution == 1 && !side.surface.rubs(); },
+            .summary =
+                [](const Boundary& side, std::string_view name) {
+                    return fmt::format("{} wall{}", name, loss_text(side));
+                }};
 }
 
 } // namespace carrom::boundaries

@@ -143,7 +143,8 @@ EffectDeclaration contact() {
                         return 0.5 * at.contact.inertia * disc.has.mass * speed * speed;
                     }};
             },
-            .lets_discs_rest = are_pairs_lossy};
+            .lets_discs_rest = are_pairs_lossy,
+            .runs_on_gpu = [](const Effects& e) { return e.contact.kind != ContactKind::rough; }};
 }
 
 } // namespace effects

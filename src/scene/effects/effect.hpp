@@ -128,6 +128,8 @@ struct EffectDeclaration {
     bool (*makes_energy_jump)(const Effects&) = nullptr;
     /// Of an effect that exchanges momentum with discs other than by the sides that end an axis.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
+    /// Whether kernels of GPUs have it; those that say nothing are errors with machine.gpu.
+    bool (*runs_on_gpu)(const Effects&) = nullptr;
     /// Why Z means nothing in a scene with the effect; empty if it means something.
     std::string (*reason_without_z)(const Effects&) = nullptr;
 };

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time-stepped method on a device. The discs stay in its memory, and their states come to the
+// host where something reads them: measurements, checkpoints, lines of discs, totals.
+//
+// The host chooses windows and reads a handful of numbers after each. A device does no parts of
+// micro-steps: where discs are fast a window is one micro-step, and its cells allow for all of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "engine/engine_base.hpp"
+#include "engine/window_choice.hpp"
+#include "gpu/stepper.hpp"
+
+namespace carrom {
+
+template <class Dynamics> class GpuEngine final : public EngineBase<Dynamics> {
+public:
+    GpuEngine(const SceneParameters& scene, StoredState state, const Communicator& communicator,
+              const Tuning& tuning, const DeviceKind& device);
+
+    void add_to(Totals& totals) override;
+    DeviceFacts device() const override { return facts_; }
+
+private:
+    using Base = EngineBase<Dynamics>;
+    using Base::communicator_, Base::tuning_, Base::dynamics_, Base::discs_, Base::phases_;
+    using Base::largest_speed_, Base::travel_speed_;
+    using Base::time_, Base::n_micro_done_, Base::n_windows_;
+
+    void advance_to(std::int64_t target) override;
+    void migrate() override;
+    void finish_sync(double largest_speed) override;
+    double restart_states() override;
+    void bring_states() const override;
+
+    void run_window(int n_left);
+    int choose_length(int n_left) const;
+    WindowNeeds needs() const;
+    DeviceWindow device_window() const;
+    void take_stress();
+    void put_states();
+    void refuse_followers() const;
+
+    DeviceFacts facts_;
+    std::unique_ptr<Stepper> stepper_;
+    StripDiscs* on_host_ = nullptr;      ///< discs_, which reading may bring up to date
+    PhaseClock* copying_time_ = nullptr; ///< phases_, for the same reason
+    mutable bool is_host_current_ = true;
+    double window_speed_ = 0;        ///< the window's reach allows for it
+    double speed_allowance_ = 1.02;  ///< for the next window, over the largest speed
+    double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
+    std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;
+};
+
+} // namespace carrom

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of the time-stepped method on a device, in the order in which a window runs them.
+// Each is a functor whose call with i is the work of one thread. A machine (serial_machine.hpp,
+// cuda_machine.hpp) calls it for all i, so that the same text runs on a GPU and, in tests, on the
+// CPU.
+//
+//   PutIntoCells, Scatter    bring discs into the order of their cells
+//   Predict                  finds the first candidate of each disc
+//
+// and for each micro-step
+//
+//   Collect      lists the discs whose first candidate is in this micro-step
+//   Match        takes pairs whose discs are each other's first candidate; all others wait
+//   Waiting      rounds: discs whose partner has been taken search again, then match again
+//   Carry        carries out what has been taken
+//   Mark         lists the discs whose first candidate may have changed
+//   Renew        finds it
+//   EndMicroStep empties the lists, and cuts the window short if discs are too fast for it
+//
+// At a sync Restart advances all discs. No kernel needs threads that act together, but for the
+// rounds, in which a block of threads waits for each other.
+#pragma once
+
+#include "gpu/world.hpp"
+
+namespace carrom {
+
+/// Empties what the host reads after a window, or after a sync: `forgets_speed`.
+template <class D> struct Begin {
+    World<D> world;
+    bool forgets_speed;
+
+    CARROM_DEVICE void operator()(std::uint32_t /*i*/) const {
+        world.counters->n_micro = world.counters->is_cut = 0;
+        if (forgets_speed) world.counters->squared_speed = {};
+    }
+};
+
+/// Slot i gets its cell and its place among the discs of the cell. In a periodic box the disc gets
+/// the image that is in the box at the window's anchor.
+template <class D> struct PutIntoCells {
+    World<D> world;
+    std::uint32_t *counts, *place_in_cell;
+
+    CARROM_DEVICE std::uint32_t cell_of(const DiscState& disc) const {
+        const double time = world.window.anchor();
+        if constexpr (D::is_periodic) {
+            const Periods& periods = world.dynamics.periods();
+            return world.cells.of(periods.x_of(disc, time), periods.y_of(disc, time));
+        } else {
+            return world.cells.of(disc.x_at(time), disc.y_at(time));
+        }
+    }
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        DiscState& disc = world.discs[i];
+        if constexpr (D::is_periodic)
+            set_image(disc, world.dynamics.periods().home(disc, world.window.anchor()));
+        place_in_cell[i] = fetch_add(counts[cell_of(disc)], 1);
+    }
+};
+
+/// Copies the disc of slot i to where its cell begins, and further by its place in the cell.
+template <class D> struct Scatter {
+    PutIntoCells<D> put;
+    DiscState* sorted;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        const DiscState disc = put.world.discs[i];
+        const std::uint32_t cell = put.cell_of(disc),
+                            slot = put.world.cells.begins[cell] + put.place_in_cell[i];
+        sorted[slot] = disc;
+        put.world.cell[slot] = cell;
+    }
+};
+
+template <class D> struct Predict {
+    World<D> world;
+
+    CARROM_DEVICE void operator()(std::uint32_t k) const {
+        world.set_event(k, world.first_event(k, world.window.first_micro, false));
+        world.taken[k] = 0;
+        world.is_listed[k] = 0;
+    }
+};
+
+/// Thread i looks at eight discs, because nearly all of them have nothing to do.
+template <class D> struct Collect {
+    static constexpr std::uint32_t at_once = 8;
+    World<D> world;
+    int m;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        if (world.counters->is_cut != 0) return;
+        const std::uint8_t wanted = world.number_of(m);
+        const std::uint32_t end = std::min(world.n, (i + 1) * at_once);
+        for (LocalIndex k = i * at_once; k < end; ++k)
+            if (world.micro[k] == wanted) world.active[fetch_add(world.counters->n_active, 1)] = k;
+    }
+};
+
+/// Whether disc k and its partner are each other's first candidate in micro-step m.
+template <class D> CARROM_DEVICE bool is_mutual(const World<D>& world, LocalIndex k, int m) {
+    const LocalIndex partner = world.partner[k];
+    return partner == wall_index ||
+           (world.micro[partner] == world.number_of(m) && world.partner[partner] == k);
+}
+
+template <class D> struct Match {
+    World<D> world;
+    int m;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        const LocalIndex k = world.active[i];
+        carrom::add(world.counters->n_candidates, count(k));
+        if (is_mutual(world, k, m))
+            world.taken[k] = 1;
+        else
+            world.waiting[0][fetch_add(world.counters->n_waiting[0], 1)] = k;
+    }
+
+private:
+    /// Candidates of this micro-step, each counted at the disc with the lower id.
+    CARROM_DEVICE std::uint64_t count(LocalIndex k) const {
+        const DiscState disc = world.discs[k];
+        std::uint64_t n = world.dynamics.may_meet_wall(disc, m + 1) &&
+                          StepWalls(world.dynamics).time(disc, m) != never;
+        world.for_each_meeting(k, m, [&](const NextEvent& event) {
+            n += event.micro == world.number_of(m) && disc.id < world.discs[event.partner].id;
+        });
+        return n;
+    }
+};
+
+/// Rounds over the discs that wait. In each of them the first candidate of all that are left is
+/// mutual, so rounds come to an end.
+template <class D> struct Waiting {
+    World<D> world;
+    int m;
+
+    CARROM_DEVICE static int counter_of(int round) {
+        return round < rounds_of_all ? round : rounds_of_all + (round - rounds_of_all) % 2;
+    }
+    CARROM_DEVICE const std::uint32_t* size(int round) const {
+        return &world.counters->n_waiting[counter_of(round)];
+    }
+    /// One thread empties the next round's list.
+    CARROM_DEVICE void begin(int round) const {
+        world.counters->n_waiting[counter_of(round + 1)] = 0;
+    }
+    CARROM_DEVICE void search(int round, std::uint32_t i) const {
+        const LocalIndex k = world.waiting[round % 2][i], partner = world.partner[k];
+        if (world.taken[partner] == 0) return; // a wall is met at once, so this is a disc
+        NextEvent next = world.first_event(k, m, true);
+        if (next.micro != world.number_of(m)) next = {};
+        world.set_event(k, next);
+    }
+    CARROM_DEVICE void match(int round, std::uint32_t i) const {
+        const LocalIndex k = world.waiting[round % 2][i];
+        if (world.partner[k] == no_partner) return;
+        if (is_mutual(world, k, m)) {
+            world.taken[k] = 1;
+            return;
+        }
+        std::uint32_t& n_next = world.counters->n_waiting[counter_of(round + 1)];
+        world.waiting[(round + 1) % 2][fetch_add(n_next, 1)] = k;
+    }
+};
+
+/// The disc with the lower id carries out the collision of a pair.
+template <class D> struct Carry {
+    World<D> world;
+    int m;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        const LocalIndex k = world.active[i];
+        world.is_listed[k] = 1;
+        world.changed[fetch_add(world.counters->n_changed, 1)] = k;
+        if (world.taken[k] == 0) return;
+        const NextEvent event = world.event(k);
+        if (event.partner == wall_index)
+            bounce(k, event);
+        else if (world.discs[k].id < world.discs[event.partner].id)
+            collide(k, event, i);
+    }
+
+private:
+    CARROM_DEVICE void bounce(LocalIndex k, const NextEvent& event) const {
+        DiscState disc = world.discs[k];
+        const WallStress<D> before(disc);
+        StepWalls(world.dynamics).bounce(disc, m, event.time, nullptr);
+        world.discs[k] = disc;
+        carrom::add(world.counters->n_kept, 1);
+        if (world.stress_scale == 0) return;
+        DeviceStress sums = world.stress(k);
+        DeviceTerms terms;
+        before.add_to(terms, sums, world.dynamics, disc, m + event.time, world.flown);
+    }
+    CARROM_DEVICE void collide(LocalIndex k, const NextEvent& event, std::uint32_t thread) const {
+        const D& dynamics = world.dynamics;
+        const Image image{event.image_x, event.image_y};
+        DiscState p = world.discs[k], q = world.displaced(event.partner, image);
+        const PairStress<D> before(p, q);
+        const Separation to = dynamics.separation_at(p, q, m + event.time);
+        dynamics.collide(p, q, m + event.time, never);
+        StepWalls(dynamics).stop(p, m, event.time);
+        StepWalls(dynamics).stop(q, m, event.time);
+        if (world.stress_scale != 0) {
+            DeviceStress sums = world.stress(thread);
+            DeviceTerms terms;
+            before.add_to(terms, sums, dynamics, p, q, to, m + event.time, world.flown);
+        }
+        if constexpr (D::is_periodic) move_image(q, -image);
+        world.discs[k] = p;
+        world.discs[event.partner] = q;
+        carrom::add(world.counters->n_kept, 1);
+        world.counters->squared_speed.offer(
+            std::max(dynamics.squared_speed(p), dynamics.squared_speed(q)));
+    }
+};
+
+/// For a disc that has a new state: lists the discs near it whose first candidate was with it, or
+/// that meet it before that now.
+template <class D> struct Mark {
+    World<D> world;
+    int m;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        const LocalIndex k = world.active[i];
+        if (world.taken[k] == 0) return;
+        const DiscState p = world.discs[k];
+        world.cells.for_each_near(world.cell[k], [&](LocalIndex other, Image image) {
+            if (other == k || world.is_listed[other] != 0) return;
+            if (world.partner[other] != k && !comes_first(k, p, other, image)) return;
+            if (raise(world.is_listed[other]))
+                world.changed[fetch_add(world.counters->n_changed, 1)] = other;
+        });
+    }
+
+private:
+    CARROM_DEVICE bool comes_first(LocalIndex k, const DiscState& p, LocalIndex other,
+                                   Image image) const {
+        if (!world.dynamics.has_pairs()) return false;
+        NextEvent event = world.meeting(p, other, image, m + 1);
+        if (event.partner == no_partner) return false;
+        event.partner = k; // as the other disc sees it
+        event.image_x = static_cast<std::int16_t>(-image.x);
+        event.image_y = static_cast<std::int16_t>(-image.y);
+        return world.is_before(other, event, world.event(other));
+    }
+};
+
+template <class D> struct Renew {
+    World<D> world;
+    int m;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        const LocalIndex k = world.changed[i];
+        world.set_event(k, world.first_event(k, m + 1, false));
+        world.taken[k] = 0;
+        world.is_listed[k] = 0;
+    }
+};
+
+template <class D> struct EndMicroStep {
+    World<D> world;
+
+    CARROM_DEVICE void operator()(std::uint32_t /*i*/) const {
+        DeviceCounters& counters = *world.counters;
+        counters.n_active = counters.n_changed = 0;
+        for (std::uint32_t& n : counters.n_waiting) n = 0;
+        if (counters.is_cut != 0) return;
+        counters.n_micro += 1;
+        counters.is_cut = counters.squared_speed.value() > world.squared_window_speed ? 1 : 0;
+    }
+};
+
+/// What all discs do at a sync: they are at its time, and times count from there.
+template <class D> struct Restart {
+    World<D> world;
+    double time; ///< of the sync
+    bool ends_flights;
+
+    CARROM_DEVICE void operator()(std::uint32_t i) const {
+        DiscState disc = world.discs[i];
+        if (ends_flights && world.stress_scale != 0) {
+            FlightIntegral flight = world.dynamics.flight_integral_at(time);
+            flight.weight += world.flown;
+            DeviceStress sums = world.stress(i);
+            DeviceTerms terms;
+            add_flight_to(terms, sums, world.dynamics.mass_of(disc), disc, flight);
+        }
+        D::advance(disc, time);
+        if constexpr (D::is_periodic) {
+            world.dynamics.wrap(disc);
+            set_image(disc, {});
+        }
+        disc.tau = 0;
+        disc.has_collided = 0;
+        world.discs[i] = disc;
+        world.counters->squared_speed.offer(world.dynamics.squared_speed(disc));
+    }
+};
+
+} // namespace carrom

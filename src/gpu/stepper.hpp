@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs in the memory of a device, which steps them. This is all that an engine sees of a device,
+// so that a compiler for GPUs gets as little of the program as possible.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/disc_state.hpp"
+#include "dynamics/species.hpp"
+#include "engine/device_facts.hpp"
+#include "engine/stress_sums.hpp"
+#include "gpu/device_dynamics.hpp"
+#include "time_stepped/window.hpp"
+
+namespace carrom {
+
+/// What an engine asks of a window. Lengths are the scene's; speeds are per micro-step.
+struct DeviceWindow {
+    Window window;
+    double reach = 0; ///< see reach_of
+    double speed = 0; ///< the reach allows for it; the window is cut short if a disc is faster
+    double flown = 0; ///< how long flights have gathered stress before the last sync
+    double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: none are taken
+};
+
+/// What a window has come to.
+struct DeviceOutcome {
+    int n_micro = 0;                            ///< micro-steps that are done
+    double squared_speed = 0;                   ///< the largest one since the last sync
+    std::uint64_t n_candidates = 0, n_kept = 0; ///< since the stepper was made
+};
+
+/// A device's discs. Failures of the device throw CollectiveError.
+class Stepper {
+public:
+    Stepper() = default;
+    virtual ~Stepper() = default;
+    Stepper(const Stepper&) = delete;
+    Stepper& operator=(const Stepper&) = delete;
+
+    /// Replaces the discs; their number never changes.
+    virtual void put(std::span<const DiscState> discs) = 0;
+    /// The discs in the order of the device's memory.
+    virtual void get(std::span<DiscState> discs) = 0;
+    virtual DeviceOutcome run(const DeviceWindow& window) = 0;
+    /// Brings all discs to `time`, which is 0 from now on (EngineBase::restart_states), and returns
+    /// the largest squared speed. `window` gives `flown` and the scale.
+    virtual double restart(double time, bool ends_flights, const DeviceWindow& window) = 0;
+    /// Adds to `sums`, of the scale that windows had, what has been gathered, and forgets it.
+    virtual void take_stress(StressSums& sums) = 0;
+};
+
+/// Bytes of the device's memory that a disc needs, and that any run needs.
+constexpr std::uint64_t device_bytes_per_disc = 152, device_bytes_of_run = std::uint64_t{64} << 20;
+
+/// A kind of device. There is one for each way to compile the kernels.
+class DeviceKind {
+public:
+    virtual ~DeviceKind() = default;
+    /// Of the device that this process uses. Throws CollectiveError if there is none.
+    virtual DeviceFacts facts() const = 0;
+    /// Discs that move like that; `species` has the table that the motion looks up.
+#define CARROM_DECLARE(Dynamics)                                                                   \
+    virtual std::unique_ptr<Stepper> make_stepper(const MotionOf<Dynamics>& motion,                \
+                                                  const SpeciesTable& species,                     \
+                                                  std::uint32_t n_discs) const = 0;
+    CARROM_FOR_EACH_DYNAMICS_OF_GPUS(CARROM_DECLARE)
+#undef CARROM_DECLARE
+};
+
+} // namespace carrom

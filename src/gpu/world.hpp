@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What kernels of a window see: plain pointers into the device's memory, and how a disc's next
+// event is kept.
+//
+// Each disc has its first candidate of the window: of all its contacts the one that is first by
+// micro-step, and then by the total order. A micro-step decides and carries out those candidates
+// alone. So a micro-step in which few discs collide touches few discs.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/device.hpp"
+#include "core/disc_state.hpp"
+#include "core/image.hpp"
+#include "gpu/atomics.hpp"
+#include "gpu/device_cells.hpp"
+#include "gpu/device_sums.hpp"
+#include "time_stepped/candidate.hpp"
+#include "time_stepped/step_walls.hpp"
+#include "time_stepped/window.hpp"
+
+namespace carrom {
+
+/// In place of a partner: the disc has no candidate.
+inline constexpr LocalIndex no_partner = wall_index - 1;
+/// In place of a micro-step, counted from the window's start.
+inline constexpr std::uint8_t no_micro = 255;
+static_assert(longest_window < no_micro);
+
+/// A disc's first candidate.
+struct NextEvent {
+    double time = 0;                       ///< in-step time of its micro-step
+    LocalIndex partner = no_partner;       ///< slot of the other disc, or `wall_index`
+    std::int16_t image_x = 0, image_y = 0; ///< the other disc is displaced by so many boxes
+    std::uint8_t micro = no_micro;
+};
+
+/// How often discs of a list can be told to wait before one block of threads does the rest.
+inline constexpr int rounds_of_all = 2;
+
+/// Numbers that kernels add to, and the host reads after a window.
+struct DeviceCounters {
+    std::uint32_t n_active = 0;  ///< discs with a candidate in the present micro-step
+    std::uint32_t n_changed = 0; ///< discs that need another first candidate
+    std::uint32_t n_waiting[rounds_of_all + 2] = {};
+    std::uint32_t is_cut = 0;                   ///< discs are too fast for the rest of the window
+    std::uint32_t n_micro = 0;                  ///< micro-steps of the window that are done
+    std::uint64_t n_candidates = 0, n_kept = 0; ///< since the run began
+    Largest squared_speed;                      ///< since the last sync, or of all discs
+};
+
+/// Everything that kernels of a window use. All arrays but the last ones run along the slots.
+template <class D> struct World {
+    explicit World(const D& of_scene) : dynamics(of_scene) {}
+
+    D dynamics;
+    DeviceCells cells;
+    Window window;
+    std::uint32_t n = 0;
+    double squared_window_speed = 0; ///< the window's reach allows for it
+    double flown = 0;                ///< how long flights gathered stress before the last sync
+    double stress_scale = 0;         ///< 0: no stress is summed
+
+    DiscState* discs = nullptr;
+    std::uint32_t* cell = nullptr;
+    double* time = nullptr; ///< this and the next four: the disc's NextEvent
+    LocalIndex* partner = nullptr;
+    std::int16_t *image_x = nullptr, *image_y = nullptr;
+    std::uint8_t* micro = nullptr;
+    std::uint8_t* taken = nullptr;      ///< the disc takes part in an event of this micro-step
+    std::uint32_t* is_listed = nullptr; ///< among `changed`
+    LocalIndex *active = nullptr, *changed = nullptr;
+    LocalIndex* waiting[2] = {};
+
+    DeviceCounters* counters = nullptr;
+    StressPieces* stripes = nullptr;
+    static constexpr std::uint32_t n_stripes = 1024;
+
+    CARROM_DEVICE NextEvent event(LocalIndex k) const {
+        return {time[k], partner[k], image_x[k], image_y[k], micro[k]};
+    }
+    CARROM_DEVICE void set_event(LocalIndex k, const NextEvent& event) const {
+        time[k] = event.time;
+        partner[k] = event.partner;
+        image_x[k] = event.image_x;
+        image_y[k] = event.image_y;
+        micro[k] = event.micro;
+    }
+    CARROM_DEVICE std::uint8_t number_of(int m) const {
+        return static_cast<std::uint8_t>(m - window.first_micro);
+    }
+    CARROM_DEVICE DeviceStress stress(std::uint32_t thread) const {
+        return {stripes[thread % n_stripes], stress_scale};
+    }
+    /// The disc in this slot, displaced by so many boxes.
+    CARROM_DEVICE DiscState displaced(LocalIndex slot, Image image) const {
+        DiscState disc = discs[slot];
+        if constexpr (D::is_periodic) move_image(disc, image);
+        return disc;
+    }
+
+    /// The event of disc k as a candidate.
+    CARROM_DEVICE Candidate candidate(LocalIndex k, const NextEvent& event) const {
+        Candidate candidate{event.time, k, event.partner};
+        if (!candidate.is_wall() && discs[event.partner].id < discs[k].id) {
+            candidate.p = event.partner;
+            candidate.q = k;
+        }
+        return candidate;
+    }
+    /// Whether one candidate of disc k comes before another one of it. Where two images of a disc
+    /// touch k at once, which one comes first is fixed, too.
+    CARROM_DEVICE bool is_before(LocalIndex k, const NextEvent& a, const NextEvent& b) const {
+        if (b.partner == no_partner) return a.partner != no_partner;
+        if (a.micro != b.micro) return a.micro < b.micro;
+        const TotalOrder order({discs, n});
+        const Candidate first = candidate(k, a), second = candidate(k, b);
+        if (order(first, second)) return true;
+        if (order(second, first)) return false;
+        const int sign = first.p == k ? 1 : -1;
+        if (a.image_x != b.image_x) return sign * a.image_x < sign * b.image_x;
+        return sign * a.image_y < sign * b.image_y;
+    }
+
+    /// The candidate of disc k, which is in the state `p`, with the disc in another slot, from
+    /// micro-step `from` on.
+    CARROM_DEVICE NextEvent meeting(const DiscState& p, LocalIndex other, Image image,
+                                    int from) const {
+        const auto contact = D::is_periodic
+                                 ? dynamics.contact(p, displaced(other, image),
+                                                    dynamics.tolerance())
+                                 : dynamics.contact(p, discs[other], dynamics.tolerance());
+        if (!contact.exists()) return {};
+        const int m = first_micro_step(contact, from, window.end_micro());
+        if (m == window.end_micro()) return {};
+        return {in_step_time(contact, m), other, static_cast<std::int16_t>(image.x),
+                static_cast<std::int16_t>(image.y), number_of(m)};
+    }
+    /// The disc's first bounce from micro-step `from` on.
+    CARROM_DEVICE NextEvent bounce(const DiscState& disc, int from) const {
+        if (!dynamics.may_meet_wall(disc, window.end_micro())) return {};
+        for (int m = from; m < window.end_micro(); ++m) {
+            const double t = StepWalls(dynamics).time(disc, m);
+            if (t != never) return {t, wall_index, 0, 0, number_of(m)};
+        }
+        return {};
+    }
+    /// Calls visit(event) for each candidate of disc k with another disc.
+    template <class Visit>
+    CARROM_DEVICE void for_each_meeting(LocalIndex k, int from, const Visit& visit) const {
+        if (!dynamics.has_pairs()) return;
+        const DiscState p = discs[k];
+        cells.for_each_near(cell[k], [&](LocalIndex other, Image image) {
+            if (other == k) return; // an image of a disc never comes nearer to it
+            const NextEvent event = meeting(p, other, image, from);
+            if (event.partner != no_partner) visit(event);
+        });
+    }
+    /// The first candidate of disc k from micro-step `from` on. Passes by discs that are taken, if
+    /// that is asked for.
+    CARROM_DEVICE NextEvent first_event(LocalIndex k, int from, bool passes_taken) const {
+        NextEvent first = bounce(discs[k], from);
+        for_each_meeting(k, from, [&](const NextEvent& event) {
+            if (passes_taken && taken[event.partner] != 0) return;
+            if (is_before(k, event, first)) first = event;
+        });
+        return first;
+    }
+};
+
+} // namespace carrom

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Linked into a copy of the program, gives it the serial device for a GPU.
+#include "gpu/gpu.hpp"
+#include "gpu/serial_device.hpp"
+
+namespace carrom {
+
+namespace {
+
+const bool is_replaced = [] {
+    program_gpu() = {&serial_device(), &make_gpu_engine_on};
+    return true;
+}();
+
+} // namespace
+
+} // namespace carrom
