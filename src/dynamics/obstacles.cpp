@@ -44,7 +44,7 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
       n_fixed_discs_(effects.obstacles.discs.size()), container_(effects.obstacles.shape, box),
       periods_(effects.periods(box)), largest_radius_(largest_radius),
       rows_of_bodies_(rows_of(effects.obstacles, box)) {
-    add_bodies(effects.obstacles, box);
+    add_bodies(effects.obstacles);
     const auto n = static_cast<double>(bodies_.size());
     // Nearly square cells: as many as for a square box, with more of them along the longer side.
     const double stretch = std::sqrt(box.x / box.y);
@@ -83,7 +83,7 @@ void Obstacles::add_arc(const Arc& arc, bool is_of_box) {
     }
 }
 
-void Obstacles::add_bodies(const ObstacleList& obstacles, const Box& box) {
+void Obstacles::add_bodies(const ObstacleList& obstacles) {
     for (const FixedDisc& disc : obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius});
     for (const Segment& segment : obstacles.segments) {
         begin_row();

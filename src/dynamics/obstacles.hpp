@@ -118,7 +118,7 @@ private:
 
     void add_line(const Segment& segment, double slides);
     void add_arc(const Arc& arc, bool is_of_box);
-    void add_bodies(const ObstacleList& obstacles, const Box& box);
+    void add_bodies(const ObstacleList& obstacles);
     void begin_row() { first_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size())); }
     std::size_t row_of(std::uint32_t body) const;
     double overlap_of(const Body& body, double x, double y, double radius) const;

@@ -16,8 +16,8 @@ namespace {
 constexpr double longest_arc = 0.125 * (1 + 0x1p-10);
 
 /// Of a small angle x: its sine, 1 - cos x and x - sin x, each to some roundings of itself.
-struct Arc {
-    explicit Arc(double x) {
+struct Turn {
+    explicit Turn(double x) {
         const double square = x * x;
         lag = -x * (square * series(sine_terms, square));
         sine = x - lag;
@@ -34,21 +34,21 @@ struct SwayingFlight {
     double rate;         ///< 2 pi / period
 
     ValueAndSlope distance_at(double s) const {
-        const Arc arc(rate * s);
+        const Turn arc(rate * s);
         const double way = (sine * arc.versine + cosine * arc.lag) / (rate * rate);
         return {(distance + speed * s) + ((0.5 * pull * s) * s + way), speed_of(arc, s)};
     }
     ValueAndSlope speed_at(double s) const {
-        const Arc arc(rate * s);
+        const Turn arc(rate * s);
         return {speed_of(arc, s), pull_of(arc)};
     }
     ValueAndSlope pull_at(double s) const {
-        const Arc arc(rate * s);
+        const Turn arc(rate * s);
         return {pull_of(arc), rate * bend_of(arc)};
     }
     /// The derivative of the pull over the rate.
     ValueAndSlope bend_at(double s) const {
-        const Arc arc(rate * s);
+        const Turn arc(rate * s);
         return {bend_of(arc), rate * (pull - pull_of(arc))};
     }
     bool falls_at(double s) const {
@@ -57,13 +57,13 @@ struct SwayingFlight {
     }
 
 private:
-    double speed_of(const Arc& arc, double s) const {
+    double speed_of(const Turn& arc, double s) const {
         return (speed + pull * s) + (sine * arc.sine + cosine * arc.versine) / rate;
     }
-    double pull_of(const Arc& arc) const {
+    double pull_of(const Turn& arc) const {
         return pull + (sine * (1 - arc.versine) + cosine * arc.sine);
     }
-    double bend_of(const Arc& arc) const { return cosine * (1 - arc.versine) - sine * arc.sine; }
+    double bend_of(const Turn& arc) const { return cosine * (1 - arc.versine) - sine * arc.sine; }
 };
 
 /// Times between which something is monotone: a beginning, at most three roots, and an end.
@@ -145,14 +145,14 @@ void Sway::begin_interval(double time) {
 
 Sway::Phase Sway::phase_at(std::size_t axis, double time) const {
     const auto& [sine, cosine] = at_sync_[axis];
-    const Arc arc(rate_ * time);
+    const Turn arc(rate_ * time);
     return {sine * (1 - arc.versine) + cosine * arc.sine,
             cosine * (1 - arc.versine) - sine * arc.sine};
 }
 
 Swayed Sway::at(std::size_t axis, double time) const {
     const auto& [sine, cosine] = at_sync_[axis];
-    const Arc arc(rate_ * time);
+    const Turn arc(rate_ * time);
     return {(sine * arc.versine + cosine * arc.lag) / (rate_ * rate_),
             (sine * arc.sine + cosine * arc.versine) / rate_,
             sine * (1 - arc.versine) + cosine * arc.sine};
