@@ -163,7 +163,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    if (time_ != 0) discs_.forget_images(); // a sync has just done so
+    if (time_ != 0) discs_.forget_images();                // a sync has just done so
     if (n_micro_done_ == last_micro_step_) drop_scratch(); // leaves memory for what follows a run
 }
 
