@@ -154,15 +154,17 @@ std::vector<Rule> rules_of_barostat() {
              [](const SceneParameters& s) { return has_barostat(s) && is_time_stepped(s); }),
         rule(constant, "growing discs", "both change the radii; take one of them", keys,
              [](const SceneParameters& s) { return has_barostat(s) && has_growth(s); }),
-        rule(constant, "discs that lose energy, are rough, or pass through each other",
+        rule(constant, "discs that lose energy, are rough, active, or pass through each other",
              "weights of volumes are those of elastic discs in equilibrium", keys,
              [](const SceneParameters& s) {
-                 return has_barostat(s) && s.effects.contact.kind != ContactKind::elastic;
+                 return has_barostat(s) && (s.effects.contact.kind != ContactKind::elastic ||
+                                           s.effects.activity.is_any());
              }),
-        rule(constant, "gravity, drag or obstacles",
+        rule(constant, "gravity, a field, drag or obstacles",
              "discs need straight flights in an empty box, which can change as a whole", keys,
              [](const SceneParameters& s) {
-                 return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s));
+                 return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s) ||
+                                           s.effects.field.is_any());
              }),
         rule(constant, "sides that are not all periodic, or sheared",
              "the volume is that of a box without sides; make all four sides periodic", keys,
