@@ -55,9 +55,10 @@ void set_species(SceneParameters& scene, const Value& value) {
 }
 
 /// Discs of one row, from the first one: those up to where a number or the region changes.
-class Rows {
+class SpeciesRows {
 public:
-    explicit Rows(const SceneParameters& scene) : scene_(scene), region_(scene.regions.begin()) {
+    explicit SpeciesRows(const SceneParameters& scene)
+        : scene_(scene), region_(scene.regions.begin()) {
         for (const SideColumn column : all_side_columns)
             if (!has_column(scene, disc_column_of(column)))
                 numbers_[column] = scene.first_numbers[column];
@@ -99,7 +100,7 @@ Value get_species(const SceneParameters& scene) {
     if (species.empty() || scene.sizes || has_column(scene, DiscColumn::radius) ||
         (!scene.listed_discs.empty() && !are_species_listed(scene)))
         return {};
-    Rows of_species(scene);
+    SpeciesRows of_species(scene);
     Values rows;
     DiscId first = 0;
     for (const Species& one : species) {
