@@ -170,8 +170,13 @@ private:
         for (Numbers* row : rows_) {
             if (!is_given(*row, at_packing)) continue;
             const StartRegion r = region_of(draft_.scene, group_of(*row));
-            const double area = (r.x_high - r.x_low) * (r.y_high - r.y_low);
-            if (!(radius_of(*row) > 0)) return false;
+            const double area = is_given(*row, at_region)
+                                    ? (r.x_high - r.x_low) * (r.y_high - r.y_low)
+                                    : draft_.scene.area();
+            if (draft_.scene.are_points)
+                draft_.refuse({"discs.groups"}, "points cover nothing, so that no number of discs "
+                                                "follows from packing; give a count");
+            if (!(radius_of(*row) > 0)) return false; // a problem already
             (*row)[at_count] = count_of_packing((*row)[at_packing], area, radius_of(*row));
         }
         const std::size_t n_problems = draft_.problems.size();
