@@ -158,13 +158,13 @@ std::vector<Rule> rules_of_barostat() {
              "weights of volumes are those of elastic discs in equilibrium", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (s.effects.contact.kind != ContactKind::elastic ||
-                                           s.effects.activity.is_any());
+                                            s.effects.activity.is_any());
              }),
         rule(constant, "gravity, a field, drag or obstacles",
              "discs need straight flights in an empty box, which can change as a whole", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s) ||
-                                           s.effects.field.is_any());
+                                            s.effects.field.is_any());
              }),
         rule(constant, "sides that are not all periodic, or sheared",
              "the volume is that of a box without sides; make all four sides periodic", keys,
