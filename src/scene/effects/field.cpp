@@ -99,6 +99,25 @@ Values rows_of_field(const FieldValues& values) {
     return rows;
 }
 
+Key key_of_file() {
+    Key declared =
+        key("effects.field.file", "",
+            "A text file of numbers: one row for each y, the first at y = 0, and columns along x. "
+            "n of them are L / n apart along periodic sides, and L / (n - 1) between walls. "
+            "262144 numbers at most; relative to the scene.",
+            [](auto& s) -> auto& { return s.effects.field.file; })
+            .by_default("none")
+            .needs(field_kinds("\"grid\"", {FieldKind::grid}))
+            .unless({"effects.field.values"})
+            .required()
+            .not_physical();
+    declared.get = [](const SceneParameters& s) {
+        const std::string& file = s.effects.field.file;
+        return file.empty() ? Value{} : Value{file};
+    };
+    return declared;
+}
+
 Key key_of_values() {
     Key declared = named_key(
                        "effects.field.values", "1",
@@ -108,7 +127,8 @@ Key key_of_values() {
                        .by_default("those of the file")
                        .needs(field_kinds("\"grid\"", {FieldKind::grid}));
     declared.get = [](const SceneParameters& s) {
-        return Value{rows_of_field(s.effects.field.values)};
+        const FieldValues& values = s.effects.field.values;
+        return values.numbers.empty() ? Value{} : Value{rows_of_field(values)};
     };
     declared.set = [](SceneParameters& s, const Value& value) {
         take_rows_of_field(s.effects.field.values, std::get<Values>(value.data));
@@ -139,8 +159,7 @@ Key key_of_strengths() {
 
 std::vector<Key> keys_of_field() {
     const Need trap = field_kinds("\"trap\"", {FieldKind::trap}),
-               sine = field_kinds("\"sine\"", {FieldKind::sine}),
-               grid = field_kinds("\"grid\"", {FieldKind::grid});
+               sine = field_kinds("\"sine\"", {FieldKind::sine});
     return {
         key("effects.field.kind", "",
             "A potential V that acts by kicks at syncs. Trap: stiffness_x (x - x0)^2 / 2 and the "
@@ -182,16 +201,7 @@ std::vector<Key> keys_of_field() {
             [](auto& s) -> auto& { return s.effects.field.phase; })
             .within({-100, 100})
             .needs(sine),
-        key("effects.field.file", "",
-            "A text file of numbers: one row for each y, the first at y = 0, and columns along x. "
-            "n of them are L / n apart along periodic sides, and L / (n - 1) between walls. "
-            "262144 numbers at most; relative to the scene.",
-            [](auto& s) -> auto& { return s.effects.field.file; })
-            .by_default("none")
-            .needs(grid)
-            .unless({"effects.field.values"})
-            .required()
-            .not_physical(),
+        key_of_file(),
         key_of_values(),
         key_of_strengths(),
     };

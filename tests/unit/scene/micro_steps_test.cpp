@@ -31,7 +31,7 @@ TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
     e.contact = {ContactKind::rough, 0.9, 0.25, 0.3, 0.5, 0.4};
     for (Boundary& side : e.boundaries)
         side = {BoundaryKind::thermal, 0.8, 3, 0.7, 0.1, 11, 0.6, {0.2, 0.3, 0.9}};
-    e.gravity = {0.01, -0.02};
+    e.gravity = {0.01, -0.02, 0.03, 0.04, 7, 0.1, 0.2};
     e.drag = 0.03;
     e.growth = 0.04;
     e.shear = 0.05;
@@ -43,6 +43,9 @@ TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
     e.thermostat = {ThermostatKind::langevin, 0.07, 0.08, 0.09, 11};
     e.activity = {0.1, 0.2, 0.3, 0.4, 13};
     e.thermal_seed = 17;
+    e.field.stiffness_x = 0.6;
+    e.field.centre_x = 3;
+    e.field.amplitude = 0.7;
 
     Effects expected = e;
     expected.contact.contact_time = 0.25 * 5;
@@ -52,7 +55,9 @@ TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
         side.period = 11 * 5;
         side.surface.velocity = 0.9 / 5;
     }
-    expected.gravity = {0.01 / 25, -0.02 / 25};
+    expected.gravity = {0.01 / 25, -0.02 / 25, 0.03 / 25, 0.04 / 25, 7 * 5, 0.1, 0.2};
+    expected.field.stiffness_x = 0.6 / 25;
+    expected.field.amplitude = 0.7 / 25;
     expected.drag = 0.03 / 5;
     expected.growth = 0.04 / 5;
     expected.shear = 0.05 / 5;
