@@ -181,6 +181,12 @@ template <class Dynamics> void GpuEngine<Dynamics>::finish_sync(double largest_s
                             static_cast<double>(this->sync_every_));
 }
 
+/// Effects that change velocities on the host are errors with a GPU (EffectDeclaration), so the
+/// device has the states of these discs.
+template <class Dynamics> void GpuEngine<Dynamics>::take_speed(double largest_speed) {
+    largest_speed_ = std::max(largest_speed_, largest_speed);
+}
+
 template <class Dynamics> void GpuEngine<Dynamics>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     bring_states();

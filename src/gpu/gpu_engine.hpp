@@ -33,6 +33,7 @@ private:
     void advance_to(std::int64_t target) override;
     void migrate() override;
     void finish_sync(double largest_speed) override;
+    void take_speed(double largest_speed) override;
     double restart_states() override;
     void bring_states() const override;
 
