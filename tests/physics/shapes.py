@@ -42,8 +42,8 @@ def run(program, settings, names=()):
 def wall(program, is_short):
     """A disc's centre presses a circle of the radius R - r, so the force is over that circle.
 
-    A bent wall presses by its surface tension over the radius more than a flat one. What is known is
-    given an error of a tenth of a diameter over the radius for that.
+    A bent wall presses by its surface tension over the radius more than a flat one. What is known
+    is given an error of a tenth of a diameter over the radius for that.
     """
     kt, count, cells, samples = 0.01, 800 if is_short else 3000, 24, 100
     blocks = 8 if is_short else 40

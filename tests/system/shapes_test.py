@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boxes that are no rectangles, arcs, polygons and points: what billiards keep, what discs push, the
-same bits on any shape of the machine, and what is refused.
+"""Boxes that are no rectangles, arcs, polygons and points: what billiards keep, what discs push,
+the same bits on any shape of the machine, and what is refused.
 """
 import csv
 import math

@@ -391,8 +391,6 @@ TEST_CASE("Active discs are read, and refused without a friction") {
               "cannot have active discs together with no friction"));
     CHECK(has(problems_with(with({"effects.activity.tumble_rate=0.02"})),
               "no meaning without effects.activity.speed or effects.activity.force"));
-    CHECK(has(problems_with(with({"effects.activity.speed=0.2", "effects.activity.force=0.2"})),
-              "effects.activity.speed"));
     CHECK(has(problems_with(with(
                   {"effects.activity.speed=0.2", "effects.activity.rotational_diffusion=0.1"})),
               "acts more than 4 times between two syncs"));

@@ -149,16 +149,13 @@ Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
     }
     if (draw.below(12) == 0)
         texts.insert(texts.end(), {"box.top.kind=moving", "box.top.speed=0.01"});
-    if (draw.below(8) == 0)
+    if (draw.below(4) == 0)
         texts.insert(texts.end(),
                      {"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
                       "effects.thermostat.temperature=0.01"});
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(),
-                     {"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
-                      "effects.thermostat.temperature=0.01",
-                      std::string("effects.activity.") + (draw.below(2) == 0 ? "speed" : "force") +
-                          "=0.01"});
+    if (texts.back().ends_with("temperature=0.01") && draw.below(2) == 0)
+        texts.push_back(draw.below(2) == 0 ? "effects.activity.speed=0.01"
+                                           : "effects.activity.force=0.01");
     if (draw.below(8) == 0)
         texts.insert(texts.end(),
                      {"effects.gravity.y=-0.01", "effects.contact.kind=restitution",
