@@ -82,9 +82,10 @@ def part_of(x, y):
 
 
 def stadium(program, is_short):
-    count, seeds = (1000, 6) if is_short else (5_000, 16)
+    """Points that fly to and fro between the straight walls stay there for long: evenness is late."""
+    count, seeds = (1000, 6) if is_short else (2_000, 16)
     areas = [100] * 25 + [math.pi * 25**2 / 2] * 2
-    for steps in (1000,) if is_short else (1000, 2000):
+    for steps in (1000,):
         values = []
         for seed in range(1, seeds + 1):
             printed, _ = run(program, {
