@@ -74,6 +74,7 @@ public:
             const std::string x = std::to_string(10 + 80 * share()),
                               y = std::to_string(10 + 80 * share());
             if (name == "discs.region") return "[1, 2, " + x + ", " + y + ']';
+            if (name == "effects.field.strengths") return "[0.5]";
             list += name == "discs.streams"
                         ? "{region = [1, 2, " + x + ", " + y + "], velocity = [-0.0, " + y + "]}, "
                     : name == "discs.species"
@@ -122,6 +123,19 @@ bool is_found_later(const Key& key) {
 
 const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
 
+/// Fields whose keys go with each other, in some scenes.
+void add_fields(Draw& draw, Texts& texts) {
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(), {"effects.gravity.amplitude_y=0.01", "effects.gravity.period=50",
+                                   "time.sync_every=1"});
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(), {"effects.field.kind=trap", "effects.field.stiffness_y=0.01",
+                                   "time.sync_every=1"});
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(), {"effects.field.kind=sine", "effects.field.amplitude=0.01",
+                                   "time.sync_every=1"});
+}
+
 /// Discs in one of the ways there are, features that need several keys, and about one other key in
 /// eight; most are right or nearly so.
 Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
@@ -160,6 +174,7 @@ Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
         texts.insert(texts.end(),
                      {"effects.gravity.y=-0.01", "effects.contact.kind=restitution",
                       "effects.contact.restitution=0.9", "effects.lasting_contacts.speed=0.05"});
+    add_fields(draw, texts);
     if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");
     if (draw.below(8) == 0) // with keys that need these quantities, and periodic sides
         texts.insert(texts.end(), {"box.left.kind=periodic", "box.right.kind=periodic",
