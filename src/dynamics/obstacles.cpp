@@ -334,8 +334,11 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
     // Like at walls, a disc that is pulled back stays away for a contact at least.
     double pull = -(nx * gravity_[0] + ny * gravity_[1]);
-    const double along = nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
+    const auto speed_along = [&] {
+        return nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
+    };
     if (is_hollow) {
+        const double along = speed_along();
         if (restitution_ < 1) pull += along * along / (at.radius - turning.radius);
         away = std::max(away, least_slope * std::fabs(along));
     }
@@ -346,7 +349,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const Loss loss = guard_.loss(0.5 * (1 - restitution_ * restitution_) * square, square,
                                   is_guarded);
     if (!rubbing_.acts()) return loss;
-    const double change = rubbing_.rub(along - slides * rubbing_.velocity(),
+    const double change = rubbing_.rub(speed_along() - slides * rubbing_.velocity(),
                                        std::fabs(away - normal), turning);
     disc.vx -= change * ny;
     disc.vy += change * nx;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/box_text.hpp"
 #include "lattices/lattice.hpp"
@@ -176,14 +175,17 @@ void warn_of_lost_masses(const SceneDraft& draft) {
 void check_points(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.are_points) return;
-    if (scene.n_discs > 1 && scene.effects.contact.kind != ContactKind::none)
-        draft.refuse({"discs.radius"},
-                     "discs of radius 0 are points, and two points never meet; try: "
-                     "effects.contact.kind = \"none\", so that they meet walls and obstacles "
-                     "alone, or a radius above 0");
-    if (scene.method != Method::event_driven)
-        draft.refuse({"discs.radius"}, "discs of radius 0 are points, which only time.method = "
-                                       "\"event-driven\" has; or set a radius above 0");
+    const char* const contact = scene.n_discs > 1 && scene.effects.contact.kind != ContactKind::none
+                                    ? "effects.contact.kind = \"none\""
+                                    : "";
+    const char* const method = scene.method != Method::event_driven
+                                   ? "time.method = \"event-driven\""
+                                   : "";
+    if (*contact == 0 && *method == 0) return;
+    draft.refuse({"discs.radius"},
+                 fmt::format("discs of radius 0 are points: two points never meet, and only the "
+                             "event-driven method has them; try: {}{}{}, or a radius above 0",
+                             contact, *contact != 0 && *method != 0 ? " and " : "", method));
 }
 
 /// Fills in box and radius. Returns true if they are known and the discs may fit.
@@ -213,8 +215,7 @@ bool fill_sizes(const SceneDraft& draft) {
                 return false;
             }
     } else if (has_packing && !scene.has_shares) {
-        scene.radius = std::sqrt(scene.area()) *
-                       std::sqrt(packing / (static_cast<double>(scene.n_discs) * std::numbers::pi));
+        scene.radius = radius_of_packing(scene, packing);
     }
     for (const Species& one : scene.effects.species)
         scene.radius = std::max(scene.radius, one.radius);

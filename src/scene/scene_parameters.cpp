@@ -2,6 +2,7 @@
 #include "scene/scene_parameters.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -12,6 +13,11 @@
 namespace carrom {
 
 double SceneParameters::area() const { return area_of(effects.obstacles, box); }
+
+double radius_of_packing(const SceneParameters& scene, double packing) {
+    return std::sqrt(scene.area()) *
+           std::sqrt(packing / (static_cast<double>(scene.n_discs) * std::numbers::pi));
+}
 
 double SceneParameters::packing() const {
     const double share = effects.obstacles.has_shape() ? area() / box.area() : 1;

@@ -262,6 +262,9 @@ struct SceneParameters {
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
+/// The radius of equal discs that cover this share of the scene's area.
+double radius_of_packing(const SceneParameters& scene, double packing);
+
 /// The radius with which points are computed: a billionth of the box. So a place is on one side of
 /// a wall for sure, whatever rounding does.
 inline double point_radius(const Box& box) { return 0x1p-30 * box.longest(); }

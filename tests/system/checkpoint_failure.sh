@@ -50,8 +50,9 @@ shift 2
 [ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = "$rank" ] || exec "$@"
 # A trace on a busy disk would stop the rank as long as the disk takes.
 [ "$injection" = none ] && action=trace=pwrite64 to=trace || action=inject=$injection to=/dev/null
-file=$PWD/kept/checkpoints/checkpoint-000000000020.h5.partial
-exec strace -f -o "$to" -P "$file" -e "$action" "$@"
+# The new name is given in the run's folder, by a handle.
+name=checkpoints/checkpoint-000000000020.h5.partial
+exec strace -f -o "$to" -P "$PWD/kept/$name" -P "$name" -e "$action" "$@"
 END
 chmod +x traced.sh
 # traced RANK INJECTION: three ranks, of which one is traced.
@@ -85,7 +86,7 @@ if strace -o /dev/null true 2>/dev/null; then
     fault 1 pwrite64:error=ENOSPC:when=3
     fault 0 fsync:error=EIO:when=2      # the checksums
     fault 0 fallocate:error=ENOSPC:when=1
-    fault 0 rename:error=EIO:when=1
+    fault 0 renameat:error=EIO:when=1
     if [ "$faults" = all ]; then
         fault 0 pwrite64:error=ENOSPC:when=20+
         fault 0 pwrite64:error=EIO:when=$((n_writes / 2))+   # its discs and all that follows

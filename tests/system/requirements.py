@@ -124,7 +124,8 @@ def check_searches():
 
 
 def cmake_text():
-    return (top / "CMakeLists.txt").read_text()
+    """The main file first, because the minimum version stands there."""
+    return "".join((top / name).read_text() for name in ("CMakeLists.txt", "src/gpu/cuda.cmake"))
 
 
 def check_options():

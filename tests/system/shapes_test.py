@@ -204,7 +204,7 @@ arcs = [[15, 5, 2, 180, 360]]
                 ("round.toml", "overlaps the round wall", "discs.list=[[1, 1, 0, 0]]",
                  "discs.count=1"),
                 ("points.toml", "two points never meet", "effects.contact.kind=elastic"),
-                ("points.toml", "only time.method = \"event-driven\"", "time.method=time-stepped"),
+                ("points.toml", "only the event-driven method", "time.method=time-stepped"),
                 ("several.toml", "four numbers", "effects.obstacles.arcs=[[5, 5, 2, 90]]"),
                 ("several.toml", "angles go up", "effects.obstacles.arcs=[[5, 5, 2, 90, 30]]"),
                 ("several.toml", "no pairs", "effects.obstacles.polygons=[[3,3,7,3,5,6,4]]")):

@@ -180,7 +180,10 @@ double hop_of(const SceneParameters& scene) {
 void shorten_sync_for_hops(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!has_lasting(scene) || draft.settings.has("time.sync_every")) return;
-    const double radius = smallest_radius_of(scene); // 0 where a packing gives it, later
+    double radius = smallest_radius_of(scene);
+    if (const Setting* packing = draft.settings.find("discs.packing");
+        packing && !packing->is_wrong && radius == 0 && !scene.sizes && scene.n_discs > 0)
+        radius = radius_of_packing(scene, std::get<double>(packing->value.data));
     while (radius > 0 && scene.sync_every > 1 && hop_of(scene) > 0.01 * radius)
         scene.sync_every /= 2;
 }
