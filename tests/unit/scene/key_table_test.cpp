@@ -87,7 +87,8 @@ public:
                     : name == "discs.list" ? '[' + x + ", " + y + ", -0.0, 1e-7], "
                     : name.ends_with("segments") || name == "discs.freeze"
                         ? "[1, 2, " + x + ", " + y + "], "
-                        : '[' + x + ", " + y + ", 3], ";
+                    : name.ends_with("polygons") ? "[1, 2, " + x + ", " + y + ", 1, " + y + "], "
+                                                 : '[' + x + ", " + y + ", 3], ";
         }
         return '[' + list + ']';
     }
