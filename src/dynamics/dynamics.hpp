@@ -62,8 +62,9 @@ public:
           radius_(Arithmetic::rounded(radius)),
           band_(static_cast<Real>(1e-8) * static_cast<Real>(radius)),
           tolerance_(Arithmetic::tolerance(box_, 2 * radius_)), space_(box_, effects),
-          species_(effects.species, radius_), bodies_(radius_, effects, species_.view()),
-          law_(effects, radius_), sides_(box_, radius_, effects), flight_(effects) {
+          species_(effects.species, radius_, effects.swap.is_any()),
+          bodies_(radius_, effects, species_.view()), law_(effects, radius_),
+          sides_(box_, radius_, effects), flight_(effects) {
         if (may_have_obstacles && effects.obstacles.are_any())
             obstacles_ = std::make_shared<const Obstacles>(box_, radius_, effects);
     }

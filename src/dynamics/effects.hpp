@@ -160,6 +160,16 @@ struct Activity {
     friend bool operator==(const Activity&, const Activity&) = default;
 };
 
+/// Discs that exchange their radii (scene/effects/swap.cpp).
+struct Swaps {
+    std::int64_t rounds = 0;     ///< of proposals, at each sync
+    std::int64_t until_step = 0; ///< 0 is the end of the run
+    std::uint64_t seed = 3210;
+
+    bool is_any() const { return rounds != 0; }
+    friend bool operator==(const Swaps&, const Swaps&) = default;
+};
+
 /// Numbers of effects that act at syncs alone: the file of such an effect declares them by their
 /// keys (`own_key` in scene/key_members.hpp) and reads them, and nothing else has to know them.
 class OwnNumbers {
@@ -196,6 +206,7 @@ struct Effects {
     double lasting_speed = 0;
     Thermostat thermostat{};
     Activity activity{};
+    Swaps swap{};
     OwnNumbers own{};
     ExternalField field{};
 
@@ -225,8 +236,8 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any() ||
-               field.is_any();
+               growth != 0 || thermostat.is_any() || activity.is_any() || swap.is_any() ||
+               own.are_any() || field.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -51,11 +51,16 @@ struct SyncDiscs {
     std::span<DiscState> discs = {};   ///< some may have departed: effects leave those alone
     std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
     std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
+    std::span<double> radii = {};      ///< along the discs; empty unless discs exchange them
     std::int64_t n_syncs = 0;          ///< since the scene's start, this one included
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.
     std::function<void(const Part& part)> in_parts = {};
+    /// Calls `visit(index, other, distance)` for each own disc and each other one within the reach
+    /// that an effect has asked for. On one thread.
+    using VisitNear = std::function<void(std::size_t index, DiscId other, double distance)>;
+    std::function<void(const VisitNear& visit)> visit_near_pairs = {};
     /// Adds up in place over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
     /// **Collective.**
@@ -94,7 +99,13 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Changes velocities, spins and directions of discs, and nothing else of them. **Collective.**
+    /// Called once before all others. `species` is the run's table, whose copies share its memory.
+    virtual void learn(const SpeciesTable& /*species*/) {}
+    /// How far from each other discs are that the effect has to know as pairs at this sync; 0 if it
+    /// needs none. Equal on all ranks.
+    virtual double reach(std::int64_t /*n_syncs*/) const { return 0; }
+    /// Changes velocities, spins, directions and radii of discs, and nothing else of them.
+    /// **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
 
     /// Whether `begin` does anything.

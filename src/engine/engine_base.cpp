@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/long_flights.hpp"
+#include "engine/near_pairs.hpp"
 #include "engine/state_sums.hpp"
 #include "engine/window_choice.hpp"
 
@@ -228,9 +229,17 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
         this->before_effects_();
         time_ = end;
     }
+    const std::int64_t n_syncs = n_micro_done_ / sync_every_;
+    const double reach = sync_action_.reach(n_syncs);
+    if (reach > 0) fetch_neighbours(reach);
     sync_action_.act(
-        discs_, n_micro_done_ / sync_every_,
-        {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_});
+        discs_, n_syncs,
+        {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_},
+        [this, reach](const SyncDiscs::VisitNear& visit) { visit_neighbours(reach, visit); });
+    if (reach > 0) {
+        discs_.forget_halo();
+        discs_.forget_images();
+    }
     return largest_speed_of_all_states();
 }
 
@@ -249,6 +258,29 @@ template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_stat
     for (std::size_t i = 0; i < discs.size(); ++i)
         fastest = std::max(fastest, dynamics_.squared_speed(discs[i]));
     return std::sqrt(fastest);
+}
+
+/// States have been brought to the time of the sync, which counts as 0 for them.
+template <class Dynamics> void EngineBase<Dynamics>::fetch_neighbours(double reach) {
+    const double end = std::exchange(time_, 0);
+    redistributed_time_ -= end;
+    redistribute_now(reach);
+    redistributed_time_ += end;
+    time_ = end;
+}
+
+template <class Dynamics>
+void EngineBase<Dynamics>::visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const {
+    const Population all = population();
+    visit_near_pairs(discs_.grid(), [&](LocalIndex a, LocalIndex b) {
+        const DiscState &p = all.discs[a], &q = all.discs[b];
+        const Shift shift = discs_.periods().between(p, q, 0);
+        const double dx = q.x - p.x + shift.x, dy = q.y - p.y + shift.y,
+                     distance = std::sqrt(dx * dx + dy * dy);
+        if (distance > reach) return;
+        if (a < all.n_own) visit(a, q.id, distance);
+        if (b < all.n_own) visit(b, p.id, distance);
+    });
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::squared_speed_of_own(double time) const {

@@ -121,6 +121,8 @@ private:
     double let_effects_act();
     void let_effects_begin();
     double largest_speed_of_all_states() const;
+    void fetch_neighbours(double reach);
+    void visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const;
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

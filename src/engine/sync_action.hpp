@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
@@ -28,9 +29,13 @@ public:
                const Communicator& communicator, int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
-    /// Called when the halo is forgotten and all states have been brought to the time of the sync.
-    /// Adds to `energy_given()` and to what `notes` names. **Collective.**
-    void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);
+    /// The largest reach that an effect asks for at this sync.
+    double reach(std::int64_t n_syncs) const;
+    /// Called when all states have been brought to the time of the sync. There is no halo, or one
+    /// as deep as the reach, which `visit_near_pairs` searches. Adds to `energy_given()` and to
+    /// what `notes` names. **Collective.**
+    void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes,
+             const std::function<void(const SyncDiscs::VisitNear&)>& visit_near_pairs = {});
     /// Whether some effect acts before flights, too.
     bool begins() const;
     /// Called before the flights after a sync, or from the scene's start on; all states are at that

@@ -65,9 +65,10 @@ void set_list(SceneParameters& scene, const Value& value) {
 
 /// Columns that a list cannot hold are written in `discs.species`.
 bool are_species_listed(const SceneParameters& scene) {
-    return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
-        return column != SideColumn::spin && !scene.first_numbers[column].empty();
-    });
+    return std::any_of(
+        given_side_columns.begin(), given_side_columns.end(), [&](SideColumn column) {
+            return column != SideColumn::spin && !scene.first_numbers[column].empty();
+        });
 }
 
 Value get_list(const SceneParameters& scene) {
@@ -91,7 +92,7 @@ Value get_list(const SceneParameters& scene) {
 constexpr std::size_t place_of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
 
 /// The place of a region in rows of species.
-constexpr std::size_t place_of_region = 3 + n_side_columns;
+constexpr std::size_t place_of_region = 3 + n_given_columns;
 
 /// Appends `count` discs with the region of the row `n`; as a new run only if it is another one.
 void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers& n) {
@@ -113,13 +114,13 @@ void set_species(SceneParameters& scene, const Value& value) {
         const Numbers& n = std::get<Numbers>(row.data);
         if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count))) continue;
         add_species(scene.effects.species, {static_cast<std::uint64_t>(n[0]), n[1], n[2]});
-        for (const SideColumn column : all_side_columns)
+        for (const SideColumn column : given_side_columns)
             add_numbers(numbers[column], static_cast<std::uint64_t>(n[0]), n[place_of(column)]);
         add_region(regions, static_cast<std::uint64_t>(n[0]), n);
     }
     if (std::ranges::any_of(regions, [](const RegionRun& run) { return run.region.has_value(); }))
         scene.regions = regions;
-    for (const SideColumn column : all_side_columns) {
+    for (const SideColumn column : given_side_columns) {
         const std::vector<NumberRun>& runs = numbers[column];
         if (runs.size() > 1 || (runs.size() == 1 && runs[0].number != 0))
             scene.first_numbers[column] = runs;
@@ -132,7 +133,7 @@ Value get_species(const SceneParameters& scene) {
         (!scene.listed_discs.empty() && !are_species_listed(scene)))
         return {};
     FirstNumbers numbers;
-    for (const SideColumn column : all_side_columns)
+    for (const SideColumn column : given_side_columns)
         if (!has_column(scene, disc_column_of(column)))
             numbers[column] = scene.first_numbers[column];
     BySideColumn<std::size_t> next; // by column
@@ -143,7 +144,7 @@ Value get_species(const SceneParameters& scene) {
         for (const DiscId last = first + one.count; first < last;) {
             DiscId end = last;
             Numbers row{0, one.radius, one.mass};
-            for (const SideColumn column : all_side_columns) {
+            for (const SideColumn column : given_side_columns) {
                 const std::vector<NumberRun>& runs = numbers[column];
                 std::size_t& run = next[column];
                 while (run < runs.size() && runs[run].end <= first) ++run;
@@ -183,7 +184,7 @@ Key list_key() {
 
 Key species_key() {
     std::vector<Field> fields = {{"count", ""}, {"radius", ""}, {"mass", "", 1, 1, 1.0}};
-    for (const SideColumn column : all_side_columns)
+    for (const SideColumn column : given_side_columns)
         fields.push_back({info_of(column).name, "", 1, 1, 0.0});
     fields.push_back(
         {"region", "[x0, y0, x1, y1]", 4, 4, std::numeric_limits<double>::quiet_NaN()});

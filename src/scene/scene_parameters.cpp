@@ -28,11 +28,24 @@ void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene) {
 
 bool has_first_numbers(const SceneParameters& scene, SideColumn column) {
     return !scene.first_numbers[column].empty() ||
-           (column == SideColumn::direction && scene.effects.activity.is_any());
+           (column == SideColumn::direction && scene.effects.activity.is_any()) ||
+           (column == SideColumn::swapped_radius && scene.effects.swap.is_any());
 }
+
+namespace {
+
+double first_radius(const SceneParameters& scene, DiscId id) {
+    DiscId end = 0;
+    for (const Species& one : scene.effects.species)
+        if (id < (end += one.count)) return one.radius;
+    return scene.radius;
+}
+
+} // namespace
 
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id) {
     const std::vector<NumberRun>& runs = scene.first_numbers[column];
+    if (column == SideColumn::swapped_radius) return first_radius(scene, id);
     if (runs.empty() && has_first_numbers(scene, column))
         return random_angle({scene.effects.activity.seed, Purpose::direction, id});
     const auto run = std::upper_bound(

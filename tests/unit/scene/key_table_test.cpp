@@ -157,6 +157,12 @@ Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
                                    "output.measurements.quantities=[\"structure_factor\", "
                                    "\"diffusion\", \"correlations\"]",
                                    "output.measurements.correlation_points=8"});
+    if (draw.below(8) == 0) // with sizes to exchange, and periodic sides
+        texts.insert(texts.end(),
+                     {"box.left.kind=periodic", "box.right.kind=periodic",
+                      "box.bottom.kind=periodic", "box.top.kind=periodic",
+                      "discs.species=[{count = 2, radius = 1}, {count = 3, radius = 0.5}]",
+                      "effects.swap.rounds=2"});
     if (draw.below(8) == 0) // without quantities that few scenes may have
         texts.insert(texts.end(), {"output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"profiles\"]"});
