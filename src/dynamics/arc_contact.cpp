@@ -78,11 +78,11 @@ double contact_while_rising(Parabola flight, double inner, double wall, double b
 } // namespace
 
 double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span) {
-    const auto [dx, dy, wx, wy] = flight;
     const auto is_there = [&](double s) {
-        const double x = dx + wx * s, y = dy + wy * s;
+        const double x = flight.dx + flight.wx * s, y = flight.dy + flight.wy * s;
         return span.holds(x, y, std::sqrt(x * x + y * y));
     };
+    const auto [dx, dy, wx, wy] = flight;
     // A centre inside of the arc overlaps its outer face by more than a radius.
     const double in = contact_delay(-dx, -dy, -wx, -wy, arc_radius + radius, radius);
     if (in >= 0 && is_there(in)) return in;
@@ -92,7 +92,7 @@ double arc_contact(const ArcFlight& flight, double radius, double arc_radius, co
 
 double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
                            double arc_radius, const ArcSpan& span) {
-    const auto [dx, dy, wx, wy] = flight;
+    const double dx = flight.dx, dy = flight.dy, wx = flight.wx, wy = flight.wy;
     const Parabola path{dx, dy, wx, wy, gx, gy, 0};
     const auto is_there = [&](double s) {
         const double x = (dx + wx * s) + (0.5 * gx * s) * s, y = (dy + wy * s) + (0.5 * gy * s) * s;

@@ -327,7 +327,9 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const Body& at = bodies_[image.body];
     const Shift shift = shift_of(image);
     const double dx = (x - at.x) - shift.x, dy = (y - at.y) - shift.y;
-    const auto [nx, ny, is_hollow] = normal_of(at, dx, dy);
+    const Normal from_body = normal_of(at, dx, dy);
+    const double nx = from_body.x, ny = from_body.y;
+    const bool is_hollow = from_body.is_hollow;
     const double slides = is_hollow ? -at.slides : at.slides;
     const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);

@@ -21,7 +21,7 @@ bool do_overlap(const StartRegion& a, const StartRegion& b) {
 /// Radius and mass of the discs of each row, and the checks of groups that need them.
 class GroupCheck {
 public:
-    explicit GroupCheck(const SceneDraft& draft) : draft_(draft), scene_(draft.scene) {
+    explicit GroupCheck(const SceneDraft& draft) : scene_(draft.scene) {
         draft.for_each_row("discs.groups", [this](const Numbers& row, std::size_t, const Place&) {
             groups_.push_back(group_of(row));
         });
@@ -88,7 +88,6 @@ private:
         return speed_problem(speed, scene_);
     }
 
-    const SceneDraft& draft_;
     const SceneParameters& scene_;
     std::vector<DiscGroup> groups_;
     std::vector<SizeAndMass> bodies_;

@@ -174,7 +174,7 @@ def test_overlaps_are_refused_in_the_time_stepped_method_too() -> None:
     sim.run(3)
     positions = sim.positions.copy()
     positions[4] = positions[5] + 0.01
-    with pytest.raises(carrom.SceneError, match="^change: .* would overlap, the deepest by"):
+    with pytest.raises(carrom.SceneError, match=r"^change: .* would overlap, the deepest by"):
         sim.positions = positions
     assert sim.step == 3
 

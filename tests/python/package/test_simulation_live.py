@@ -79,7 +79,7 @@ def test_images_that_move_have_no_whole_numbers() -> None:
     sides = PERIODIC | {side: {"kind": "sheared"} for side in ("bottom", "top")}
     sim = carrom.Simulation(gas(**sides) | {"effects": {"shear": {"rate": 0.02}}})
     sim.run(20)
-    with pytest.raises(carrom.SceneError, match="^images: between sheared sides images move"):
+    with pytest.raises(carrom.SceneError, match=r"^images: between sheared sides images move"):
         _ = sim.images
     with pytest.raises(carrom.NoDataError):
         _ = sim.frame.image

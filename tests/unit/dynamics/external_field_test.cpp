@@ -45,7 +45,7 @@ void check_slopes(const ExternalField& field, double x, double y) {
 TEST_CASE("Fields: the spline goes through its numbers, and is smooth") {
     Numbers random(71);
     for (const bool is_periodic : {true, false}) {
-        for (const std::size_t n : {1, 2, 3, 4, 5, 17}) {
+        for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 17u}) {
             const FieldValues values = random_values(random, n, 6);
             const FieldSpline spline(values, is_periodic, !is_periodic);
             const double hx = spacing(n, is_periodic, box.x), hy = spacing(6, !is_periodic, box.y);
@@ -106,7 +106,7 @@ TEST_CASE("Fields: forces are the derivatives of potentials, below the largest c
     fields[0].stiffness_x = 0.3, fields[0].stiffness_y = -0.2, fields[0].centre_y = 2;
     fields[1].kind = FieldKind::sine;
     fields[1].amplitude = 0.4, fields[1].waves = 3, fields[1].phase = 0.5, fields[1].axis = Axis::y;
-    for (const std::size_t k : {2, 3}) {
+    for (const std::size_t k : {2u, 3u}) {
         fields[k].kind = FieldKind::grid;
         fields[k].amplitude = 0.3;
         fields[k].values = random_values(random, 9, 5);
