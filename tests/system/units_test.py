@@ -27,6 +27,7 @@ def units_of_keys():
             units[name[1]] = [unit.strip() for unit in cells[3].split(",")]
             if cells[2].startswith("tables of "):
                 units[name[1]] = dict(zip(re.findall(r"(\w+) = ", cells[2]), units[name[1]]))
+    units["time.micro_steps"] = ["1"]  # so that syncs follow each other as often in any unit
     for key in [key for key in units if key.startswith("box.left.")]:
         for side in ("right", "bottom", "top"):
             units[key.replace("left", side)] = units[key]
@@ -116,7 +117,8 @@ class Units(ProgramTest):
         keys["output.text"] = "ends"
         keys["time.steps"] = min(keys["time.steps"], STEPS)
         if "time.sync_every" not in keys:  # its default may be shorter in another unit of time
-            self.run_program(1, "run", scene, "--steps", 1, "--set", "output.text=none",
+            text = "".join(f"{key} = {toml_of(value)}\n" for key, value in keys.items())
+            self.run_program(1, "run", self.write("scene.toml", text), "--steps", 1, "--threads", 1,
                              "--report", "report.json")
             keys["time.sync_every"] = self.report("report.json")["sync_every"]
         units = units_of_keys()
@@ -126,7 +128,8 @@ class Units(ProgramTest):
         for length, time in [(2.0 ** 7, 1.0), (2.0 ** -9, 1.0)] if is_stepped else \
                 [(2.0 ** 7, 2.0), (2.0 ** -9, 4.0)]:
             with self.subTest(length=length, time=time):
-                self.assertEqual(self.state_after(keys, units, length, time), first)
+                other = self.state_after(keys, units, length, time)
+                self.assertEqual([disc for disc in first if first[disc] != other.get(disc)], [])
 
 
 def add_test(scene):
