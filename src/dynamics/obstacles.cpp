@@ -329,8 +329,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const double dx = (x - at.x) - shift.x, dy = (y - at.y) - shift.y;
     const Normal from_body = normal_of(at, dx, dy);
     const double nx = from_body.x, ny = from_body.y;
-    const bool is_hollow = from_body.is_hollow;
-    const double slides = is_hollow ? -at.slides : at.slides;
+    const double slides = from_body.is_hollow ? -at.slides : at.slides;
     const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
@@ -339,7 +338,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const auto speed_along = [&] {
         return nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
     };
-    if (is_hollow) {
+    if (from_body.is_hollow) {
         const double along = speed_along();
         if (restitution_ < 1) pull += along * along / (at.radius - turning.radius);
         away = std::max(away, least_slope * std::fabs(along));
