@@ -26,7 +26,8 @@ TRIED = [
      ["box.left.kind=periodic", "box.right.kind=periodic"]),
     ("effects.gravity", "-9.81", "is a table, not a value; try: effects.gravity.y = -9.81",
      ["effects.gravity.y=-0.01"]),
-    ("discs.radius", "0", "two points never meet; try: effects.contact.kind = \"none\"",
+    ("discs.radius", "0", "two points never meet, and only the event-driven method has them; try: "
+     "effects.contact.kind = \"none\"",
      ["discs.radius=0", "effects.contact.kind=none"]),
     ("time.stop", "5", "'time.stop' is a table, not a value; [time.stop] has collisions",
      ["time.stop.collisions=5"]),
