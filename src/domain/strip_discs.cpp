@@ -234,11 +234,11 @@ Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
     return {x_low, x_high, y_low, y_high};
 }
 
-void StripDiscs::forget_images() {
-    if (!has_images_) return;
+void StripDiscs::forget_images(bool are_in_box) {
+    if (!periods_.are_any()) return;
 #pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_own_ >= least_for_threads)
     for (std::size_t i = 0; i < n_own_; ++i) set_image(discs_[i], {});
-    has_images_ = false;
+    has_images_ = are_in_box;
 }
 
 void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {

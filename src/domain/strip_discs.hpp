@@ -125,16 +125,9 @@ public:
     void set_periods(const Periods& periods) { periods_ = periods; }
     /// Whether no rank has a halo, because there are no neighbours.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
-    /// Removes the images of own discs from the halo.
-    void forget_images();
-    /// All own discs are in the box, and none is displaced. So until the next migration only those
-    /// that were near its sides when they were sorted can need another image.
-    void note_wrapped() { has_images_ = true; }
-    /// Own discs, whose states have been replaced, have no images.
-    void clear_images() {
-        has_images_ = true;
-        forget_images();
-    }
+    /// Own discs have no images until the next migration. If all of them are in the box, as after a
+    /// sync, only those near its sides when they were sorted can need one then.
+    void forget_images(bool are_in_box = false);
 
     /// The places that a rank with a halo of `reach` sees, in a box of this extent. It
     /// matters along axes that are not periodic.

@@ -163,7 +163,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    if (time_ != 0) discs_.forget_images();                // a sync has just done so
+    if (time_ != 0) discs_.forget_images();                // a sync leaves none
     if (n_micro_done_ == last_micro_step_) drop_scratch(); // leaves memory for what follows a run
 }
 
@@ -171,10 +171,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
     double largest_speed = restart_states();
     dynamics_.begin_interval(last_sync());
-    if constexpr (Dynamics::is_periodic) {
-        discs_.set_periods(dynamics_.periods());
-        discs_.note_wrapped();
-    }
+    if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
     if (sync_action_.has_effects()) largest_speed = let_effects_act();
     if (SizeChange* const sizes = sync_action_.sizes()) change_sizes(*sizes);
     finish_sync(largest_speed);
@@ -268,7 +265,7 @@ template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& si
     const double room = largest_size(population(), discs_.grid(),
                                      touching_of(dynamics_, time_, discs_.periods()), communicator_,
                                      tuning_.threads);
-    discs_.forget_images();
+    discs_.forget_images(true);
     discs_.forget_halo();
     sizes.change(n_syncs, room);
     dynamics_.resize(sizes.size());

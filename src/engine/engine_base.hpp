@@ -24,10 +24,7 @@ public:
     void advance_towards(std::int64_t last_step) final;
     void add_to(Totals& totals) override;
     LocalView local_view(double reach) final;
-    void forget_images() final {
-        discs_.forget_images();
-        if (time_ == 0) discs_.note_wrapped();
-    }
+    void forget_images() final { discs_.forget_images(time_ == 0); }
 
     std::int64_t micro_steps_done() const final { return n_micro_done_; }
     std::span<const DiscState> own() const final {

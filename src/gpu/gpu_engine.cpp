@@ -71,7 +71,7 @@ template <class Dynamics> void GpuEngine<Dynamics>::bring_states() const {
         for (const DiscState& disc : on_host_->own()) old_ids.push_back(disc.id);
     stepper_->get(on_host_->own());
     if (has_columns) follow(on_host_->columns(), old_ids, on_host_->own());
-    if constexpr (Dynamics::is_periodic) on_host_->clear_images();
+    if constexpr (Dynamics::is_periodic) on_host_->forget_images();
 }
 
 template <class Dynamics> void GpuEngine<Dynamics>::migrate() {
