@@ -26,7 +26,8 @@ import sys
 import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-LIBRARY = "library"  # the only module that the program does not link
+# What is compiled beside the program: the library for others, and the test of its headers.
+BESIDE = {"library", "libcarrom_verify_interface_header_sets"}
 BEGIN, END = "<!-- compile -->", "<!-- end of compile -->"
 
 
@@ -39,7 +40,7 @@ def commands_of(build, words):
     found = []
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         target = re.search(r"CMakeFiles/(?:carrom_)?(\w+)\.dir/", entry["command"]).group(1)
-        if target != LIBRARY:
+        if target not in BESIDE:
             found.append((target, entry["file"], entry["command"], entry["directory"]))
     return sorted(found, key=lambda one: "cmake_pch" not in one[1])
 
