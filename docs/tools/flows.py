@@ -199,21 +199,24 @@ def active(folder):
     return figure
 
 
-PICTURES = {one.__name__: one for one in
-            (heated, shear, sheared, channel, belt, polydisperse, active)}
-
-
-def main():
-    options = options_of(__doc__)
+def save_figures(text, pictures):
+    """Saves the figures that functions of a folder return, by the words of the command line. `text`
+    is the tool's own. Names are those of the files.
+    """
+    options = options_of(text)
     os.environ["CARROM"] = str(options.program.resolve())
     plt.rcParams["font.size"] = 10
     with tempfile.TemporaryDirectory() as folder:
-        for name in options.names or PICTURES:
+        for name in options.names or pictures:
             picture = pathlib.Path(folder) / f"{name}.png"
-            PICTURES[name](pathlib.Path(folder)).savefig(picture, dpi=DOTS)
+            pictures[name](pathlib.Path(folder)).savefig(picture, dpi=DOTS)
             plt.close("all")
             shrink(picture, options.output / f"{name}.png", most_bytes=120_000)
 
 
+PICTURES = {one.__name__: one for one in
+            (heated, shear, sheared, channel, belt, polydisperse, active)}
+
+
 if __name__ == "__main__":
-    main()
+    save_figures(__doc__, PICTURES)

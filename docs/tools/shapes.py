@@ -6,15 +6,10 @@
 
 NAME is round, stadium or drum. Together they take some two minutes.
 """
-import os
-import pathlib
-import tempfile
-
 import matplotlib.pyplot as plt
 import numpy as np
 
-from effects import options_of, shrink
-from flows import BLUE, DOTS, GREY, TOP, WIDTH, carrom, run
+from flows import BLUE, GREY, TOP, WIDTH, carrom, run, save_figures
 
 
 def round_box(folder):
@@ -62,17 +57,5 @@ def drum(folder):
 PICTURES = {"round": round_box, "stadium": stadium, "drum": drum}
 
 
-def main():
-    options = options_of(__doc__)
-    os.environ["CARROM"] = str(options.program.resolve())
-    plt.rcParams["font.size"] = 10
-    with tempfile.TemporaryDirectory() as folder:
-        for name in options.names or PICTURES:
-            picture = pathlib.Path(folder) / f"{name}.png"
-            PICTURES[name](pathlib.Path(folder)).savefig(picture, dpi=DOTS)
-            plt.close("all")
-            shrink(picture, options.output / f"{name}.png", most_bytes=120_000)
-
-
 if __name__ == "__main__":
-    main()
+    save_figures(__doc__, PICTURES)

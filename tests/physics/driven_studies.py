@@ -38,16 +38,22 @@ SHEARED = PERIODIC | {f"box.{side}.kind": '"sheared"' for side in ("bottom", "to
 EVENTS = {"time.method": '"event-driven"'}
 
 
-def run(program, settings):
-    """The report of a scene with these keys."""
+def run_and_print(program, settings):
+    """The report of a scene with these keys, and what the program prints."""
     with tempfile.TemporaryDirectory() as folder:
         scene, result = (os.path.join(folder, name) for name in ("scene.toml", "report.json"))
         with open(scene, "w", encoding="utf-8") as file:
             file.writelines(f"{key} = {value}\n" for key, value in settings.items())
-        subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report", result,
-                        "-o", os.path.join(folder, "run")], check=True)
+        ended = subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report",
+                                result, "-o", os.path.join(folder, "run")], check=True,
+                               stdout=subprocess.PIPE, text=True)
         with open(result, encoding="utf-8") as file:
-            return json.load(file)
+            return json.load(file), ended.stdout
+
+
+def run(program, settings):
+    """The report of a scene with these keys."""
+    return run_and_print(program, settings)[0]
 
 
 def box_of(count, packing):

@@ -13,35 +13,22 @@ drift      the invariant of the splitting after up to 1e6 periods of a free disc
 Discs have the diameter 1, the mass 1 and kT = 1. Exit codes and errors are those of
 tests/physics/literature.py. Henderson, Mol. Phys. 30, 971 (1975).
 """
-import json
 import math
-import os
 import statistics
-import subprocess
-import tempfile
 
 import literature
+from driven_studies import EVENTS, PERIODIC, run, run_and_print
 
 AREA = math.pi / 4
 ROUND = {f"box.{side}.kind": '"periodic"' for side in ("left", "right")}
-ALL_ROUND = ROUND | {f"box.{side}.kind": '"periodic"' for side in ("bottom", "top")}
-EVENTS = {"time.method": '"event-driven"'}
 
 
-def run(program, settings):
-    """The report of a scene with these keys, and the lines of its last step."""
-    with tempfile.TemporaryDirectory() as folder:
-        scene, result = (os.path.join(folder, name) for name in ("scene.toml", "report.json"))
-        with open(scene, "w", encoding="utf-8") as file:
-            file.writelines(f"{key} = {value}\n" for key, value in settings.items())
-        ended = subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report",
-                                result, "-o", os.path.join(folder, "run")], check=True,
-                               stdout=subprocess.PIPE, text=True)
-        with open(result, encoding="utf-8") as file:
-            report = json.load(file)
-        last = f"{settings['time.steps']} "
-        lines = [line.split() for line in ended.stdout.splitlines() if line.startswith(last)]
-        return report, [[float(word) for word in line[2:6]] for line in lines]
+def discs_at_end(program, settings):
+    """x, y, vx and vy of the discs at the last step."""
+    last = f"{settings['time.steps']} "
+    lines = [line.split() for line in run_and_print(program, settings)[1].splitlines()
+             if line.startswith(last)]
+    return [[float(word) for word in line[2:6]] for line in lines]
 
 
 def potential(packing):
@@ -104,7 +91,7 @@ def scene_of_sine(packing, is_short):
     length, height, bins = 80, 20, 40
     energy = [1 + math.sin(2 * math.pi * (k + 0.5) / (bins * FINE)) for k in range(bins * FINE)]
     count = round(packing * length * height / AREA)
-    return count, energy, length * height / (bins * FINE), bins, "density_x", ALL_ROUND | {
+    return count, energy, length * height / (bins * FINE), bins, "density_x", PERIODIC | {
         "box.size": f"[{length}, {height}]", "effects.field.kind": '"sine"',
         "effects.field.amplitude": 1,
         "discs.generator": '"lattice"' if packing > 0.45 else '"random"'}
@@ -127,7 +114,7 @@ def balance(program, is_short):
             last *= 3 # few discs are soon computed
         found = []
         for seed in (1, 2):
-            report, _ = run(program, settings | EVENTS | {
+            report = run(program, settings | EVENTS | {
                 "discs.count": count, "discs.radius": 0.5, "discs.temperature": 1,
                 "discs.seed": seed, "time.steps": last, "time.micro_steps": 16,
                 "effects.thermostat.kind": '"langevin"', "effects.thermostat.rate": 0.1,
@@ -168,7 +155,7 @@ def splitting(program, is_short):
         rate = turn / 16 # a sync in 16 micro-steps of one step
         shares = []
         for steps in range(64, 64 * 9, 64):
-            report, _ = run(program, EVENTS | {
+            report = run(program, EVENTS | {
                 "box.size": 40, "discs.radius": 0.5, "discs.list": "[[30, 20, 0, 0]]",
                 "time.steps": steps, "time.sync_every": 16, "effects.field.kind": '"trap"',
                 "effects.field.stiffness_x": rate ** 2})
@@ -176,14 +163,14 @@ def splitting(program, is_short):
             shares.append(abs(energy / (50 * rate ** 2) - 1))
         # In the sine w^2 = (2 pi / 20)^2, and a step is a time of 1.
         wave = 2 * math.pi / 20
-        report, _ = run(program, ALL_ROUND | EVENTS | {
+        report = run(program, PERIODIC | EVENTS | {
             "box.size": "[40, 20]", "discs.count": 400, "discs.radius": 0.5,
             "discs.temperature": 1, "time.steps": 100 if is_short else 800,
             "time.micro_steps": round(16 * wave / turn), "time.sync_every": 16,
             "effects.field.kind": '"sine"', "effects.field.amplitude": 1,
             "effects.field.waves": 2})
         energy = report["kinetic_energy"] + report["potential_energy"]
-        first, _ = run(program, ALL_ROUND | EVENTS | {
+        first = run(program, PERIODIC | EVENTS | {
             "box.size": "[40, 20]", "discs.count": 400, "discs.radius": 0.5,
             "discs.temperature": 1, "time.steps": 0, "effects.field.kind": '"sine"',
             "effects.field.amplitude": 1, "effects.field.waves": 2})
@@ -198,7 +185,7 @@ def drift(program, is_short):
     turn = 0.5
     for periods in (100, 10_000) if is_short else (100, 10_000, 1_000_000):
         steps = round(periods * 2 * math.pi / turn)
-        _, lines = run(program, EVENTS | {
+        lines = discs_at_end(program, EVENTS | {
             "box.size": 40, "discs.radius": 0.5, "discs.list": "[[30, 20, 0.5, 0]]",
             "time.steps": steps, "time.sync_every": 1, "effects.field.kind": '"trap"',
             "effects.field.stiffness_x": turn ** 2, "output.text": '"ends"'})

@@ -87,6 +87,16 @@ class ProgramTest(unittest.TestCase):
             self.assertIn(text, texts[1], what)
         return Printed(ended.returncode, *texts)
 
+    def check_refused(self, write, cases):
+        """Each scene that `write(text)` writes to wrong.toml ends with code 2 and one line that
+        says so; `cases` are pairs of the text and of what is said.
+        """
+        for text, says in cases:
+            with self.subTest(says):
+                write(text)
+                run = self.run_program(1, "run", "wrong.toml", code=2, says=says)
+                self.assertEqual(len(run.err.splitlines()), 1, run.err)
+
     def report(self, name):
         return json.loads((self.folder / name).read_text(encoding="utf-8"))
 

@@ -9,8 +9,11 @@
 
 #include "dynamics/container.hpp"
 #include "dynamics/obstacles.hpp"
+#include "flying_discs.hpp"
 
 using namespace carrom;
+using test::flying;
+using test::uniform;
 
 namespace {
 
@@ -24,20 +27,6 @@ Effects shaped(BoxShape shape) {
     Effects effects;
     effects.obstacles.shape = shape;
     return effects;
-}
-
-DiscState flying(double x, double y, double vx, double vy, double tau = 0) {
-    DiscState disc;
-    disc.x = x;
-    disc.y = y;
-    disc.vx = vx;
-    disc.vy = vy;
-    disc.tau = tau;
-    return disc;
-}
-
-double uniform(std::mt19937_64& random, double low, double high) {
-    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
 /// Reflects `disc` at the first obstacle it comes to, without the one that it has just left.

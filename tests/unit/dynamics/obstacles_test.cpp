@@ -6,8 +6,11 @@
 #include "catch.hpp"
 
 #include "dynamics/obstacles.hpp"
+#include "flying_discs.hpp"
 
 using namespace carrom;
+using test::flying;
+using test::uniform;
 
 namespace {
 
@@ -15,20 +18,6 @@ Effects one_disc(double x, double y, double radius) {
     Effects effects;
     effects.obstacles.discs = {{x, y, radius}};
     return effects;
-}
-
-DiscState flying(double x, double y, double vx, double vy, double tau = 0) {
-    DiscState disc;
-    disc.x = x;
-    disc.y = y;
-    disc.vx = vx;
-    disc.vy = vy;
-    disc.tau = tau;
-    return disc;
-}
-
-double uniform(std::mt19937_64& random, double low, double high) {
-    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
 /// Reflects `disc` at the first obstacle it comes to.
