@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The list of what a build holds besides Carrom's own code, in CycloneDX's form, for those who have
 # to know it of what they install (https://cyclonedx.org/docs/1.5/json/). Versions are those that
-# CMake found. Random123 has none in its headers; MPI's and OpenMP's are those of the standard.
+# CMake found. Random123 has none in its headers; for MPI and OpenMP they are the standard's.
 
 set(sbom_parts "")
 # sbom_part(NAME VERSION LICENCE): by its SPDX name, or none where that depends on who provides it

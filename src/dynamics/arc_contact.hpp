@@ -21,7 +21,7 @@ struct ArcSpan {
     }
 };
 
-/// A disc's centre relative to that of an arc, and its velocity.
+/// A disc's centre relative to the arc's centre, and its velocity.
 struct ArcFlight {
     double dx, dy, wx, wy;
 };

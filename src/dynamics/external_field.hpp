@@ -2,7 +2,7 @@
 // A potential that does not change in time: a harmonic trap, a sine, or numbers on a grid.
 //
 // It acts at syncs, half a kick before each flight from sync to sync and half a kick after it
-// (scene/effects/field.cpp), so that nothing here is asked for a pair of discs.
+// (scene/effects/field.cpp), so collisions of pairs do not depend on it.
 //
 // Between the points of a grid the potential is the cubic spline through all numbers (C. de Boor,
 // A Practical Guide to Splines (1978)), a product of cubic B-splines along x and y. It has two

@@ -96,7 +96,7 @@ class SizeChange {
 public:
     virtual ~SizeChange() = default;
 
-    /// The present factor, by which radii differ from those of the scene.
+    /// The present factor of all radii of the scene.
     virtual double size() const = 0;
     /// The largest factor that the change at this sync can come to.
     virtual double largest_at(std::int64_t n_syncs) const = 0;

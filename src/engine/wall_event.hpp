@@ -32,7 +32,7 @@ struct WallEvent {
 };
 using WallFollower = EventFollower<WallEvent>;
 
-/// Of an obstacle; the arguments are those of `wall_event`.
+/// The collision with an obstacle; see `wall_event` for the arguments.
 inline WallEvent obstacle_event(const Frame& frame, const ObstacleTouch& touch, double mass,
                                 const DiscState& after, double dx, double dy, double unit) {
     const double per_step = frame.slowing * unit, gained_x = dx * per_step,

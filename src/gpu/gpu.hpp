@@ -28,7 +28,7 @@ struct Gpu {
                                            StoredState state, const Communicator& communicator,
                                            const Tuning& tuning) = nullptr;
 };
-/// That of this program; without a device if it was built without CUDA.
+/// The GPUs of this program; it has none if it was built without CUDA.
 Gpu& program_gpu();
 
 /// See Gpu. It is compiled only where there are kernels.

@@ -37,7 +37,7 @@ struct NextEvent {
     std::uint8_t micro = no_micro;
 };
 
-/// How often discs of a list can be told to wait before one block of threads does the rest.
+/// How many rounds discs of a list may wait before one block of threads does the rest.
 inline constexpr int rounds_of_all = 2;
 
 /// Numbers that kernels add to, and the host reads after a window.

@@ -7,6 +7,7 @@
 
 #include "scene/disc_columns.hpp"
 #include "scene/key_members.hpp"
+#include "scene/limits.hpp"
 #include "scene/rule_parts.hpp"
 #include "scene/start_region.hpp"
 #include "scene/toml_text.hpp"
@@ -15,7 +16,6 @@ namespace carrom {
 
 namespace {
 
-constexpr double largest_in_period = 0.99; ///< as that of obstacles
 constexpr std::string_view setting_of_frozen = "discs.frozen=";
 
 /// How many of the frozen discs have an id below `end`.

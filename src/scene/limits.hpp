@@ -31,6 +31,10 @@ inline constexpr double longest_drag = 4; ///< rate of drag times the time betwe
 inline constexpr double most_crossings =
     0x1p40; ///< crossings in a micro-step; beyond, all times of collisions are the same number
 
+/// The largest sum of an obstacle's radius and a disc's, over a periodic box, so that a disc
+/// touches only the nearest images of a body.
+inline constexpr double largest_in_period = 0.99;
+
 bool has_boundary(const Effects& effects, BoundaryKind kind);
 bool are_pairs_lossy(const Effects& effects);
 /// Whether discs may come to rest on each other, or on a wall, so that a contact time is needed.

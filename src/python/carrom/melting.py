@@ -308,7 +308,7 @@ def _field_correlation(frame: DiscArrays, field: Array, edges: Array) -> Array:
 
 
 def _along_rows(frame: DiscArrays, edges: Array, across: float) -> Array:
-    """g(x, 0) of one frame: pairs in a strip along each row, over those of an ideal gas."""
+    """g(x, 0) of one frame: pairs in a strip along each row, over an ideal gas's number."""
     spatial = package("scipy.spatial", "positional_order", "scipy")
     x = present(frame)
     far, half = edges[-1], across / 2

@@ -38,7 +38,7 @@ def local_packing(frames: Given, radius: float, points: int = 1000) -> Array:
 
 
 def cell_packing(frame: DiscArrays) -> Array:
-    """Return the area of each disc over that of its Voronoi cell, (n,).
+    """Return the area of each disc over the area of its Voronoi cell, (n,).
 
     Cells are those of the centres, so all radii must be equal. Discs that have left are left out.
 

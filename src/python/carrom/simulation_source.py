@@ -93,7 +93,7 @@ def handle_of(comm: Any, core: Any) -> int:
 
 
 def add_up(array: Array, comm: Any) -> None:
-    """Add to an array those of the other ranks. Collective.
+    """Add the arrays of the other ranks to an array. Collective.
 
     Raises:
         CarromError: there is no communicator of mpi4py, or it was freed

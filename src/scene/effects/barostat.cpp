@@ -155,7 +155,7 @@ std::vector<Rule> rules_of_barostat() {
         rule(constant, "growing discs", "both change the radii; take one of them", keys,
              [](const SceneParameters& s) { return has_barostat(s) && has_growth(s); }),
         rule(constant, "discs that lose energy, are rough, active, or pass through each other",
-             "weights of volumes are those of elastic discs in equilibrium", keys,
+             "volumes are weighted for elastic discs in equilibrium", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (s.effects.contact.kind != ContactKind::elastic ||
                                             s.effects.activity.is_any());
@@ -167,7 +167,7 @@ std::vector<Rule> rules_of_barostat() {
                                             s.effects.field.is_any());
              }),
         rule(constant, "sides that are not all periodic, or sheared",
-             "the volume is that of a box without sides; make all four sides periodic", keys,
+             "the volume needs a box without sides; make all four sides periodic", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (!is_periodic_all_round(s) || s.effects.are_sheared());
              }),

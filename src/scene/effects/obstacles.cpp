@@ -9,15 +9,12 @@
 #include "dynamics/container.hpp"
 #include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
+#include "scene/limits.hpp"
 #include "scene/rule_parts.hpp"
 
 namespace carrom {
 
 namespace {
-
-/// The largest sum of a fixed disc's radius and that of a disc, over the box, so that
-/// a disc touches only the nearest images of a body.
-constexpr double largest_in_period = 0.99;
 
 const Need some_obstacles{no_obstacles, has_obstacles};
 
@@ -120,7 +117,7 @@ std::vector<Rule> rules_of_obstacles() {
              }),
         rule("box.shape = \"round\" or \"stadium\"",
              "\"radial_distribution\", \"wall_pressure\" or \"wall_exchange\"",
-             "these quantities are those of a rectangle and of its sides", {"box.shape"},
+             "these quantities need a rectangle and its sides", {"box.shape"},
              [](const SceneParameters& s) {
                  return s.effects.obstacles.has_shape() && s.measurements &&
                         (s.measurements->measures("radial_distribution") ||
