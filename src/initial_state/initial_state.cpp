@@ -2,12 +2,12 @@
 #include "initial_state/initial_state.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "core/useful_threads.hpp"
 #include "dynamics/obstacles.hpp"
+#include "initial_state/lattice_around.hpp"
 #include "initial_state/legacy_discs.hpp"
 #include "initial_state/listed_discs.hpp"
 #include "initial_state/random_insertion.hpp"
@@ -27,14 +27,6 @@ std::vector<InputDisc> listed_discs(const SceneParameters& scene,
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// A number coprime to n and near its golden section. Sites taken in such strides mix
-/// species, which come in the order of ids.
-std::uint64_t mixing_stride(std::uint64_t n) {
-    auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) | 1;
-    while (std::gcd(stride, n) != 1) stride += 2;
-    return stride;
-}
-
 /// Places one disc on each site; `place_of` gives the place of a site.
 template <class PlaceOf>
 std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
@@ -52,6 +44,7 @@ std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
 
 std::vector<InputDisc> lattice_discs(const SceneParameters& scene,
                                      const Communicator& communicator) {
+    if (scene.effects.obstacles.are_any()) return lattice_around_obstacles(scene, communicator);
     const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
     ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
     return discs_on_sites(scene, communicator, [&](std::uint64_t site) {

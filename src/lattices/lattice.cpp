@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/random_numbers.hpp"
 
@@ -143,18 +144,27 @@ Point lattice_site(const Lattice& lattice, DiscId id) {
     return {x, y};
 }
 
-Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed) {
+Point shaken(Point site, double free_radius, std::uint64_t seed, DiscId id, Axis axis) {
     DiscRandom random(seed, Purpose::shake, id);
-    Point site = lattice_site(lattice, id);
     for (;;) {
         const double u = 2 * random.uniform() - 1;
         const double v = 2 * random.uniform() - 1;
         if (u * u + v * v > 1) continue;
-        const auto [x, y] = turned(lattice.axis, u, v);
-        site.x += x * lattice.free_radius;
-        site.y += y * lattice.free_radius;
+        const auto [x, y] = turned(axis, u, v);
+        site.x += x * free_radius;
+        site.y += y * free_radius;
         return site;
     }
+}
+
+Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed) {
+    return shaken(lattice_site(lattice, id), lattice.free_radius, seed, id, lattice.axis);
+}
+
+std::uint64_t mixing_stride(std::uint64_t n) {
+    auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) | 1;
+    while (std::gcd(stride, n) != 1) stride += 2;
+    return stride;
 }
 
 } // namespace carrom

@@ -43,7 +43,14 @@ struct Point {
 /// The site of disc `id`.
 Point lattice_site(const Lattice& lattice, DiscId id);
 
+/// A site, moved to a random place within `free_radius`. Rows lie along `axis`.
+Point shaken(Point site, double free_radius, std::uint64_t seed, DiscId id, Axis axis = Axis::x);
+
 /// The site, shaken: moved to a random place within `free_radius`.
 Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed);
+
+/// A number coprime to n and near its golden section. Sites taken in such strides mix
+/// species, which come in the order of ids.
+std::uint64_t mixing_stride(std::uint64_t n);
 
 } // namespace carrom

@@ -104,6 +104,26 @@ class Shapes(ProgramTest):
                 self.check_restart("scene.toml", ("--overwrite",), first=30, last=60)
                 self.run_program(2, "run", "scene.toml", "--steps", 40, "--check")
 
+    def test_dense_discs_begin_on_a_lattice_around_obstacles(self):
+        """The check finds no disc outside or in another, and the bits are those of any shape."""
+        mixed = ("species = [{count = 60, radius = 0.3}, {count = 60, radius = 0.5}]\n"
+                 "generator = \"lattice\"")
+        periodic = "".join(f"[box.{side}]\nkind = \"periodic\"\n" for side in ("bottom", "top"))
+        for name, scene in {
+                "round": ROUND.format(discs="packing = 0.7\ncount = 1000", effects="",
+                                      method="event-driven"),
+                "stadium": BILLIARD.replace("radius = 0", "packing = 0.65").replace(
+                    'kind = "none"', 'kind = "elastic"'),
+                "several": ROUND.format(discs=mixed, method="time-stepped",
+                                        effects=SEVERAL + periodic).replace('shape = "round"', "")
+                }.items():
+            with self.subTest(name):
+                self.write("scene.toml", scene)
+                for ranks in (1, 2, 5):
+                    self.run_program(ranks, "run", "scene.toml", "--steps", 8, "--check",
+                                     "--report", f"{ranks}.json")
+                    self.assertEqual(self.hash_of(f"{ranks}.json"), self.hash_of("1.json"))
+
     def test_the_push_on_a_round_wall_is_the_virial_of_the_gas(self):
         """The virial theorem for a smooth wall that centres touch at the distance R: push R is
         2 N kT and the sum of impulse times distance of pairs, 2 P A with the report's P.
@@ -200,7 +220,10 @@ arcs = [[15, 5, 2, 180, 360]]
                 ("round.toml", 'box.shape = "round" needs a square', "box.size=[20, 10]"),
                 ("round.toml", "stadium\" needs a box that is longer", "box.shape=stadium"),
                 ("round.toml", "discs never meet the sides", "box.left.kind=open"),
-                ("round.toml", "these generators know nothing of obstacles", "discs.count=300"),
+                ("round.toml", "these generators know nothing of obstacles",
+                 "discs.generator=compressed"),
+                ("round.toml", "no lattice of 350 discs of radius 0.5 has room", "discs.count=350",
+                 "discs.generator=lattice"),
                 ("round.toml", "overlaps the round wall", "discs.list=[[1, 1, 0, 0]]",
                  "discs.count=1"),
                 ("points.toml", "two points never meet", "effects.contact.kind=elastic"),

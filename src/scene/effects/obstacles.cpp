@@ -124,15 +124,13 @@ std::vector<Rule> rules_of_obstacles() {
                          s.measurements->measures("wall_pressure") ||
                          s.measurements->measures("wall_exchange"));
              }),
-        rule("obstacles",
-             "discs.generator = \"lattice\", \"triangular\", \"compressed\" or \"legacy\"",
-             "these generators know nothing of obstacles; insert discs at random (at a packing "
-             "fraction that allows it), list them, or freeze some of them (discs.freeze)",
+        rule("obstacles", "discs.generator = \"triangular\", \"compressed\" or \"legacy\"",
+             "these generators know nothing of obstacles; insert discs at random, place them on a "
+             "lattice, list them, or freeze some of them (discs.freeze)",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
              [](const SceneParameters& s) {
                  return s.effects.obstacles.are_any() &&
-                        (s.generator == Generator::lattice ||
-                         s.generator == Generator::triangular ||
+                        (s.generator == Generator::triangular ||
                          s.generator == Generator::compressed || s.generator == Generator::legacy);
              }),
     };

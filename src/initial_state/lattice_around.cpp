@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "initial_state/lattice_around.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "dynamics/obstacles.hpp"
+#include "lattices/lattice.hpp"
+#include "parallel/slabs.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double per_row = 0.8660254037844386; ///< the height of a row over a: sqrt(3) / 2
+
+/// The sites of m rows that are free.
+class FreeSites {
+public:
+    FreeSites(const SceneParameters& scene, std::uint64_t n_rows, const Communicator& ranks)
+        : box_(scene.box), is_periodic_x_(scene.effects.is_periodic_x()),
+          is_periodic_y_(scene.effects.is_periodic_y()), rows_(n_rows),
+          height_(box_.y / (static_cast<double>(n_rows) + (is_periodic_y_ ? 0 : 2 * beside()))),
+          y0_(is_periodic_y_ ? 0 : height_ / (2 * per_row)),
+          columns_(static_cast<std::uint64_t>(box_.x * per_row / height_)),
+          width_(box_.x / static_cast<double>(columns_)),
+          // Rounding of places is far below the 2^-30 that is left between the circles.
+          clearance_(height_ / (2 * per_row) * (1 - 0x1p-30)),
+          obstacles_(box_, clearance_, scene.effects),
+          own_(slab_of_rank(ranks.rank(), n_rows, ranks.size())), free_in_rows_(n_rows) {
+        for (std::uint64_t row = own_.begin; row < own_.end; ++row)
+            for (std::uint64_t column = 0; column < columns_; ++column)
+                free_in_rows_[row] += is_free(site(row, column)) ? 1 : 0;
+        ranks.sum(free_in_rows_);
+    }
+
+    std::uint64_t number() const {
+        return std::accumulate(free_in_rows_.begin(), free_in_rows_.end(), std::uint64_t{0});
+    }
+    double clearance() const { return clearance_; }
+
+    /// Calls do_one(k, place) for each free site of the rank's rows, where k counts those of all.
+    template <class DoOne> void visit(const DoOne& do_one) const {
+        const auto first = free_in_rows_.begin();
+        std::uint64_t k = std::accumulate(first, first + static_cast<std::ptrdiff_t>(own_.begin),
+                                          std::uint64_t{0});
+        for (std::uint64_t row = own_.begin; row < own_.end; ++row)
+            for (std::uint64_t column = 0; column < columns_; ++column)
+                if (const Point place = site(row, column); is_free(place)) do_one(k++, place);
+    }
+
+private:
+    /// Between walls: the height that the first and the last row leave, in heights of a row, less
+    /// the half row that m rows have there in any case.
+    static double beside() { return 0.5 / per_row - 0.5; }
+
+    Point site(std::uint64_t row, std::uint64_t column) const {
+        const double shift = row % 2 == 0 ? 0.5 : is_periodic_x_ ? 0 : 1;
+        return {(static_cast<double>(column) + shift) * width_,
+                y0_ + static_cast<double>(row) * height_};
+    }
+    bool is_free(const Point& site) const {
+        const auto is_inside = [this](double place, double edge) {
+            return place >= clearance_ && place <= edge - clearance_;
+        };
+        return (is_periodic_x_ || is_inside(site.x, box_.x)) &&
+               (is_periodic_y_ || is_inside(site.y, box_.y)) &&
+               obstacles_.deepest_overlap(site.x, site.y, clearance_, 0).body ==
+                   ObstacleContact::no_body;
+    }
+
+    Box box_;
+    bool is_periodic_x_, is_periodic_y_;
+    std::uint64_t rows_;
+    double height_, y0_; ///< of a row, and the place of the first
+    std::uint64_t columns_;
+    double width_, clearance_;
+    Obstacles obstacles_;
+    Slab own_;
+    std::vector<std::uint64_t> free_in_rows_;
+};
+
+/// The least number of rows with enough sites. Rows come in pairs, as a period along y needs them.
+class RowSearch {
+public:
+    RowSearch(const SceneParameters& scene, const Communicator& ranks)
+        : scene_(scene), ranks_(ranks),
+          most_(static_cast<std::uint64_t>(scene.box.y / (2 * scene.radius * per_row)) / 2 + 1) {}
+
+    FreeSites run() const {
+        std::uint64_t low = 0, high = std::max<std::uint64_t>(first_guess(), 1);
+        while (number(high) < scene_.n_discs) {
+            if (high >= most_) fail();
+            low = high;
+            high = std::min(most_, high + std::max<std::uint64_t>(high / 8, 1));
+        }
+        while (high - low > 1) {
+            const std::uint64_t middle = low + (high - low) / 2;
+            (number(middle) < scene_.n_discs ? low : high) = middle;
+        }
+        return {scene_, 2 * high, ranks_};
+    }
+
+private:
+    /// Rows over two, as if the obstacles took no room.
+    std::uint64_t first_guess() const {
+        const double area = scene_.area() / static_cast<double>(scene_.n_discs),
+                     height = std::sqrt(area * per_row);
+        return std::min(most_, static_cast<std::uint64_t>(scene_.box.y / height / 2 * 0.9));
+    }
+    /// 0 where discs do not fit on sites.
+    std::uint64_t number(std::uint64_t pairs) const {
+        const FreeSites sites(scene_, 2 * pairs, ranks_);
+        return sites.clearance() > scene_.radius ? sites.number() : 0;
+    }
+    [[noreturn]] void fail() const {
+        throw InputError(
+            {{scene_.name, 0,
+              fmt::format("no lattice of {} discs of radius {} has room between the obstacles; "
+                          "take fewer or smaller discs, or freeze some of a start without "
+                          "obstacles (discs.freeze)",
+                          scene_.n_discs, scene_.radius)}});
+    }
+
+    const SceneParameters& scene_;
+    const Communicator& ranks_;
+    std::uint64_t most_;
+};
+
+} // namespace
+
+std::vector<InputDisc> lattice_around_obstacles(const SceneParameters& scene,
+                                                const Communicator& communicator) {
+    const FreeSites sites = RowSearch(scene, communicator).run();
+    const std::uint64_t n = scene.n_discs, n_sites = sites.number(),
+                        stride = scene.effects.species.empty() ? 1 : mixing_stride(n);
+    const double free_radius = sites.clearance() - scene.radius;
+    std::vector<InputDisc> discs;
+    sites.visit([&](std::uint64_t k, const Point& site) {
+        // Disc j of all takes site j n_sites / n, so that n_sites - n sites stay empty.
+        const std::uint64_t j = (k * n + n_sites - 1) / n_sites;
+        if (j >= n || j * n_sites / n != k) return;
+        const DiscId id = j * stride % n; // below 2^64: ids are below 2^32
+        const Point place = shaken(site, free_radius, scene.seed, id);
+        discs.push_back({id, place.x, place.y, 0, 0});
+    });
+    return discs;
+}
+
+} // namespace carrom
