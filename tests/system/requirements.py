@@ -4,7 +4,8 @@
 
 The tables of that page are compared with the CMake files, with the packages that
 job_scripts/setup.sh and the container install, and with the recipes for Spack, EasyBuild and
-conda-forge. The version of the project, the recipes, CITATION.cff and CHANGELOG.md is one.
+conda-forge. The project, the recipes, the package, CITATION.cff and CHANGELOG.md have one version,
+and the last two have one date.
 
 usage: requirements.py SOURCE_FOLDER
 """
@@ -231,6 +232,9 @@ def check_project_version():
     places = {
         "CITATION.cff": r"^version: (\S+)",
         "CHANGELOG.md": r"^## ([\d.]+)",
+        "docs/carrom.1": r'"Carrom (\S+)"',
+        "src/python/pyproject.toml": r'^version = "(\S+)"',
+        "src/python/carrom/__init__.py": r'^__version__ = "(\S+)"',
         "docs/install/conda/meta.yaml": r'set version = "(\S+)"',
         str(recipes["Spack"].relative_to(top)): r'version\("(\S+)"',
         "docs/how-to/cluster.md": r"carrom@(\S+)",
@@ -239,6 +243,11 @@ def check_project_version():
         found = re.search(pattern, (top / place).read_text(), re.M)
         if not found or found.group(1) != version:
             problems.append(f"{place} does not have version {version} of CMakeLists.txt")
+    dates = [re.search(pattern, (top / place).read_text(), re.M) for place, pattern in (
+        ("CITATION.cff", r"^date-released: (\S+)"),
+        ("CHANGELOG.md", rf"^## {re.escape(version)}, (\S+)"))]
+    if None in dates or dates[0].group(1) != dates[1].group(1):
+        problems.append(f"CITATION.cff and CHANGELOG.md do not have one date for {version}")
     easybuild = easybuild_recipe()
     toolchain = "{name}-{version}".format(**easybuild["toolchain"])
     name = f"{easybuild['name']}-{version}-{toolchain}.eb"
