@@ -145,7 +145,7 @@ private:
     SpeciesTable species_;
     std::array<Swayed, 2> swayed_{}; ///< by gravity that changes, since the last inspection
     double total_mass_ = 0, smallest_mass_ = 1;
-    double wall_speed_ = 0, wall_pull_ = 0; ///< for oscillating walls: the largest speed, and the
+    double wall_speed_ = 0, wall_pull_ = 0; ///< for walls that swing: the largest speed, and the
                                             ///< largest acceleration with which one presses a disc
     double work_of_images_ = 0;             ///< on this rank, since the last inspection
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last inspection

@@ -252,7 +252,7 @@ double StateCheck::resting_gain(const Known& known) const {
     return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// The most that oscillating walls have given, or taken. A disc that comes with v and
+/// The most that walls that swing have given, or taken. A disc that comes with v and
 /// leaves with v' gets m (v' - v) (v' + v) / 2. Seen from the wall it leaves no faster
 /// than it came, so this is the impulse times the wall's speed, less what the
 /// restitution takes. The guard of discs at rest is in resting_gain.
@@ -260,7 +260,7 @@ double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
-/// Of walls that oscillate, and of all walls in a frame that falls from the last inspection on.
+/// Of walls that swing, and of all walls in a frame that falls from the last inspection on.
 double StateCheck::speed_of_walls() const {
     const Gravity g = effects_.acceleration();
     if (!g.sways()) return wall_speed_;

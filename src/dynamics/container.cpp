@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/oscillation.hpp"
+#include "dynamics/sine_series.hpp"
 
 namespace carrom {
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "dynamics/oscillation.hpp"
 #include "dynamics/sine_series.hpp"
 
 namespace carrom {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "dynamics/gravity.hpp"
 #include "dynamics/never.hpp"
@@ -31,19 +30,6 @@ double turns_of_sine(double sine) {
 }
 
 } // namespace
-
-SineAndCosine sine_of_turns(double turns) {
-    const double quarter = std::floor(4 * turns + 0.5);
-    const double x = two_pi * (turns - quarter / 4), square = x * x; // the difference is exact
-    const double sine = x + x * (square * series(sine_terms, square));
-    const double cosine = (1 - square / 2) + square * (square * series(cosine_terms, square));
-    switch (static_cast<std::int64_t>(quarter) & 3) {
-    case 0: return {sine, cosine};
-    case 1: return {cosine, -sine};
-    case 2: return {-sine, -cosine};
-    default: return {-cosine, sine};
-    }
-}
 
 WallMotion oscillation_at(const Boundary& side, double time) {
     Oscillation oscillation(side, 1, 0, 0);

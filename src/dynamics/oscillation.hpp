@@ -16,12 +16,6 @@
 
 namespace carrom {
 
-struct SineAndCosine {
-    double sine = 0, cosine = 1;
-};
-/// Sine and cosine of 2 pi `turns`, which is below 2^50, each to 2^-52.
-SineAndCosine sine_of_turns(double turns);
-
 /// Along +x or +y, relative to the wall's line.
 struct WallMotion {
     double place = 0, velocity = 0, acceleration = 0;

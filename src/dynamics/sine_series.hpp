@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sines of small angles, and roots in brackets, by + - * / in a fixed order: the same bits on every
+// Sines of angles, and roots in brackets, by + - * / in a fixed order: the same bits on every
 // machine, which those of other libraries need not have.
 #pragma once
 
@@ -26,6 +26,12 @@ template <std::size_t n> double series(const std::array<double, n>& terms, doubl
     for (std::size_t k = n - 1; k-- > 0;) sum = terms[k] + square * sum;
     return sum;
 }
+
+struct SineAndCosine {
+    double sine = 0, cosine = 1;
+};
+/// Sine and cosine of 2 pi `turns`, which is below 2^50, each to 2^-52.
+SineAndCosine sine_of_turns(double turns);
 
 /// Of a number of turns, the part from 0 to 1.
 inline double whole_turns_off(double turns) { return turns - std::floor(turns); }

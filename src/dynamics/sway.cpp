@@ -5,7 +5,6 @@
 
 #include "dynamics/effects.hpp"
 #include "dynamics/never.hpp"
-#include "dynamics/oscillation.hpp"
 #include "dynamics/sine_series.hpp"
 
 namespace carrom {

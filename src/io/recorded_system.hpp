@@ -21,7 +21,7 @@ struct RecordedSystem {
     std::vector<Species> species; ///< empty where all discs have that radius and mass 1
     bool is_periodic_x = false, is_periodic_y = false;
     std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may be beyond these
-    std::array<double, 4> amplitudes{};    ///< oscillating walls: discs may be so far beyond
+    std::array<double, 4> amplitudes{};    ///< of walls that swing: discs may be so far beyond
     std::string length_unit, time_unit;    ///< "nm", "ps"; empty if the scene names none
 };
 

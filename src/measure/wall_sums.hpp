@@ -79,7 +79,7 @@ protected:
     std::vector<double> given_; ///< what the four sides have given in each interval
 };
 
-/// The length of a side at a step. Between oscillating walls it is the mean.
+/// The length of a side at a step. Between walls that swing it is the mean.
 double length_of_side(const SceneParameters& scene, std::size_t side, double step);
 
 /// A row for each interval between samples: its first and its last step, and what each side was

@@ -34,7 +34,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     SceneParameters around = scene;
     constexpr double turn = 2 * std::numbers::pi;
     for (Boundary& side : around.effects.boundaries)
-        if (side.kind == BoundaryKind::oscillating)
+        if (side.amplitude != 0)
             side.phase = turn *
                          std::remainder(side.phase / turn +
                                             static_cast<double>(failure.step - 1) / side.period,

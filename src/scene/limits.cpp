@@ -95,7 +95,7 @@ struct Room {
 /// leaves an open side when its centre is a radius beyond it.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
-    const Extent walls = extent_at(scene.effects, scene.box, 0); // some may oscillate
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // some may swing
     const double length = along(axis, scene.box), slack = 0x1p-52 * length;
     if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
     const auto inwards = [&](std::size_t side) {

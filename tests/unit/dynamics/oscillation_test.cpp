@@ -10,6 +10,7 @@
 #include "catch.hpp"
 
 #include "dynamics/oscillation.hpp"
+#include "dynamics/sine_series.hpp"
 #include "numbers_of_any_size.hpp"
 
 using namespace carrom;
@@ -18,7 +19,7 @@ using namespace carrom::test;
 namespace {
 
 using Long = long double;
-constexpr Long two_pi = 2 * std::numbers::pi_v<Long>;
+constexpr Long long_two_pi = 2 * std::numbers::pi_v<Long>;
 constexpr Long none = std::numeric_limits<Long>::infinity();
 
 /// A disc before a wall; `pull` is that of gravity, and all is towards the inside.
@@ -41,15 +42,15 @@ struct Flight {
     Long turns(Long s) const { return (Long(sync) + time + s) / period; }
     Long from_line(Long s) const { return distance + rate * s + Long(pull) / 2 * s * s; }
     Long gap(Long s) const {
-        return from_line(s) - sign * amplitude * std::sin(two_pi * turns(s) + phase);
+        return from_line(s) - sign * amplitude * std::sin(long_two_pi * turns(s) + phase);
     }
     Long slope(Long s) const {
         return rate + pull * s -
-               sign * amplitude * two_pi / period * std::cos(two_pi * turns(s) + phase);
+               sign * amplitude * long_two_pi / period * std::cos(long_two_pi * turns(s) + phase);
     }
     /// What places round to until then, in double precision.
     Long rounding(Long s) const {
-        const Long speed = two_pi * amplitude / period;
+        const Long speed = long_two_pi * amplitude / period;
         return 0x1p-50 * (std::fabs(distance) + amplitude + std::fabs(rate) * s +
                           std::fabs(pull) * s * s + speed * (Long(sync) + time + s));
     }
@@ -139,7 +140,7 @@ Flight random_flight(Numbers& random) {
     flight.distance = flight.amplitude * (1 + random.of_any_size(1e-3, 3));
     if (random.index(2) == 0) { // nearer than the wall's highest place
         const Long wall = flight.sign * flight.amplitude *
-                          std::sin(two_pi * flight.turns(0) + Long(flight.phase));
+                          std::sin(long_two_pi * flight.turns(0) + Long(flight.phase));
         flight.distance = static_cast<double>(wall) +
                           flight.amplitude * random.of_any_size(1e-9, 2);
     }
@@ -187,8 +188,8 @@ TEST_CASE("oscillation: the sine is that of long double to 2^-52") {
         const double turns = k % 2 == 0 ? random.uniform(-2, 2) : random.of_any_size(1e-12, 1e9);
         const Long within = turns - std::floor(Long(turns));
         const auto [sine, cosine] = sine_of_turns(turns);
-        worst = std::max({worst, std::fabs(sine - std::sin(two_pi * within)),
-                          std::fabs(cosine - std::cos(two_pi * within))});
+        worst = std::max({worst, std::fabs(sine - std::sin(long_two_pi * within)),
+                          std::fabs(cosine - std::cos(long_two_pi * within))});
     }
     CHECK(worst < 0x1p-52);
     INFO(static_cast<double>(worst / 0x1p-52));
@@ -263,7 +264,7 @@ TEST_CASE("oscillation: a disc that the wall has caught is met again when it sho
         flight.rate = flight.sign * wall.at(0).velocity + away;
         if (flight.last_time() > 60 * Long(flight.period)) continue;
         // It has left at the latest when it has flown for a hundredth of what would bring it back.
-        const Long pressure = speed * two_pi / flight.period - flight.pull; // at most
+        const Long pressure = speed * long_two_pi / flight.period - flight.pull; // at most
         const Long start = away / pressure / 100;
         const Long gap = flight.gap(start);
         if (gap < 100 * flight.rounding(start)) continue;
