@@ -83,14 +83,12 @@ void find_origin(SceneParameters& scene) {
 }
 
 std::string shown_coordinate(double place, double origin) {
-    if (origin == 0) return fmt::format("{}", place);
-    std::string text;
-    for (int digits = 1; digits <= 17; ++digits) {
-        text = fmt::format("{:.{}g}", place - origin, digits);
-        const auto number = parse_double(text);
-        if (number && *number + origin == place) return text;
+    const double exact = place - origin;
+    for (int digits = 1; digits < 17 && origin != 0; ++digits) {
+        const auto rounded = parse_double(fmt::format("{:.{}g}", exact, digits));
+        if (rounded && *rounded + origin == place) return fmt::format("{}", *rounded);
     }
-    return text;
+    return fmt::format("{}", exact);
 }
 
 std::string shown_place(const SceneParameters& scene, double x, double y) {

@@ -72,8 +72,7 @@ def test_checkpoints(both: list[carrom.Run]) -> None:
 @pytest.mark.usefixtures("extension")
 def test_simulation() -> None:
     corner, centre = (
-        carrom.Simulation({**scene(origin), "output": {}})
-        for origin in (None, "centre")
+        carrom.Simulation({**scene(origin), "output": {}}) for origin in (None, "centre")
     )
     for sim in (corner, centre):
         sim.run(10)

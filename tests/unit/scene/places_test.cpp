@@ -19,7 +19,7 @@ using test::problems_of;
 
 namespace {
 
-const std::string rest = "[time]\nsteps = 1\n[discs]\nradius = 1\n";
+const std::string rest = "[time]\nsteps = 1\n[discs]\n", equal = rest + "radius = 1\n";
 
 SceneParameters scene_of(const std::string& origin, const std::string& more) {
     return read_scene("[box]\nsize = [20, 10]\norigin = " + origin + "\n" + rest + more, "s.toml");
@@ -65,8 +65,9 @@ TEST_CASE("The keys of places are known, so that a new one is no accident") {
 
 TEST_CASE("Places are taken from the corner, whatever the order of keys") {
     const SceneParameters scene = scene_of(
-        "\"centre\"", "list = [[-9, 4, 0.5, -1]]\n[effects.obstacles]\ndiscs = [[1, -2, 0.5]]\n"
-                      "polygons = [[0, 0, 1, 0, 1, 1]]\n");
+        "\"centre\"",
+        "radius = 1\nlist = [[-9, 4, 0.5, -1]]\n[effects.obstacles]\ndiscs = [[1, -2, 0.5]]\n"
+        "polygons = [[0, 0, 1, 0, 1, 1]]\n");
     CHECK(scene.origin == Origin{10, 5});
     REQUIRE(scene.listed_discs.size() == 1);
     CHECK(scene.listed_discs[0] == InputDisc{0, 1, 9, 0.5, -1});
@@ -75,7 +76,7 @@ TEST_CASE("Places are taken from the corner, whatever the order of keys") {
     CHECK(scene.effects.obstacles.discs[0].radius == 0.5);
     CHECK(scene.effects.obstacles.polygons[0] == Polygon{10, 5, 11, 5, 11, 6});
     const SceneParameters later = read_scene(
-        rest + "list = [[-9, 4, 0.5, -1]]\n[box]\norigin = \"centre\"\nsize = [20, 10]\n",
+        equal + "list = [[-9, 4, 0.5, -1]]\n[box]\norigin = \"centre\"\nsize = [20, 10]\n",
         "s.toml");
     CHECK(later.listed_discs == scene.listed_discs);
 }
@@ -91,7 +92,8 @@ TEST_CASE("A scene with an origin is written so that it reads back as the same")
     const SceneParameters again = read_scene(text, "s.toml");
     CHECK(again.regions == scene.regions);
     CHECK(scene_text(again) == text);
-    CHECK(has(scene_text(scene_of("\"centre\"", "count = 1\n")), "origin = \"centre\""));
+    CHECK(
+        has(scene_text(scene_of("\"centre\"", "radius = 1\ncount = 1\n")), "origin = \"centre\""));
 }
 
 TEST_CASE("Coordinates are shown in the fewest digits that stand for them") {
@@ -122,7 +124,7 @@ TEST_CASE("To and fro, a place is rounded once and stays as it is then") {
 TEST_CASE("An origin that loses digits, or none, is refused") {
     const auto refusal = [](const std::string& origin) {
         return problems_of([&] {
-            read_scene("[box]\nsize = 10\norigin = " + origin + "\n" + rest + "count = 1\n",
+            read_scene("[box]\nsize = 10\norigin = " + origin + "\n" + equal + "count = 1\n",
                        "s.toml");
         });
     };

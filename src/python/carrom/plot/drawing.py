@@ -156,7 +156,8 @@ class Picture:
         _add_obstacles(ax, scene, first.box, first.corner)
         has_shape = scene.get("box", {}).get("shape", "rectangle") != "rectangle"
         edge = "none" if has_shape else "0.3"
-        self.sides = Rectangle(first.corner, 0, 0, fill=False, edgecolor=edge, linewidth=1)
+        self.sides = Rectangle((0, 0), 0, 0, fill=False, edgecolor=edge, linewidth=1)
+        self.sides.set(x=first.corner[0], y=first.corner[1])
         ax.add_patch(self.sides)
         self.discs = EllipseCollection(
             [],

@@ -31,9 +31,7 @@ def at_rest(box: Any, corner: Any = (0.0, 0.0)) -> Walls:
     return Walls(edges, edges)
 
 
-def walls_at(
-    scene: Mapping[str, Any], box: Any, step: int, corner: Any = (0.0, 0.0)
-) -> Walls:
+def walls_at(scene: Mapping[str, Any], box: Any, step: int, corner: Any = (0.0, 0.0)) -> Walls:
     """Return the walls of a scene; `box` are the edges that its frames name, [Lx, Ly].
 
     The frames of a run share one box, which has room for walls that move, but not for those that
@@ -48,9 +46,9 @@ def walls_at(
     lines = at_rest(edges, corner).places
     places = [line + _shift(keys, side, step) for line, side in zip(lines, _SIDES)]
     reach = [_amplitude(keys, side) for side in _SIDES]
-    low = (min(resting.room[i], lines[i] - reach[i], places[i]) for i in (0, 1))
-    high = (max(resting.room[i], lines[i] + reach[i], places[i]) for i in (2, 3))
-    return Walls((places[0], places[1], places[2], places[3]), (*low, *high))
+    left, bottom = (min(resting.room[i], lines[i] - reach[i], places[i]) for i in (0, 1))
+    right, top = (max(resting.room[i], lines[i] + reach[i], places[i]) for i in (2, 3))
+    return Walls((places[0], places[1], places[2], places[3]), (left, bottom, right, top))
 
 
 def _kind(keys: Mapping[str, Any], side: str) -> str:
