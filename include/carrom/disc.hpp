@@ -9,7 +9,7 @@ namespace carrom {
 /// Lengths are in the scene's unit, times in steps.
 struct Disc {
     std::uint64_t id = 0;  ///< 0 to N - 1
-    double x = 0, y = 0;   ///< the centre, at the present step; the box goes from 0 to its size
+    double x = 0, y = 0;   ///< the centre, at the present step; in the box, see SceneFacts
     double vx = 0, vy = 0; ///< length per step
     double spin = 0;       ///< of rough discs: angle per step, counterclockwise; else 0
     std::uint64_t wall_collisions = 0; ///< since the scene's start

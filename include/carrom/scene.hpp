@@ -21,8 +21,9 @@ class Session;
 /// What a checked scene comes to. Lengths in the scene's unit.
 struct SceneFacts {
     Box box;
-    double radius = 0;  ///< the largest one, where there are several
-    double packing = 0; ///< share of the box that discs cover
+    double x_low = 0, y_low = 0; ///< of its lower left corner; not 0 with `box.origin`
+    double radius = 0;           ///< the largest one, where there are several
+    double packing = 0;          ///< share of the box that discs cover
     std::uint64_t n_discs = 0;
     std::int64_t steps = 0;                            ///< the last step
     std::int64_t micro_steps = 1;                      ///< per step

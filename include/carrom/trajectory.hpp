@@ -73,9 +73,10 @@ public:
     Box box() const;                ///< that holds all frames
     std::string state_hash() const; ///< of a checkpoint; else empty
 
-    /// The discs of a frame, by id, or those of ids from `begin` to `end` - 1. Numbers that the
-    /// file does not have are 0. `frame` counts from 0. Throws InputError where there is no such
-    /// frame or disc, or where reading fails. Not collective.
+    /// The discs of a frame, by id, or those of ids from `begin` to `end` - 1. Places are those of
+    /// the scene (`box.origin`). Numbers that the file does not have are 0. `frame` counts from 0.
+    /// Throws InputError where there is no such frame or disc, or where reading fails. Not
+    /// collective.
     std::vector<Disc> read(std::size_t frame) const;
     std::vector<Disc> read(std::size_t frame, std::uint64_t begin, std::uint64_t end) const;
 

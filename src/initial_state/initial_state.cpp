@@ -15,6 +15,7 @@
 #include "lattices/lattice.hpp"
 #include "lattices/triangular.hpp"
 #include "parallel/agreement.hpp"
+#include "scene/places.hpp"
 
 namespace carrom {
 
@@ -111,10 +112,10 @@ void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDi
         const auto overlap = obstacles.deepest_overlap(disc.x, disc.y,
                                                        species_table.of(disc.id).radius, least);
         if (overlap.body == ObstacleContact::no_body || problems.size() == most_named) continue;
-        problems.push_back(
-            {scene.name, 0,
-             fmt::format("disc {} at ({}, {}) overlaps {} by {:.3g}; move one of them", disc.id,
-                         disc.x, disc.y, obstacles.name_of(overlap.body), overlap.depth)});
+        problems.push_back({scene.name, 0,
+                            fmt::format("disc {} at {} overlaps {} by {:.3g}; move one of them",
+                                        disc.id, shown_place(scene, disc.x, disc.y),
+                                        obstacles.name_of(overlap.body), overlap.depth)});
     }
     agree_on_problems(communicator, problems);
 }

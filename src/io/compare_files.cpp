@@ -39,11 +39,20 @@ public:
     FileDifference result;
 };
 
+/// The name of a column. Positions are compared as files have them, so that no bit is lost.
+std::string column_text(const FileSummary& summary, const std::string& column) {
+    if (column == "x" && summary.origin[0] != 0) return "x from the left side";
+    if (column == "y" && summary.origin[1] != 0) return "y from the bottom";
+    return column;
+}
+
 /// `name` returns the name of a row.
 void compare_rows(const FrameFile& a, const FrameFile& b, std::size_t frame,
                   const std::string& name, Differences& differences) {
     const FileSummary &first = a.summary(), &second = b.summary();
     const std::uint64_t n = std::min(first.n_rows, second.n_rows);
+    std::vector<std::string> columns;
+    for (const std::string& column : first.columns) columns.push_back(column_text(first, column));
     Rows rows, others;
     for (std::uint64_t begin = 0; begin < n; begin += rows_at_a_time) {
         const std::uint64_t end = std::min(begin + rows_at_a_time, n);
@@ -53,7 +62,7 @@ void compare_rows(const FrameFile& a, const FrameFile& b, std::size_t frame,
             for (std::size_t k = 0; k < rows.size(); ++k) {
                 const std::size_t place = second.place_of(first.columns[k]);
                 if (place < others.size())
-                    differences.compare(rows[k][i], others[place][i], first.columns[k],
+                    differences.compare(rows[k][i], others[place][i], columns[k],
                                         [&] { return fmt::format("{} {}", name, begin + i); });
             }
     }
@@ -91,6 +100,9 @@ FileDifference compare_files(const std::string& a, const std::string& b) {
     differences.compare_counts(one.n_rows, other.n_rows, "number of discs");
     for (const auto edge : {&Box::x, &Box::y})
         differences.compare(one.box.*edge, other.box.*edge, "box", [] { return "the files"; });
+    for (const std::size_t axis : {0, 1})
+        differences.compare(one.origin[axis], other.origin[axis], "origin",
+                            [] { return "the files"; });
     if (one.n_rows == other.n_rows) compare_frames(first, second, differences);
     if (differences.result.is_same && one.state_hash != other.state_hash)
         differences.note("state hash", "the files", one.state_hash + " and " + other.state_hash, 0);

@@ -115,6 +115,9 @@ void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
     };
     read_sides("/parameters/open_sides", system.open_boundaries);
     read_sides("/parameters/wall_amplitudes", system.amplitudes);
+    read_sides("/parameters/origin", system.origin);
+    if (!std::isfinite(system.origin[0]) || !std::isfinite(system.origin[1]))
+        throw FileError("has an origin that is no finite number");
 }
 
 /// Radii and masses are for other programs, and must be what bodies can have.
@@ -277,6 +280,15 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
         else
             read_stored(frame, begin, end, rows);
     });
+}
+
+void FrameFile::read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end,
+                           Rows& rows) const {
+    read(frame, begin, end, rows);
+    for (const auto& [column, origin] :
+         {std::pair("x", summary_.origin[0]), std::pair("y", summary_.origin[1])})
+        if (const std::size_t place = summary_.place_of(column); place < rows.size())
+            for (double& number : rows[place]) number -= origin;
 }
 
 std::vector<std::uint64_t> FrameFile::find_departed(std::size_t frame) const {

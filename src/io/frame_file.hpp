@@ -55,7 +55,10 @@ public:
     void check_numbers() const;
 
     /// Replaces `rows` by the rows [begin, end) of a frame. A log has one frame, number 0.
+    /// Positions count from the lower left corner of the box.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
+    /// With positions as the run shows them to users.
+    void read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
     /// The rows of the discs of a frame that have left the box by an open side, ascending. The
     /// frame has velocities. Reads it only if the box has such a side.

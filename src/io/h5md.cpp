@@ -75,6 +75,8 @@ void write_system(hid_t file, const RecordedSystem& system) {
     }
     if (system.amplitudes != std::array<double, 4>{})
         h5::write_column(parameters.id(), "wall_amplitudes", system.amplitudes);
+    if (system.origin != std::array<double, 2>{})
+        h5::write_column(parameters.id(), "origin", system.origin);
     write_species(file, shown_species_path, system.species);
     create_box(h5::create_group(file, "/particles/discs").id(), system);
 }

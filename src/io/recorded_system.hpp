@@ -22,7 +22,9 @@ struct RecordedSystem {
     bool is_periodic_x = false, is_periodic_y = false;
     std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may be beyond these
     std::array<double, 4> amplitudes{};    ///< of walls that swing: discs may be so far beyond
-    std::string length_unit, time_unit;    ///< "nm", "ps"; empty if the scene names none
+    /// The point of the box that is (0, 0) for users. Positions in files count from its corner.
+    std::array<double, 2> origin{};
+    std::string length_unit, time_unit; ///< "nm", "ps"; empty if the scene names none
 };
 
 } // namespace carrom

@@ -35,9 +35,10 @@ template <class Put> void for_each_shown(const Run& run, const Put& put) {
 
 void Simulation::read_positions(std::span<double> xy) const {
     check_size("read_positions", xy.size(), 2 * scene().n_discs);
+    const Origin& origin = live().run().scene().origin;
     for_each_shown(live().run(), [&](const DiscState& disc, std::size_t) {
-        xy[2 * disc.id] = disc.x;
-        xy[2 * disc.id + 1] = disc.y;
+        xy[2 * disc.id] = disc.x - origin.x;
+        xy[2 * disc.id + 1] = disc.y - origin.y;
     });
 }
 

@@ -41,17 +41,20 @@ public:
     /// Why a disc cannot be there; empty if it can.
     std::string problem(const Disc& disc) const {
         const double radius = species_.of(disc.id).radius * growth_;
-        const bool is_inside = is_between(disc.x, extent_.x_low, extent_.x_high, radius,
+        const Origin& origin = scene_.origin;
+        const double x = disc.x + origin.x, y = disc.y + origin.y;
+        const bool is_inside = is_between(x, extent_.x_low, extent_.x_high, radius,
                                           scene_.effects.is_periodic_x()) &&
-                               is_between(disc.y, extent_.y_low, extent_.y_high, radius,
+                               is_between(y, extent_.y_low, extent_.y_high, radius,
                                           scene_.effects.is_periodic_y());
         if (!is_inside)
             return fmt::format("lies outside of the box, [{}, {}{} x [{}, {}{}, or in a wall",
-                               extent_.x_low, extent_.x_high,
-                               scene_.effects.is_periodic_x() ? ')' : ']', extent_.y_low,
-                               extent_.y_high, scene_.effects.is_periodic_y() ? ')' : ']');
+                               extent_.x_low - origin.x, extent_.x_high - origin.x,
+                               scene_.effects.is_periodic_x() ? ')' : ']', extent_.y_low - origin.y,
+                               extent_.y_high - origin.y,
+                               scene_.effects.is_periodic_y() ? ')' : ']');
         if (!scene_.effects.obstacles.are_any()) return {};
-        const auto overlap = obstacles_.deepest_overlap(disc.x, disc.y, radius,
+        const auto overlap = obstacles_.deepest_overlap(x, y, radius,
                                                         2 * std::max(2e-12 * radius, rounding_));
         if (overlap.body == ObstacleContact::no_body) return {};
         return fmt::format("overlaps {} by {:.3g}", obstacles_.name_of(overlap.body),
@@ -75,6 +78,13 @@ struct Change {
     bool of_place = false, of_velocity = false, of_spin = false;
     bool is_any() const { return of_place || of_velocity || of_spin; }
 };
+
+/// The disc in the coordinates of the computation. Coordinates that are as shown keep all bits.
+Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
+    disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
+    disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
+    return disc;
+}
 
 /// `shown` is the disc as the box sees it, with velocities per micro-step.
 Change change_of(const Disc& disc, const DiscState& shown, double unit, double spin) {
@@ -152,8 +162,9 @@ Changed change_stored(const std::vector<Disc>& discs, const Run& run, StoredStat
     for (std::size_t i = 0; i < state.discs.size(); ++i) {
         DiscState& stored = state.discs[i];
         if (stored.has_departed()) continue;
-        const Disc& disc = *std::ranges::lower_bound(discs, stored.id, {}, &Disc::id);
         const DiscState shown = frame.in_box(stored, time);
+        const Disc disc = counted_from_corner(
+            *std::ranges::lower_bound(discs, stored.id, {}, &Disc::id), shown, run.scene().origin);
         const Change change = change_of(disc, shown, unit, spins.empty() ? 0 : spins[i] * unit);
         if (!change.is_any()) continue;
         changed.any = true;

@@ -99,6 +99,8 @@ SceneFacts Scene::check() const {
 SceneFacts facts_of(const SceneParameters& scene) {
     SceneFacts facts;
     facts.box = scene.box;
+    facts.x_low = 0 - scene.origin.x;
+    facts.y_low = 0 - scene.origin.y;
     facts.radius = scene.radius;
     facts.packing = scene.packing();
     facts.n_discs = scene.n_discs;

@@ -163,14 +163,15 @@ void Simulation::advance_to(std::int64_t step) {
 std::vector<Disc> Simulation::discs() const {
     const DiscSystem& system = live().run().system();
     const double unit = system.velocity_unit(), clock = system.clock();
+    const Origin& origin = live().run().scene().origin;
     const std::span<const double> spins = system.spins();
     std::vector<Disc> discs;
     discs.reserve(system.discs().size());
     for (const DiscState& shown : system.shown()) {
         Disc& disc = discs.emplace_back();
         disc.id = shown.id;
-        disc.x = shown.x_at(clock);
-        disc.y = shown.y_at(clock);
+        disc.x = shown.x_at(clock) - origin.x;
+        disc.y = shown.y_at(clock) - origin.y;
         disc.vx = shown.vx * unit;
         disc.vy = shown.vy * unit;
         disc.wall_collisions = shown.wall_collisions;

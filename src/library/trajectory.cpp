@@ -146,7 +146,7 @@ std::vector<Disc> FrameReader::read(std::size_t frame, std::uint64_t begin,
                                        "frame {}",
                                        steps().size(), n_discs(), begin, end, frame)}});
     Rows rows;
-    live_part(state_, "FrameReader").file.read(frame, begin, end, rows);
+    live_part(state_, "FrameReader").file.read_shown(frame, begin, end, rows);
     std::vector<Disc> discs(end - begin);
     const auto take = [&](std::string_view column, auto field) {
         const std::size_t place = live_part(state_, "FrameReader").file.summary().place_of(column);

@@ -32,6 +32,10 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     if (has_boundary(scene.effects, BoundaryKind::moving))
         text += "\n# Moving walls begin at the box's sides here; they have moved there.";
     SceneParameters around = scene;
+    if (scene.origin.is_any())
+        text +=
+            "\n# Places count from the lower left corner of the box here, which keeps all bits.";
+    around.origin = {};
     constexpr double turn = 2 * std::numbers::pi;
     for (Boundary& side : around.effects.boundaries)
         if (side.amplitude != 0)

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/checked_scene.hpp"
 
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
 #include "scene/boundaries/boundary.hpp"
 #include "scene/checked_value.hpp"
 #include "scene/disc_groups.hpp"
 #include "scene/frozen_discs.hpp"
 #include "scene/limits.hpp"
+#include "scene/places.hpp"
 #include "scene/quantity.hpp"
 #include "scene/scene_draft.hpp"
 #include "scene/species_rows.hpp"
@@ -13,6 +19,35 @@
 namespace carrom {
 
 namespace {
+
+/// Makes places in the users' coordinates those of the computation. They refer to the box, whatever
+/// the order of keys.
+void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, Setting*>> right) {
+    if (!draft.settings.has("box.origin")) return;
+    for (const auto& [key, setting] : right)
+        if (key->name == "box.origin" || key->name == "box.size")
+            key->set(draft.scene, setting->value);
+    find_origin(draft.scene);
+    const Origin& origin = draft.scene.origin;
+    for (const auto& [key, setting] : right)
+        if (origin.is_any() && has_places(*key))
+            move_places(*key, setting->value, origin.x, origin.y);
+}
+
+/// The origin is near the box, since places lose digits to it, and texts of the course have none.
+void check_origin(const SceneDraft& draft) {
+    constexpr double farthest = 1000;
+    const SceneParameters& scene = draft.scene;
+    const double most = farthest * scene.box.longest();
+    if (scene.lines_before_discs > 0 && draft.settings.has("box.origin"))
+        return draft.refuse({"box.origin"}, "'box.origin' has no meaning for legacy text, whose "
+                                            "places count from the lower left corner");
+    if (most > 0 && !(std::fabs(scene.origin.x) <= most && std::fabs(scene.origin.y) <= most))
+        draft.refuse({"box.origin"},
+                     fmt::format("'box.origin' must be within {:g}, {:g} edges of the box, because "
+                                 "places farther away would lose digits",
+                                 most, farthest));
+}
 
 /// Puts valid values into the scene as they are; of lists the valid rows.
 void take_values(const SceneDraft& draft) {
@@ -24,13 +59,17 @@ void take_values(const SceneDraft& draft) {
             }))
             table.create(draft.scene);
     }
+    std::vector<std::pair<const Key*, Setting*>> right;
     for (Setting& setting : draft.settings.all()) {
         const Key* key = find_key(setting.key);
         if (!key || setting.is_wrong) continue;
         check_value(*key, setting, draft.problems);
         const bool has_rows = key->has_rows() && std::holds_alternative<Values>(setting.value.data);
-        if (!setting.is_wrong || has_rows) key->set(draft.scene, setting.value);
+        if (!setting.is_wrong || has_rows) right.emplace_back(key, &setting);
     }
+    take_origin(draft, right);
+    for (const auto& [key, setting] : right) key->set(draft.scene, setting->value);
+    find_origin(draft.scene);
 }
 
 /// Defaults that depend on other keys.
@@ -130,6 +169,7 @@ void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
                 const DiscColumns* columns) {
     const SceneDraft draft{scene, settings, problems, columns};
     take_values(draft);
+    check_origin(draft);
     fill_groups(draft);
     fill_species_counts(draft);
     derive_defaults(draft);

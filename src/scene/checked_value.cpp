@@ -52,6 +52,7 @@ public:
         switch (key_.kind) {
         case Kind::number: return check_number();
         case Kind::lengths: return check_lengths();
+        case Kind::point: return check_point();
         case Kind::integer: return check_integer();
         case Kind::flag: return check_type<bool>();
         case Kind::text: return check_text();
@@ -94,16 +95,26 @@ private:
         if (!std::isfinite(*number)) return refuse_number(*number);
         check_range(*number);
     }
+    void check_point() {
+        if (std::holds_alternative<std::string>(setting_.value.data))
+            return check_word(setting_.value);
+        const auto* list = std::get_if<Values>(&setting_.value.data);
+        if (!list) return refuse_type();
+        check_pair(*list);
+    }
     /// One number, or an array of two.
     void check_lengths() {
         const auto* list = std::get_if<Values>(&setting_.value.data);
         if (!list) return check_number();
+        check_pair(*list);
+    }
+    void check_pair(const Values& list) {
         const auto refuse_list = [&](const std::string& found) {
             refuse(fmt::format("'{}' must be {}, not {}", key_.name, kind_text(key_), found));
         };
-        if (list->size() != 2) return refuse_list(fmt::format("an array of {}", list->size()));
+        if (list.size() != 2) return refuse_list(fmt::format("an array of {}", list.size()));
         Numbers numbers;
-        for (const Value& one : *list) {
+        for (const Value& one : list) {
             const auto number = as_number(one);
             if (!number || !std::isfinite(*number))
                 return refuse_list(fmt::format("[..., {}, ...]", value_text(one)));
@@ -136,6 +147,8 @@ private:
     void check_word(const Value& value) {
         const auto* word = std::get_if<std::string>(&value.data);
         if (!word) return refuse_type();
+        const std::string kinds = key_.kind == Kind::point ? kind_text(key_)
+                                                           : words_text(key_.words);
         for (const std::string_view known : key_.words)
             if (known == *word) return;
         for (const auto& [old_word, new_word] : key_.old_words)
@@ -144,10 +157,10 @@ private:
                     fmt::format("'{}': \"{}\" is now \"{}\"", key_.name, old_word, new_word));
         for (const auto& [other, here] : key_.advice)
             if (letters_of(other) == letters_of(*word))
-                return refuse(fmt::format("'{}' must be {}, not {}; try: {}", key_.name,
-                                          words_text(key_.words), in_quotes(*word), here));
-        refuse(fmt::format("'{}' must be {}, not {}{}", key_.name, words_text(key_.words),
-                           in_quotes(*word), guess(*word, key_.words, '"')));
+                return refuse(fmt::format("'{}' must be {}, not {}; try: {}", key_.name, kinds,
+                                          in_quotes(*word), here));
+        refuse(fmt::format("'{}' must be {}, not {}{}", key_.name, kinds, in_quotes(*word),
+                           guess(*word, key_.words, '"')));
     }
     void check_words() {
         check_type<Values>();
@@ -308,6 +321,7 @@ std::string kind_text(const Key& key) {
     switch (key.kind) {
     case Kind::number: return "a number" + range;
     case Kind::lengths: return fmt::format("a number{}, or two, [Lx, Ly]", range);
+    case Kind::point: return words_text(key.words) + ", or two numbers, [x, y]";
     case Kind::integer: return "a whole number" + range;
     case Kind::flag: return "true or false";
     case Kind::text: return "text";

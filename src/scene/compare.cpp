@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "scene/disc_columns.hpp"
+#include "scene/places.hpp"
 #include "scene/toml_text.hpp"
 
 namespace carrom {
@@ -11,7 +12,8 @@ namespace carrom {
 namespace {
 
 std::string shown(const Key& key, const SceneParameters& scene) {
-    const Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
+    Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
+    if (scene.origin.is_any()) move_places(key, value, -scene.origin.x, -scene.origin.y);
     return value.is_nothing() ? "not set" : toml_text(key, value);
 }
 

@@ -152,6 +152,7 @@ void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
                     columns_[i], *place_of(columns_[i], disc, body, beside));
                 !fault.empty())
                 add(fault);
+    if (has_lines_ && scene_.origin.is_any()) disc.x += scene_.origin.x, disc.y += scene_.origin.y;
     if (text.empty()) text = disc_problem(disc, scene_, body.radius);
     if (words.size() > n_words)
         add(fmt::format("{} after the {} numbers '{}'", in_quotes(words[n_words]), n_words,

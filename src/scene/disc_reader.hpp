@@ -5,6 +5,8 @@
 // bits to see that every id comes once, and less than a microsecond a line, which threads share:
 // lines are parsed by all of them, and then ids are noted in the order of lines. Without a column
 // of ids, discs are numbered in the order of lines.
+// Places in lines are those of users (scene/places.hpp); in the lines of `discs.from` they count
+// from the corner of the box already.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once

@@ -103,12 +103,13 @@ std::vector<Key> keys_of_freezing() {
                     true})
             .with_rows({{"", "[x0, y0, x1, y1]", 4, 4}}),
         key("discs.frozen", "1, length",
-            "The discs that froze. The program writes it, so that checkpoints know them.",
+            "The discs that froze, with their distances from the left side and the bottom. The "
+            "program writes it, so that checkpoints know them.",
             [](auto& s) -> auto& { return s.frozen; })
             .by_default("found as the run begins")
             .needs(freezing)
             .not_physical()
-            .with_rows({{"", "[id, x, y, radius]", 4, 4}}),
+            .with_rows({{"", "[id, from_left, from_bottom, radius]", 4, 4}}),
     };
 }
 

@@ -22,6 +22,7 @@ namespace carrom {
 enum class Kind {
     number,
     lengths, ///< a number, or two of them, [Lx, Ly]
+    point,   ///< a word of the key, or [x, y]
     integer,
     flag,
     text,
@@ -57,6 +58,7 @@ struct Need {
 };
 
 /// The numbers of a row: one nameless field for Kind::rows, those of the table for Kind::tables.
+/// Numbers that the form calls x or y, or x0, y0, x1 and so on, are places (scene/places.hpp).
 struct Field {
     std::string_view name;
     std::string_view form; ///< "[x, y, radius]"
@@ -85,7 +87,8 @@ struct Key {
     /// Words of other programs, and what to write here.
     std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
-    bool is_one_row = false; ///< of Kind::rows; it may stand without the outer brackets
+    bool is_one_row = false;       ///< of Kind::rows; it may stand without the outer brackets
+    std::optional<Axis> axis = {}; ///< of a number that is a place: the axis it lies along
 
     // Filled in from the member:
     Kind kind = Kind::number;
@@ -110,6 +113,7 @@ struct Key {
     Key&& excludes(const Names& names) && { return instead_of = names, std::move(*this); }
     Key&& unless(const Names& names) && { return or_from = names, std::move(*this); }
     Key&& formerly(std::string_view old) && { return old_name = old, std::move(*this); }
+    Key&& place_along(Axis of) && { return axis = of, std::move(*this); }
     Key&& with_rows(const std::vector<Field>& of) && {
         kind = of.size() > 1 ? Kind::tables : Kind::rows;
         return fields = of, std::move(*this);

@@ -95,6 +95,8 @@ template <class Member> constexpr Kind kind_of() {
         return Kind::flag;
     else if constexpr (std::same_as<Member, Box>)
         return Kind::lengths;
+    else if constexpr (std::same_as<Member, Origin>)
+        return Kind::point;
     else if constexpr (std::is_enum_v<Member>)
         return Kind::choice;
     else if constexpr (std::integral<Member>)
@@ -118,6 +120,9 @@ template <class Member> void assign(Member& member, const Value& value) {
     } else if constexpr (std::same_as<Member, Box>) {
         const auto* edges = std::get_if<Numbers>(&value.data);
         member = edges ? Box((*edges)[0], (*edges)[1]) : Box(std::get<double>(value.data));
+    } else if constexpr (std::same_as<Member, Origin>) {
+        const auto* place = std::get_if<Numbers>(&value.data);
+        member = place ? Origin{(*place)[0], (*place)[1]} : Origin{.is_centre = true};
     } else if constexpr (is_optional<Member>) {
         assign(member.emplace(), value);
     } else if constexpr (is_list<Member>) {
@@ -146,6 +151,8 @@ template <class Member> Value value_of(const Member& member) {
         return {};
     } else if constexpr (std::same_as<Member, Box>) {
         return member.is_square() ? Value{member.x} : Value{Numbers{member.x, member.y}};
+    } else if constexpr (std::same_as<Member, Origin>) {
+        return member.is_centre ? Value{std::string("centre")} : Value{Numbers{member.x, member.y}};
     } else if constexpr (is_optional<Member>) {
         return member ? value_of(*member) : Value{};
     } else if constexpr (is_list<Member>) {

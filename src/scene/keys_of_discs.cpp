@@ -95,6 +95,22 @@ Key list_key() {
     return key;
 }
 
+Key origin_key() {
+    Key origin =
+        key("box.origin", "length",
+            "The point that has the coordinates (0, 0) in all places that a scene names "
+            "and that outputs show: the middle of the box, or [x, y] from its lower left "
+            "corner.",
+            [](auto& s) -> auto& { return s.origin; })
+            .by_default("the lower left corner")
+            .advises({{"center", "\"centre\""}, {"middle", "\"centre\""}, {"corner", "[0, 0]"}});
+    origin.words = {"centre"};
+    origin.compare = [](const SceneParameters& a, const SceneParameters& b) {
+        return a.origin == b.origin;
+    };
+    return origin;
+}
+
 /// 0 stands for points, which have a radius in computations (SceneParameters::are_points).
 Key radius_key() {
     Key radius =
@@ -235,10 +251,11 @@ std::vector<Key> keys_of_discs() {
     std::vector<Key> all = {
         key("box.size", "length",
             "L, the side of a square box, or [Lx, Ly], the edges of a rectangle; "
-            "walls stand at x = 0 and Lx, y = 0 and Ly.",
+            "walls stand at x = 0 and Lx, y = 0 and Ly, unless 'box.origin' moves x and y.",
             [](auto& s) -> auto& { return s.box; })
             .within(lengths)
             .required(),
+        origin_key(),
         count_key(),
         radius_key(),
         packing_key(),

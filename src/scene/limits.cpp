@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "scene/effects/effect.hpp"
+#include "scene/places.hpp"
 
 namespace carrom {
 
@@ -109,11 +110,14 @@ Room room_along(Axis axis, const SceneParameters& scene, double radius) {
 /// The places allowed for centres of discs of this radius.
 std::string room_text(const SceneParameters& scene, double radius) {
     const Box& box = scene.box;
-    if (scene.effects.have_open_boundaries()) {
+    const bool have_open = scene.effects.have_open_boundaries();
+    if (have_open || scene.origin.is_any()) {
         const Room x = room_along(Axis::x, scene, radius), y = room_along(Axis::y, scene, radius);
-        return fmt::format("centres lie between {:.15g} and {:.15g} along x, {:.15g} and {:.15g} "
-                           "along y, and up to r = {} beyond open sides",
-                           x.low, x.high, y.low, y.high, radius);
+        const Origin& o = scene.origin;
+        return fmt::format(
+            "centres lie between {:.15g} and {:.15g} along x, {:.15g} and {:.15g} along y{}",
+            x.low - o.x, x.high - o.x, y.low - o.y, y.high - o.y,
+            have_open ? fmt::format(", and up to r = {} beyond open sides", radius) : "");
     }
     const std::string room = box.is_square()
                                  ? fmt::format("L - r = {}", box.x - radius)
@@ -163,8 +167,9 @@ std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, do
     }
     const bool is_box_known = box != Box();
     if (is_finite && !is_inside && is_box_known)
-        add(fmt::format("disc {} at ({}, {}) is not inside the box: {}{}{}", disc.id, disc.x,
-                        disc.y, room_text(scene, radius), hint_of_sides(disc, scene, radius),
+        add(fmt::format("disc {} at {} is not inside the box: {}{}{}", disc.id,
+                        shown_place(scene, disc.x, disc.y), room_text(scene, radius),
+                        hint_of_sides(disc, scene, radius),
                         has_boundary(scene.effects, BoundaryKind::oscillating)
                             ? ", and before oscillating walls where these are at step 0"
                             : ""));

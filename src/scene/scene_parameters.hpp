@@ -71,6 +71,16 @@ constexpr SideColumn side_column_of(DiscColumn column) {
                                    static_cast<std::size_t>(DiscColumn::first_side));
 }
 
+/// The point of the box, from its lower left corner, that has the coordinates (0, 0) in what users
+/// write and read. All that computes counts from the corner (scene/places.hpp).
+struct Origin {
+    double x = 0, y = 0;
+    bool is_centre = false; ///< follows the box; x and y are set once that is known
+
+    bool is_any() const { return x != 0 || y != 0; }
+    friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
+};
+
 /// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like
 /// slab.
 struct Stream {
@@ -186,6 +196,7 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
 
     Box box;                               ///< the edges; 0 if they are not known
+    Origin origin;                         ///< of places in texts, messages and tables alone
     double radius = 0;                     ///< r; the largest one of several species
     bool are_points = false;               ///< the scene says 0; `radius` is point_radius(box)
     std::optional<SizeDistribution> sizes; ///< that radii follow; they are species then

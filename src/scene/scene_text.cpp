@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/places.hpp"
 #include "scene/toml_text.hpp"
 
 namespace carrom {
@@ -29,7 +30,8 @@ std::string scene_text(const SceneParameters& scene) {
         for (const Key& key : keys()) {
             if (key.table() != table.name) continue;
             if (!key.is_required && key.is_same(scene, plain)) continue;
-            const Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
+            Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
+            if (scene.origin.is_any()) move_places(key, value, -scene.origin.x, -scene.origin.y);
             if (!value.is_nothing())
                 lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
                                      toml_text(key, value));

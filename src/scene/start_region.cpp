@@ -8,6 +8,7 @@
 #include "core/box_text.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
+#include "scene/places.hpp"
 
 namespace carrom {
 
@@ -37,8 +38,10 @@ Crowd crowd_of(const SceneParameters& scene, DiscId first, DiscId end) {
     return crowd;
 }
 
-std::string text_of(const StartRegion& r) {
-    return fmt::format("[{:g}, {:g}, {:g}, {:g}]", r.x_low, r.y_low, r.x_high, r.y_high);
+std::string text_of(const SceneParameters& scene, const StartRegion& r) {
+    const Origin& o = scene.origin;
+    return fmt::format("[{:g}, {:g}, {:g}, {:g}]", r.x_low - o.x, r.y_low - o.y, r.x_high - o.x,
+                       r.y_high - o.y);
 }
 
 std::string problem_of(const SceneParameters& scene, const StartRegion& r, const Crowd& crowd) {
@@ -54,8 +57,9 @@ std::string problem_of_region(const SceneParameters& scene, const StartRegion& r
         return low >= 0 && low < high && high <= length;
     };
     if (!is_within(r.x_low, r.x_high, scene.box.x) || !is_within(r.y_low, r.y_high, scene.box.y))
-        return fmt::format("must be [x0, y0, x1, y1] with x0 < x1 and y0 < y1, inside a box of {}",
-                           sides_text(scene.box));
+        return fmt::format(
+            "must be [x0, y0, x1, y1] with x0 < x1 and y0 < y1, inside a box of {}{}",
+            sides_text(scene.box), corner_text(scene));
     const double width = r.x_high - r.x_low, height = r.y_high - r.y_low;
     if (std::min(width, height) >= 2 * largest_radius) return {};
     return fmt::format("is narrower than a disc of radius {:g}, which begins there whole",
@@ -117,7 +121,7 @@ void check_regions(const SceneDraft& draft) {
                                      : "";
         if (!text.empty())
             draft.refuse({run.region && !scene.regions.empty() ? "discs.species" : "discs.region"},
-                         fmt::format("the region {} {}", text_of(*region), text));
+                         fmt::format("the region {} {}", text_of(scene, *region), text));
         first = run.end;
     }
 }

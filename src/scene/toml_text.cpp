@@ -168,7 +168,7 @@ std::string word_text(const Field& field, double number) {
 }
 
 std::string row_text(const Key& key, const Numbers& numbers) {
-    if (key.kind == Kind::rows || key.kind == Kind::lengths)
+    if (key.kind == Kind::rows || key.kind == Kind::lengths || key.kind == Kind::point)
         return '[' + numbers_text(numbers.begin(), numbers.size()) + ']';
     std::string text;
     auto next = numbers.begin();
@@ -207,7 +207,9 @@ bool add_toml(Settings& settings, Problems& problems, std::string_view text,
 }
 
 std::optional<Value> parse_value(const Key& key, const std::string& text) {
-    const bool takes_word = key.kind == Kind::text || key.kind == Kind::choice;
+    const bool is_list = key.kind == Kind::point && text.starts_with('[');
+    const bool takes_word = key.kind == Kind::text || key.kind == Kind::choice ||
+                            (key.kind == Kind::point && !is_list);
     const bool is_quoted = !text.empty() && (text[0] == '"' || text[0] == '\'');
     if (takes_word && !is_quoted) return Value{text};
     return parse_any(text);

@@ -70,9 +70,11 @@ std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departe
 class LinesOfDiscs : public std::streambuf {
 public:
     LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places,
-                 ShareOfDiscs share)
+                 const Origin& origin, ShareOfDiscs share)
         : file_(std::move(file)), frame_(frame), places_(std::move(places)),
-          share_(std::move(share)), first_row_(row_of(share_.ids.begin, share_.departed)) {
+          moved_x_(origin.x - file_.summary().origin[0]),
+          moved_y_(origin.y - file_.summary().origin[1]), share_(std::move(share)),
+          first_row_(row_of(share_.ids.begin, share_.departed)) {
         begin_anew();
     }
 
@@ -131,6 +133,10 @@ private:
     void read(std::uint64_t begin, std::uint64_t end) {
         try {
             file_.read(frame_, begin, end, rows_);
+            if (moved_x_ != 0)
+                for (double& x : rows_[places_[0]]) x += moved_x_;
+            if (moved_y_ != 0)
+                for (double& y : rows_[places_[1]]) y += moved_y_;
         } catch (const InputError& error) {
             throw std::runtime_error(std::string("discs.from: ") + error.what());
         }
@@ -139,6 +145,7 @@ private:
     FrameFile file_;
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< columns of the file
+    double moved_x_, moved_y_;        ///< between the corners of the two boxes
     ShareOfDiscs share_;
     std::uint64_t first_row_, row_ = 0;     ///< in the file
     std::uint64_t next_ = 0, n_before_ = 0; ///< the next disc's new id; bytes of earlier blocks
@@ -162,7 +169,8 @@ private:
 } // namespace
 
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            const SideColumnSet& wanted, const std::optional<ShareOfDiscs>& share) {
+                            const SideColumnSet& wanted, const Origin& origin,
+                            const std::optional<ShareOfDiscs>& share) {
     FrameFile file(path);
     file.check_numbers();
     const std::size_t frame = frame_of(path, file.summary(), step);
@@ -182,7 +190,7 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
     });
     if (!names.empty()) discs.columns = fmt::format("[{}]", fmt::join(names, ", "));
     discs.lines = std::make_unique<StreamOfDiscs>(std::make_unique<LinesOfDiscs>(
-        std::move(file), frame, std::move(places),
+        std::move(file), frame, std::move(places), origin,
         share.value_or(ShareOfDiscs{{0, discs.n_discs}, discs.departed})));
     return discs;
 }

@@ -15,6 +15,7 @@
 
 #include "core/side_columns.hpp"
 #include "parallel/slabs.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -35,11 +36,15 @@ struct ShareOfDiscs {
     std::vector<std::uint64_t> departed; ///< see FileOfDiscs
 };
 
+/// Places keep the coordinates that the other run shows, so they differ from those in the file
+/// where `origin` of the scene is another one: by a sum that rounds, and by nothing where it is the
+/// same.
+///
 /// Finds the frame of `step`, or the last one. `wanted` are columns beside the states,
 /// read if the file has them. The lines are those of `share`, or else of all discs. Call
 /// check_damage before. Throws InputError naming the file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            const SideColumnSet& wanted,
+                            const SideColumnSet& wanted, const Origin& origin,
                             const std::optional<ShareOfDiscs>& share = std::nullopt);
 
 } // namespace carrom

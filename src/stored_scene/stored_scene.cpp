@@ -102,6 +102,7 @@ RecordedSystem system_of(const SceneParameters& scene) {
         system.open_boundaries[side] = boundary.kind == BoundaryKind::open;
         system.amplitudes[side] = boundary.amplitude;
     }
+    system.origin = {scene.origin.x, scene.origin.y};
     system.length_unit = scene.length_unit;
     system.time_unit = scene.time_unit;
     return system;

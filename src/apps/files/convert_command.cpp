@@ -81,12 +81,15 @@ void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int
     std::string others;
     for (const std::size_t k : other_columns(summary))
         others += fmt::format(":{}:R:1", summary.columns[k]);
+    std::string corner; // as OVITO reads it
+    if (summary.origin != std::array<double, 2>{})
+        corner = fmt::format("Origin=\"{} {} 0\" ", 0 - summary.origin[0], 0 - summary.origin[1]);
     fmt::format_to(std::back_inserter(out),
-                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" "
+                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" {}"
                    "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1:"
                    "momenta:R:3{} Time={} "
                    "pbc=\"{} {} F\"\n",
-                   summary.n_rows, summary.box.x, summary.box.y, others, step,
+                   summary.n_rows, summary.box.x, summary.box.y, corner, others, step,
                    summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
 }
 
@@ -155,7 +158,7 @@ void write_frames(const FrameFile& file, Format format, DataOutput& output) {
         if (format == Format::xyz) append_header(output.buffer(), summary, summary.steps[frame]);
         for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
             const std::uint64_t end = std::min(begin + rows_at_a_time, summary.n_rows);
-            file.read(frame, begin, end, rows);
+            file.read_shown(frame, begin, end, rows);
             for (std::size_t i = 0; i < end - begin; ++i) {
                 writer.append(output.buffer(), summary.steps[frame], begin + i, rows, i);
                 output.flush_if_full();

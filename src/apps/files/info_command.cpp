@@ -103,6 +103,10 @@ std::string summary_text(const FileSummary& summary) {
         return text + labelled_line("collisions", fmt::format("{}", summary.n_rows)) +
                labelled_line("fields", fmt::format("{}", fmt::join(summary.columns, " ")));
     text += labelled_line("discs", fmt::format("{} in a box of {:g}", summary.n_rows, summary.box));
+    if (const auto& [x, y] = summary.origin; x != 0 || y != 0)
+        text += labelled_line("origin", fmt::format("({:g}, {:g}) from the lower left corner; "
+                                                    "positions in the file count from that corner",
+                                                    x, y));
     const std::string periodic = fmt::format("{}{}", summary.is_periodic_x ? "x" : "",
                                              summary.is_periodic_y ? "y" : "");
     if (!periodic.empty()) text += labelled_line("periodic", periodic);

@@ -42,7 +42,8 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
         return fmt::format("disc {} has a number that is not finite", disc.id);
     if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin ||
         y > box.y_high - margin)
-        return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
+        return fmt::format("disc {} is outside the box, at ({}, {}) from its corner", disc.id, x,
+                           y);
     if (!(disc.tau >= 0 && disc.tau <= clock))
         return fmt::format("disc {} has the time {}, and it is {} now", disc.id, disc.tau, clock);
     return {};

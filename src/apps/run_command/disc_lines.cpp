@@ -25,10 +25,10 @@ std::vector<LocalIndex> order_by_id(std::span<const DiscState> discs) {
 }
 
 /// Adding +0 turns -0 into +0, so that two states of the same hash give the same text.
-DiscLine line_of(const DiscState& disc, double clock, double velocity_unit) {
+DiscLine line_of(const DiscState& disc, double clock, double velocity_unit, const Origin& origin) {
     return {disc.id,
-            disc.x_at(clock) + 0.0,
-            disc.y_at(clock) + 0.0,
+            disc.x_at(clock) - origin.x + 0.0,
+            disc.y_at(clock) - origin.y + 0.0,
             disc.vx * velocity_unit + 0.0,
             disc.vy * velocity_unit + 0.0,
             disc.pair_collisions,
@@ -71,7 +71,8 @@ void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& li
 DiscLines::DiscLines(const SceneParameters& scene, const std::string& path, int digits,
                      const Communicator& ranks, std::uint64_t slab)
     : ranks_(ranks), wanted_(scene.text_output), last_step_(scene.steps), n_discs_(scene.n_discs),
-      digits_(digits), slab_(slab), output_(ranks.is_root() ? path : std::string()) {
+      digits_(digits), slab_(slab), origin_(scene.origin),
+      output_(ranks.is_root() ? path : std::string()) {
     agree_on_failure();
 }
 
@@ -103,7 +104,7 @@ void DiscLines::write(const DiscSystem& system) {
         const std::uint64_t end = std::min(begin + slab_, n_discs_);
         mine.clear();
         for (; next != order.end() && discs[*next].id < end; ++next)
-            mine.push_back(line_of(discs[*next], clock, velocity_unit));
+            mine.push_back(line_of(discs[*next], clock, velocity_unit, origin_));
         write_slab(begin, end, system.step(), mine);
     }
 }

@@ -63,6 +63,7 @@ private:
     std::uint64_t n_discs_;
     int digits_;
     std::uint64_t slab_;
+    Origin origin_;
     DataOutput output_;
 };
 

@@ -37,18 +37,20 @@ public:
     }
 
     std::vector<MeasuredTable> tables() const override {
-        return {along(x_, "x", run_.scene.box.x), along(y_, "y", run_.scene.box.y)};
+        const SceneParameters& scene = run_.scene;
+        return {along(x_, "x", scene.box.x, scene.origin.x),
+                along(y_, "y", scene.box.y, scene.origin.y)};
     }
 
 private:
     /// If walls move, places are shares of the box at each sample.
-    MeasuredTable along(const std::vector<std::uint64_t>& counts, const char* axis,
-                        double length) const {
+    MeasuredTable along(const std::vector<std::uint64_t>& counts, const char* axis, double length,
+                        double origin) const {
         bool is_moving = false;
         for (const Boundary& side : run_.scene.effects.boundaries)
             is_moving = is_moving || side.speed != 0 || side.amplitude != 0;
         const std::size_t n = counts.size();
-        const double size = is_moving ? 1 : length,
+        const double size = is_moving ? 1 : length, begin = is_moving ? 0 : origin,
                      area = run_.counts.area / static_cast<double>(n);
         MeasuredTable table{
             fmt::format("density_{}", axis),
@@ -59,7 +61,7 @@ private:
             {"from", "to", "count", "density"},
             {}};
         for (std::size_t k = 0; k < n; ++k)
-            table.rows.push_back({edge(0, size, k, n), edge(0, size, k + 1, n),
+            table.rows.push_back({edge(0, size, k, n) - begin, edge(0, size, k + 1, n) - begin,
                                   static_cast<double>(counts[k]),
                                   static_cast<double>(counts[k]) / area});
         return table;

@@ -103,7 +103,8 @@ private:
                     over_time.back().push_back(rate_of(k, row, part));
             }
             const ObstacleRow& one = rows_[row];
-            table.rows.push_back({static_cast<double>(row + 1), one.x, one.y, one.length});
+            table.rows.push_back({static_cast<double>(row + 1), one.x - run_.scene.origin.x,
+                                  one.y - run_.scene.origin.y, one.length});
             for (const MeanAndError& mean : means_over_time(over_time))
                 table.rows.back().insert(table.rows.back().end(), {mean.mean, mean.error});
         }

@@ -359,8 +359,8 @@ MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_
             std::vector<double>& row = table.rows.emplace_back(std::vector{head.to_step});
             const auto column = static_cast<double>(cell % n_x_),
                        line = static_cast<double>(cell / n_x_);
-            if (is_grid) row.push_back(head.x_low + (column + 0.5) * width);
-            if (is_grid) row.push_back(head.y_low + (line + 0.5) * height);
+            if (is_grid) row.push_back(head.x_low + (column + 0.5) * width - run_.scene.origin.x);
+            if (is_grid) row.push_back(head.y_low + (line + 0.5) * height - run_.scene.origin.y);
             const BlockNumbers numbers_of_cell(cells.data() + n_block_numbers * cell,
                                                n_block_numbers);
             const std::vector<double> fields = fields_of(

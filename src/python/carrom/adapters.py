@@ -86,7 +86,8 @@ def to_freud(frame: DiscArrays, walls: str | None = None) -> Any:
     centres = positions_of(frame, "to_freud")
     room = periodic_box(frame, walls, "to_freud")
     box = freud.box.Box(Lx=room[0], Ly=room[1], is2D=True)
-    points = in_three_dimensions(centres[frame.present] - frame.box / 2, np.float32)
+    middle = frame.corner + frame.box / 2
+    points = in_three_dimensions(centres[frame.present] - middle, np.float32)
     return box, points
 
 
@@ -164,6 +165,7 @@ def to_ase(frame: DiscArrays) -> Any:
         positions=in_three_dimensions(positions_of(frame, "to_ase")),
         masses=frame.mass,
         cell=[*frame.box, 1.0],
+        celldisp=[*frame.corner, 0.0],
         pbc=[*frame.periodic, False],
         info={"step": frame.step, "time": frame.time},
     )
@@ -186,6 +188,7 @@ def fill_ovito(data: Any, frame: DiscArrays) -> None:
     """Put a frame into an empty DataCollection."""
     cell = np.zeros((3, 4))
     cell[:, :3] = np.diag([*frame.box, 1.0])
+    cell[:2, 3] = frame.corner
     data.create_cell(cell, pbc=(*frame.periodic, False)).is2D = True
     data.attributes["Timestep"] = frame.step
     data.attributes["Time"] = frame.time

@@ -54,6 +54,8 @@ class Checkpoint(Frame):
         self._overrides = h5.text(file, "carrom/run/scene_overrides")
         discs = file["particles/discs"]
         self.box = np.asarray(discs["box/edges/value"][0, :2], dtype=np.float64)
+        if "parameters/origin" in file:
+            self.corner = 0 - np.asarray(file["parameters/origin"][()], dtype=np.float64)
         boundary = [bytes(word) for word in discs["box"].attrs["boundary"]]
         self.periodic = (boundary[0] == b"periodic", boundary[1] == b"periodic")
         names = ("x", "y", "vx", "vy", "slowing", "clock")
@@ -100,7 +102,7 @@ class Checkpoint(Frame):
     @cached_property
     def x(self) -> Array:
         places = [self._place(axis, period) for axis, period in zip("xy", self._periods)]
-        return np.stack(places, axis=1)
+        return np.stack(places, axis=1) + self.corner
 
     def _place(self, axis: str, period: float) -> Array:
         stored = self.column(axis)

@@ -18,6 +18,8 @@ import numpy.typing as npt
 from carrom.errors import NoDataError
 
 Array = npt.NDArray[Any]
+_ZEROS = np.zeros(2)
+_ZEROS.setflags(write=False)
 
 
 class DiscArrays(ABC):
@@ -28,12 +30,15 @@ class DiscArrays(ABC):
         radius: (N,) float64, lengths
         mass: (N,) float64, in the scene's unit; 1 unless the scene gives masses
         species: (N,) int64, from 0, in the order of ids
-        box: (2,) float64, the box's edges along x and y, lengths; its corner is the origin
+        box: (2,) float64, the box's edges along x and y, lengths
+        corner: (2,) float64, the place of its lower left corner: (0, 0), unless the scene has
+            `box.origin`
         periodic: whether the sides along x and along y are periodic
     """
 
     step: int
     box: Array
+    corner: Array = _ZEROS
     periodic: tuple[bool, bool]
 
     @property
@@ -50,6 +55,11 @@ class DiscArrays(ABC):
     @abstractmethod
     def x(self) -> Array:
         """Positions (N, 2), lengths; between periodic sides inside the box."""
+
+    @property
+    def x_from_corner(self) -> Array:
+        """Positions (N, 2) from the lower left corner of the box, lengths."""
+        return self.x - self.corner if self.corner.any() else self.x
 
     @cached_property
     @abstractmethod

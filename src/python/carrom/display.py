@@ -57,7 +57,7 @@ def _word(value: Any) -> str:
 def picture(frame: DiscArrays) -> str:
     """Return the discs to scale as SVG; nothing where there are too many, or no positions."""
     try:
-        centres = frame.x
+        centres = frame.x_from_corner
     except NoDataError:
         return ""
     present = frame.present

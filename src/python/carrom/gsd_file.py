@@ -28,7 +28,7 @@ def to_gsd(
 ) -> Path:
     """Write frames as GSD and return the path. Needs the package gsd.
 
-    GSD boxes are centred on the origin, so half the box is taken off positions. Numbers are
+    GSD boxes are centred on the origin, so positions count from the middle of the box. Numbers are
     float32. Departed discs stay in, at rest beyond their open side. The log of each frame has
     `carrom/time`, `carrom/kinetic_energy` where frames have velocities, and all of the table
     `thermo` where the run has a row of that step.
@@ -73,7 +73,8 @@ def _moment(hoomd: Any, frame: Frame, walls: str | None, thermo: Mapping[str, fl
     moment.configuration.box = [*periodic_box(frame, walls, "to_gsd"), 0, 0, 0, 0]
     discs = moment.particles
     discs.N = frame.n_discs
-    discs.position = in_three_dimensions(positions_of(frame, "to_gsd") - frame.box / 2, np.float32)
+    middle = frame.corner + frame.box / 2
+    discs.position = in_three_dimensions(positions_of(frame, "to_gsd") - middle, np.float32)
     log: dict[str, float] = {"time": frame.time}
     velocities = velocities_of(frame)
     if velocities is not None:

@@ -37,7 +37,7 @@ def listed(frames: Given, wanted_by: str) -> list[DiscArrays]:
 
 def present(frame: DiscArrays) -> Array:
     """Return positions (n, 2) in the box, its upper edges excluded, as scipy wants them."""
-    return np.mod(frame.x[frame.present].astype(np.float64), frame.box)
+    return np.mod(frame.x_from_corner[frame.present].astype(np.float64), frame.box)
 
 
 def with_images(x: Array, box: Array, margin: float) -> Array:

@@ -18,6 +18,7 @@ class _Source(Protocol):
     """What a frame takes of a simulation, whose module stands above this one."""
 
     box: Array
+    corner: Array
     periodic: tuple[bool, bool]
     radii: Array
     masses: Array
@@ -60,7 +61,7 @@ class MemoryFrame(Frame):
     def __init__(self, sim: _Source) -> None:
         """Copy all arrays of a simulation. On several ranks all make the call."""
         self.step = sim.step
-        self.box, self.periodic = sim.box, sim.periodic
+        self.box, self.corner, self.periodic = sim.box, sim.corner, sim.periodic
         self._radius, self._mass, self._species = sim.radii, sim.masses, sim.species
         self.x, self.v, self.spin = sim.positions, sim.velocities, sim.spins
         self.direction = sim.directions
@@ -95,6 +96,7 @@ class MemoryFrame(Frame):
     @cached_property
     def present(self) -> Array:
         """Discs that have left by an open side rest one radius outside of the box."""
-        outside = np.any((self.x < 0) | (self.x > self.box), axis=1)
+        x = self.x_from_corner
+        outside = np.any((x < 0) | (x > self.box), axis=1)
         present: Array = ~(outside & ~self.v.any(axis=1))
         return present

@@ -54,6 +54,7 @@ class Simulation(Guarded):
     Attributes:
         method: "event-driven" or "time-stepped"
         box: (2,) edges along x and y, lengths
+        corner: (2,) the place of its lower left corner: (0, 0), unless the scene has `box.origin`
         periodic: whether the sides along x and along y are periodic
         radii: (N,) lengths; under growth those of the scene's start
         masses: (N,) in the scene's unit; 1 unless the scene gives masses
@@ -110,6 +111,7 @@ class Simulation(Guarded):
         vars(self).update(
             method=facts["method"],
             box=locked(np.array(facts["box"])),
+            corner=locked(np.array(facts["corner"])),
             periodic=facts["periodic"],
             last_step=int(facts["steps"]),
             n_discs=int(facts["n_discs"]),
@@ -130,6 +132,7 @@ class Simulation(Guarded):
 
     method: str
     box: Array
+    corner: Array
     periodic: tuple[bool, bool]
     radii: Array
     masses: Array

@@ -26,6 +26,8 @@ class System:
         ]
         self.periodic = (boundary[0] == "periodic", boundary[1] == "periodic")
         sides = file["parameters/open_sides"][()] if "parameters/open_sides" in file else [0] * 4
+        self.origin = file["parameters/origin"][()] if "parameters/origin" in file else np.zeros(2)
+        self.corner = 0 - self.origin
         self.open_sides = tuple(bool(side) for side in sides)
         shape = (self.n_discs,)
         radius = discs["radius"][()] if "radius" in discs else file["parameters/radius"][()]
@@ -64,6 +66,7 @@ class TrajectoryFrame(Frame):
         self._index = index
         self.step = int(frames.all_steps[index])
         self.box = np.asarray(frames.all_boxes[index, :2], dtype=np.float64)
+        self.corner = frames.system.corner
         self.periodic = frames.system.periodic
 
     @property
@@ -84,7 +87,9 @@ class TrajectoryFrame(Frame):
 
     @cached_property
     def x(self) -> Array:
-        return self._frames.field("position", self._index)[:, :2]
+        stored = self._frames.field("position", self._index)[:, :2]
+        origin = self._frames.system.origin
+        return (stored - origin).astype(stored.dtype) if origin.any() else stored
 
     @cached_property
     def v(self) -> Array:
@@ -125,11 +130,12 @@ class TrajectoryFrame(Frame):
         """Discs rest where they left: a radius beyond the line. One still leaving moves."""
         left, right, bottom, top = self._frames.system.open_sides
         outside = np.zeros(self.n_discs, dtype=bool)
+        x = self.x_from_corner
         for axis, low, high in ((0, left, right), (1, bottom, top)):
             if low:
-                outside |= self.x[:, axis] < 0
+                outside |= x[:, axis] < 0
             if high:
-                outside |= self.x[:, axis] > self.box[axis]
+                outside |= x[:, axis] > self.box[axis]
         if outside.any() and self._frames.has("velocity"):
             outside &= ~self.v.any(axis=1)
         return ~outside

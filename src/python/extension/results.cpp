@@ -88,6 +88,7 @@ nb::dict facts_of(const Core& core) {
     const SceneFacts& facts = core.simulation.scene();
     nb::dict result;
     result["box"] = nb::make_tuple(facts.box.x, facts.box.y);
+    result["corner"] = nb::make_tuple(facts.x_low, facts.y_low);
     result["radius"] = facts.radius;
     result["packing"] = facts.packing;
     result["n_discs"] = facts.n_discs;

@@ -93,7 +93,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     FileOfDiscs file;
     if (ranks.is_root()) {
         append(of_root, problems_of([&] {
-                   file = read_discs_from(path, scene.discs_from_step, wanted);
+                   file = read_discs_from(path, scene.discs_from_step, wanted, scene.origin);
                    if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
                        throw InputError({{path, 0, other_number(file, scene.n_discs)}});
                }));
@@ -107,7 +107,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     if (!ranks.is_root() && file.n_discs > 0) // a fault here is found by rank 0, which reads all
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
-            stream = read_discs_from(path, scene.discs_from_step, wanted,
+            stream = read_discs_from(path, scene.discs_from_step, wanted, scene.origin,
                                      ShareOfDiscs{share, file.departed})
                          .lines;
         });

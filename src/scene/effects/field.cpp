@@ -102,7 +102,8 @@ Values rows_of_field(const FieldValues& values) {
 Key key_of_file() {
     Key declared =
         key("effects.field.file", "",
-            "A text file of numbers: one row for each y, the first at y = 0, and columns along x. "
+            "A text file of numbers: one row for each y, the first at the bottom, and columns "
+            "along x. "
             "n of them are L / n apart along periodic sides, and L / (n - 1) between walls. "
             "262144 numbers at most; relative to the scene.",
             [](auto& s) -> auto& { return s.effects.field.file; })
@@ -163,7 +164,9 @@ std::vector<Key> keys_of_field() {
     return {
         key("effects.field.kind", "",
             "A potential V that acts by kicks at syncs. Trap: stiffness_x (x - x0)^2 / 2 and the "
-            "same along y. Sine: amplitude sin(2 pi waves x / Lx + phase), or along y. Grid: "
+            "same along y. Sine: amplitude sin(2 pi waves x / Lx + phase) with x from the left "
+            "side, "
+            "or along y from the bottom. Grid: "
             "amplitude times the cubic spline through numbers.",
             [](auto& s) -> auto& { return s.effects.field.kind; })
             .advises({{"harmonic", "\"trap\""},
@@ -180,10 +183,12 @@ std::vector<Key> keys_of_field() {
         key("effects.field.centre_x", "length", "Where the trap has its centre.",
             [](auto& s) -> auto& { return s.effects.field.centre_x; })
             .by_default("the middle of the box")
+            .place_along(Axis::x)
             .needs(trap),
         key("effects.field.centre_y", "length", "The same along y.",
             [](auto& s) -> auto& { return s.effects.field.centre_y; })
             .by_default("the middle of the box")
+            .place_along(Axis::y)
             .needs(trap),
         key("effects.field.amplitude", "mass length^2/step^2",
             "Energy of the sine's crest, or of a number of 1 on the grid.",
@@ -197,7 +202,7 @@ std::vector<Key> keys_of_field() {
             [](auto& s) -> auto& { return s.effects.field.waves; })
             .within({1, 1e6})
             .needs(sine),
-        key("effects.field.phase", "radians", "Phase of the sine at x = 0, or y = 0.",
+        key("effects.field.phase", "radians", "Phase of the sine at the left side, or the bottom.",
             [](auto& s) -> auto& { return s.effects.field.phase; })
             .within({-100, 100})
             .needs(sine),

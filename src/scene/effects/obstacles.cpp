@@ -10,6 +10,7 @@
 #include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
+#include "scene/places.hpp"
 #include "scene/rule_parts.hpp"
 
 namespace carrom {
@@ -146,15 +147,16 @@ void check_arcs(const SceneDraft& draft) {
             return fmt::format("the radius must be above {:.3g} and at most {:g}, not {}",
                                0x1p-30 * size, most, n[2]);
         if (!(std::fabs(n[0]) <= most && std::fabs(n[1]) <= most))
-            return fmt::format("the centre ({}, {}) must be within {:g} of the origin", n[0], n[1],
-                               most);
+            return fmt::format("the centre {} must be within {:g} of the box's lower left corner",
+                               shown_place(draft.scene, n[0], n[1]), most);
         if (n.size() == 5 && !(std::fabs(n[3]) <= 360 && n[4] > n[3] && n[4] - n[3] <= 360))
             return fmt::format("angles go up from the first, from -360 to 360, by at most 360 "
                                "degrees, not from {} to {}",
                                n[3], n[4]);
         if (!draft.scene.effects.are_periodic()) return {};
         if (!(n[0] >= 0 && n[0] <= box.x && n[1] >= 0 && n[1] <= box.y))
-            return fmt::format("the centre ({}, {}) is not in the periodic box", n[0], n[1]);
+            return fmt::format("the centre {} is not in the periodic box",
+                               shown_place(draft.scene, n[0], n[1]));
         if (!(n[2] + draft.scene.radius <= largest_in_period * period))
             return fmt::format("the radius must be at most {:g}, not {}: with a disc's it would "
                                "reach through a periodic box and into itself",
@@ -185,7 +187,8 @@ void check_obstacles(const SceneDraft& draft) {
     };
     draft.refuse_rows("effects.obstacles.discs", [&](const Numbers& n, std::size_t) -> std::string {
         if (!is_inside(n[0], n[1]))
-            return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
+            return fmt::format("the centre {} is not in the box{}",
+                               shown_place(draft.scene, n[0], n[1]), corner_text(draft.scene));
         if (!(n[2] >= 0 && n[2] <= size))
             return fmt::format("the radius must be from 0 to {}, not {}", size, n[2]);
         if (is_periodic && !(n[2] + radius <= largest_in_period * period))
@@ -196,9 +199,9 @@ void check_obstacles(const SceneDraft& draft) {
     });
     const auto segment_problem = [&](double x0, double y0, double x1, double y1) -> std::string {
         if (!is_inside(x0, y0) || !is_inside(x1, y1))
-            return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the "
-                               "box",
-                               x0, y0, x1, y1);
+            return fmt::format("the segment from {} to {} has an end outside the box{}",
+                               shown_place(draft.scene, x0, y0), shown_place(draft.scene, x1, y1),
+                               corner_text(draft.scene));
         const double length = std::hypot(x1 - x0, y1 - y0);
         if (!(length > 0x1p-30 * size))
             return fmt::format("a segment of length {}: a point is a fixed disc of radius 0",

@@ -65,6 +65,8 @@ public:
         case Kind::text: return "\"a \\\"b\\\" \\\\ c\\t" + std::to_string(below(9)) + "\"";
         case Kind::choice: return '"' + std::string(key.words[below(key.words.size())]) + '"';
         case Kind::words: return words(key);
+        case Kind::point:
+            return below(2) == 0 ? "\"centre\"" : "[-3.5, " + std::to_string(share()) + ']';
         default: return "";
         }
     }
@@ -212,10 +214,12 @@ TEST_CASE("Every key says what it takes") {
         CHECK(!key.help.empty());
         CHECK(key.help.back() == '.');
         CHECK((key.get && key.set));
-        const bool has_words = key.kind == Kind::choice || key.kind == Kind::words;
+        const bool has_words = key.kind == Kind::choice || key.kind == Kind::words ||
+                               key.kind == Kind::point;
         CHECK(has_words == !key.words.empty());
         const bool has_numbers = key.kind == Kind::number || key.kind == Kind::integer ||
-                                 key.kind == Kind::lengths || key.has_rows();
+                                 key.kind == Kind::lengths || key.kind == Kind::point ||
+                                 key.has_rows();
         CHECK(has_numbers == !key.unit.empty());
         CHECK(key.has_rows() == !key.fields.empty());
         if (key.need) CHECK(!key.need->text.empty());

@@ -49,6 +49,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--step", type=int, help="the frame of this step")
     add("--box", type=float, nargs="+", metavar="L", help="edges, where the file has no box")
     add("--origin", nargs="+", metavar="X", help='lower left corner of the box, or "centre"')
+    add("--keep-origin", action="store_true",
+        help="places stay as the file has them, and [box] gets an origin")  # fmt: skip
     add("--periodic", choices=["x", "y", "xy", "none"], help="instead of what the file says")
     add("--radius", nargs="+", metavar="R", help="of all discs, or TYPE=R for each type")
     add("--mass", nargs="+", metavar="M", help="of all discs, or TYPE=M for each type")
@@ -76,6 +78,7 @@ def _choice(options: argparse.Namespace) -> Choice:
         mass=_by_type(options.mass, "mass"),
         time_step=options.time_step,
         shrink=options.shrink,
+        keep_origin=options.keep_origin,
     )
 
 

@@ -50,6 +50,7 @@ class Choice:
         mass: likewise
         time_step: the file's time that passes in a step of Carrom
         shrink: the share by which radii become smaller
+        keep_origin: places stay as the file has them, and the scene gets `box.origin`
     """
 
     format: str = ""
@@ -62,6 +63,7 @@ class Choice:
     mass: Mapping[str, float] = dataclasses.field(default_factory=dict)
     time_step: float = 1.0
     shrink: float = 0.0
+    keep_origin: bool = False
 
 
 @dataclasses.dataclass
@@ -108,8 +110,8 @@ def format_of(path: str) -> str:
 
 
 def read_discs(path: str | os.PathLike[str], choice: Choice | None = None) -> Discs:
-    """Read a frame, and check and complete it: discs are in a box from (0, 0) on, and have
-    velocities per step, radii and masses.
+    """Read a frame, and check and complete it: discs are in a box from (0, 0) on, or where the
+    file has them with `keep_origin`, and have velocities per step, radii and masses.
 
     Raises:
         FileError: the file is wrong, or says too little; the message has the line or the frame
@@ -186,11 +188,13 @@ def _put_into_box(discs: Discs, choice: Choice) -> None:
     radius = discs.columns["radius"]
     for k, axis in enumerate("xy"):
         edge = box.size[k]
-        places = discs.columns[axis] - box.origin[k]
+        given = discs.columns[axis]
+        places = given - box.origin[k]
         if box.periodic[k]:
             outside = (places < 0) | (places >= edge)
             places = np.where(outside, np.mod(places, edge), places)
             places[places >= edge] = 0.0  # a rounding of mod
+            given = np.where(outside, places + box.origin[k], given)
         else:
             low, high = places < radius, places > edge - radius
             text = f"the disc is not inside the walls along {axis}, from {box.origin[k]:g} to "
@@ -198,7 +202,9 @@ def _put_into_box(discs: Discs, choice: Choice) -> None:
                 low | high,
                 f"{text}{box.origin[k] + edge:g}; try: --box, --origin, --periodic or --shrink",
             )
-        discs.columns[axis] = places
+        discs.columns[axis] = given if choice.keep_origin else places
+    if not choice.keep_origin:
+        box.origin = (0.0, 0.0)
 
 
 def _in_order(discs: Discs) -> Discs:
@@ -228,6 +234,11 @@ def _scene(discs: Discs, source: str) -> str:
     assert discs.box is not None
     size = discs.box.size
     text = f"[box]\nsize = [{float(size[0])!r}, {float(size[1])!r}]\n"
+    x, y = (0.0 - float(corner) for corner in discs.box.origin)
+    if (x, y) == (size[0] / 2, size[1] / 2):
+        text += 'origin = "centre"\n'
+    elif x != 0 or y != 0:
+        text += f"origin = [{x!r}, {y!r}]\n"
     for is_periodic, sides in zip(discs.box.periodic, (("left", "right"), ("bottom", "top"))):
         if is_periodic:
             text += "".join(f'{side}.kind = "periodic"\n' for side in sides)

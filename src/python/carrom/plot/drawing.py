@@ -143,7 +143,7 @@ class Picture:
         self, first: Frame, style: Style, scene: Mapping[str, Any], ax: Axes | None = None
     ) -> None:
         """Set the scale of colours by the first frame; it is the same for all."""
-        whole = (0.0, 0.0, *first.box) if style.view is None else style.view
+        whole = (*first.corner, *(first.corner + first.box)) if style.view is None else style.view
         x0, y0, x1, y1 = np.asarray(whole, dtype=float).tolist()
         self.view = (x0, y0, x1, y1)
         if ax is None:
@@ -153,10 +153,11 @@ class Picture:
         self.axes = ax
         self.style = style
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
-        _add_obstacles(ax, scene, first.box)
+        _add_obstacles(ax, scene, first.box, first.corner)
         has_shape = scene.get("box", {}).get("shape", "rectangle") != "rectangle"
         edge = "none" if has_shape else "0.3"
         self.sides = Rectangle((0, 0), 0, 0, fill=False, edgecolor=edge, linewidth=1)
+        self.sides.set(x=first.corner[0], y=first.corner[1])
         ax.add_patch(self.sides)
         self.discs = EllipseCollection(
             [],
@@ -253,7 +254,7 @@ class Picture:
         )
 
 
-def _add_obstacles(axes: Axes, scene: Mapping[str, Any], box: Array) -> None:
+def _add_obstacles(axes: Axes, scene: Mapping[str, Any], box: Array, corner: Array) -> None:
     """Draw fixed bodies and the wall of a round box, and their images through periodic sides."""
     obstacles = scene.get("effects", {}).get("obstacles", {})
     walls = scene.get("box", {})
@@ -271,7 +272,7 @@ def _add_obstacles(axes: Axes, scene: Mapping[str, Any], box: Array) -> None:
     paths = [np.reshape(row, (2, 2)) for row in obstacles.get("segments", [])]
     paths += [_closed(np.reshape(row, (-1, 2))) for row in obstacles.get("polygons", [])]
     paths += [_arc(*row) for row in obstacles.get("arcs", [])]
-    paths += _wall(walls.get("shape"), float(box[0]), float(box[1]))
+    paths += [wall + corner for wall in _wall(walls.get("shape"), float(box[0]), float(box[1]))]
     lines = [path + np.array(move) for path in paths for move in moves]
     axes.add_collection(PatchCollection(circles, facecolors="0.6", edgecolors="none"))
     axes.add_collection(LineCollection(lines, colors="0.4", linewidths=1))
@@ -288,7 +289,7 @@ def _arc(x: float, y: float, radius: float, start: float = 0, end: float = 360) 
 
 
 def _wall(shape: str | None, width: float, height: float) -> list[Array]:
-    """Return the wall of a box that is no rectangle."""
+    """Return the wall of a box that is no rectangle, from its lower left corner."""
     radius = min(width, height) / 2
     if shape == "round":
         return [_arc(radius, radius, radius)]

@@ -209,7 +209,7 @@ class Follower:
             if step not in steps:
                 raise NoDataError(f"there is no frame of step {step} (any more)")
             frame = frames[steps.index(step)]
-            walls = walls_at(self._scene, frame.box, step)
+            walls = walls_at(self._scene, frame.box, step, frame.corner)
             about, numbers = picture(frame, colour, view, MOST_DISCS, walls)
             if about["colour"] == "speed":
                 about["top"] = self._scale.top(frames)

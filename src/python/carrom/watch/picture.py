@@ -62,7 +62,7 @@ def picture(
     """
     if colour not in COLOURS:
         raise ValueError(f"colour is one of {', '.join(COLOURS)}")
-    walls = walls or at_rest(*frame.box)
+    walls = walls or at_rest(frame.box, frame.corner)
     seen = view or View(*walls.room)
     places = _places_in(frame, seen)
     about: dict[str, Any] = {
@@ -102,7 +102,8 @@ def _values(frame: Frame, places: Array, colour: str, about: dict[str, Any]) -> 
         return np.asarray(frame.species[places], dtype=np.float32)
     if colour == "psi6":
         edges = np.where(frame.periodic, frame.box, 0.0)
-        return np.abs(hexatic_order(frame.x[places].astype(float), edges)).astype(np.float32)
+        centres = frame.x_from_corner[places].astype(float)
+        return np.abs(hexatic_order(centres, edges)).astype(np.float32)
     try:
         return speeds(frame.v[places])
     except NoDataError:

@@ -24,29 +24,31 @@ class Walls:
     room: Edges
 
 
-def at_rest(width: float, height: float) -> Walls:
-    """Return the walls of a box in which none moves."""
-    edges = (0.0, 0.0, float(width), float(height))
+def at_rest(box: Any, corner: Any = (0.0, 0.0)) -> Walls:
+    """Return the walls of a box in which none moves; `corner` is the lower left one."""
+    (x, y), (width, height) = map(float, corner), map(float, box)
+    edges = (x, y, x + width, y + height)
     return Walls(edges, edges)
 
 
-def walls_at(scene: Mapping[str, Any], box: Any, step: int) -> Walls:
+def walls_at(scene: Mapping[str, Any], box: Any, step: int, corner: Any = (0.0, 0.0)) -> Walls:
     """Return the walls of a scene; `box` are the edges that its frames name, [Lx, Ly].
 
     The frames of a run share one box, which has room for walls that move, but not for those that
     oscillate beyond their line.
     """
-    resting = at_rest(box[0], box[1])
+    resting = at_rest(box, corner)
     keys = flattened(scene)
     if "box.size" not in keys:  # legacy text, whose walls are at rest
         return resting
     size = keys["box.size"]
-    lines = (0.0, 0.0, *(map(float, size) if isinstance(size, list) else (float(size),) * 2))
+    edges = list(map(float, size)) if isinstance(size, list) else [float(size)] * 2
+    lines = at_rest(edges, corner).places
     places = [line + _shift(keys, side, step) for line, side in zip(lines, _SIDES)]
     reach = [_amplitude(keys, side) for side in _SIDES]
-    low = (min(resting.room[i], lines[i] - reach[i], places[i]) for i in (0, 1))
-    high = (max(resting.room[i], lines[i] + reach[i], places[i]) for i in (2, 3))
-    return Walls((places[0], places[1], places[2], places[3]), (*low, *high))
+    left, bottom = (min(resting.room[i], lines[i] - reach[i], places[i]) for i in (0, 1))
+    right, top = (max(resting.room[i], lines[i] + reach[i], places[i]) for i in (2, 3))
+    return Walls((places[0], places[1], places[2], places[3]), (left, bottom, right, top))
 
 
 def _kind(keys: Mapping[str, Any], side: str) -> str:

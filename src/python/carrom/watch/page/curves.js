@@ -62,8 +62,9 @@ const Curves = (() => {
     return { context, width, height, style };
   }
 
-  // `shownStep` is null where no step is marked. `axis` is the name of what `curve.steps` has.
-  function draw(canvas, curve, lastStep, shownStep, axis = "step") {
+  // `shownStep` is null where no step is marked. `axis` is the name of what `curve.steps` has, and
+  // `begin` where it begins.
+  function draw(canvas, curve, lastStep, shownStep, axis = "step", begin = 0) {
     const { context, width, height, style } = cleared(canvas);
     context.fillStyle = style.getPropertyValue("--soft");
     if (!curve || curve.steps.length === 0) {
@@ -71,12 +72,13 @@ const Curves = (() => {
       return;
     }
     const [low, high] = range(curve.values);
-    const end = Math.max(lastStep, curve.steps[curve.steps.length - 1]) || 1;
+    const last = Math.max(lastStep, curve.steps[curve.steps.length - 1]);
+    const end = last > begin ? last : begin + 1;
     const heights = ticks(low, high, height > 110 ? 4 : 2);
     const names = tickNames(heights);
     const left = 14 + Math.max(...names.map((name) => context.measureText(name).width));
     const right = width - 8, top = 18, bottom = height - 20;
-    const x = (s) => left + (s / end) * (right - left);
+    const x = (s) => left + ((s - begin) / (end - begin)) * (right - left);
     const y = (v) => bottom - ((v - low) / (high - low)) * (bottom - top);
     context.textAlign = "right";
     context.fillText(curve.source, right, 13);
@@ -88,7 +90,7 @@ const Curves = (() => {
       context.lineTo(right, y(v));
     });
     context.textAlign = "center";
-    const steps = ticks(0, end, Math.max(2, Math.floor((right - left) / 75)));
+    const steps = ticks(begin, end, Math.max(2, Math.floor((right - left) / 75)));
     const stepNames = tickNames(steps);
     steps.forEach((s, i) => {
       const name = i === 0 ? `${axis} ${stepNames[i]}` : stepNames[i];

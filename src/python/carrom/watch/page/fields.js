@@ -42,7 +42,9 @@ const Fields = (() => {
     const known = all.map((v, i) => i).filter((i) => all[i] !== null);
     const curve = { steps: known.map((i) => places[i]), values: known.map((i) => all[i]),
                     source: `up to step ${field.step}` };
-    Curves.draw(canvas, curve, places[n - 1] + sideOf(places) / (2 * n), null, axis);
+    const side = sideOf(places), half = side / (2 * n), low = places[0] - half;
+    const begin = Math.abs(low) < 1e-9 * side ? 0 : low; // with box.origin not 0
+    Curves.draw(canvas, curve, places[n - 1] + half, null, axis, begin);
   }
 
   function draw(canvas, field) {
