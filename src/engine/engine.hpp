@@ -111,7 +111,7 @@ public:
     /// Integrals over flights that are not in the sums yet.
     virtual FlightIntegral flight_integral() const { return {}; }
     /// From now on a sync in a periodic box appends to `crossings` by how many box lengths it
-    /// brings own discs back, until forget_crossings.
+    /// brings own discs back, until `forget_crossings_in`.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);
