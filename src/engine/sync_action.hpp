@@ -28,7 +28,7 @@ public:
                const Communicator& communicator, int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
-    /// Of the effect that changes radii; null if none does.
+    /// The change of radii by an effect; null if no effect changes radii.
     SizeChange* sizes() const {
         for (const auto& effect : effects_)
             if (SizeChange* const its = effect->sizes()) return its;

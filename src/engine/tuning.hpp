@@ -16,7 +16,7 @@ struct Tuning {
     std::optional<double> cell_width;  ///< width of cells relative to the window's reach
     std::optional<double> usual_speed; ///< relative to the largest speed; cells allow for this
                                        ///< speed if a micro-step is divided
-    std::optional<int> ranks_across; ///< ranks that share a strip and cut it across
+    std::optional<int> ranks_across;   ///< ranks that share a strip and cut it across
     /// Syncs between two changes of the cuts; 0 never changes the first cuts
     std::int64_t rebalance_every = 1;
     double rebalance_above =
