@@ -56,8 +56,8 @@ struct CheckpointHeader {
     Frame frame; ///< the frame of the discs' coordinates; in the file only if it moves
     std::vector<Species> species; ///< stored only if they come from a file of discs, because the
                                   ///< scene's text does not contain them
-    SideColumnSet columns; ///< columns beside the states; the state hash includes them
-    RecordedSystem shown;  ///< H5MD metadata for other programs; Carrom does not read it
+    SideColumnSet columns;        ///< columns beside the states; the state hash includes them
+    RecordedSystem shown;         ///< H5MD metadata for other programs; Carrom does not read it
 
     Box box() const { return {box_size, box_height}; }
     void set_box(const Box& box) { box_size = box.x, box_height = box.y; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns settings into SceneParameters: values, and how they go together. Every error becomes a
-// problem with its line. The scene is usable only if there are none.
+// Turns settings into SceneParameters, and checks values and their combinations. Every error
+// becomes a problem with its line. The scene is usable only if there are none.
 #pragma once
 
 #include "scene/disc_columns.hpp"
