@@ -31,7 +31,7 @@ public:
 
     std::int64_t line_number() const { return line_number_; }
     bool is_cut() const { return is_cut_; }
-    bool is_endless() const { return is_endless_; } ///< `next` ended because it skipped too much
+    bool is_endless() const { return is_endless_; }   ///< `next` ended because it skipped too much
     bool has_failed() const { return stream_.bad(); } ///< `next` ended before the end of the stream
 
 private:
