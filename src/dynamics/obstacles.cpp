@@ -68,7 +68,7 @@ void Obstacles::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// Free ends do not slide, because arcs turn around their centres. Ends in walls are met from inside.
+/// Free ends do not slide, because arcs turn around centres. Discs meet ends in walls from inside.
 void Obstacles::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
