@@ -17,42 +17,47 @@
 
 namespace carrom {
 
-/// The error is one standard error of the mean, by blocks that are long enough to be independent.
-/// It is NaN where there are too few blocks, where the average is conserved, and where it is still
-/// changing, because a trend is not an error. All are NaN where nothing is averaged.
+/// Carrom gives one standard error of the mean, from blocks that are long enough to be independent.
+/// The error is NaN if there are too few blocks, if the average is conserved, or if it is still
+/// changing, because a trend is not an error. All numbers are NaN if nothing is averaged.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
-    /// In steps; half a block is the shortest that can be seen.
+    /// In steps. The shortest correlation time that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
-    bool is_conserved = false; ///< all blocks have the same value but for rounding
+    bool is_conserved = false; ///< all blocks agree except for rounding
     bool is_changing = false;  ///< the halves of the run differ by more than errors allow
-    double first = std::numeric_limits<double>::quiet_NaN(); ///< of the first block, if it changes
-    double last = std::numeric_limits<double>::quiet_NaN();  ///< of the last block, if it changes
+    /// Mean of the first block, if the average is changing
+    double first = std::numeric_limits<double>::quiet_NaN();
+    /// Mean of the last block, if the average is changing
+    double last = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The same both ways along x and y.
+/// A symmetric tensor: xy and yx are equal.
 struct TensorEstimate {
     Estimate xx, xy, yy;
 };
 
 /// Lengths in the scene's unit, times in steps, masses 1.
 struct Averages {
-    std::int64_t first_step = 0, steps = 0; ///< what they are averages over
-    std::int64_t n_blocks = 0;              ///< that the errors rest on
-    Estimate collision_frequency;           ///< collisions with other discs, per disc and step
-    Estimate mean_free_time;  ///< steps between two of them; infinite if there are none
+    /// The averages begin after this step and cover this many
+    std::int64_t first_step = 0, steps = 0;
+    std::int64_t n_blocks = 0;    ///< number of blocks from which errors are computed
+    Estimate collision_frequency; ///< collisions with other discs, per disc and step
+    /// Mean time between two collisions of a disc with others, in steps; infinite if there are none
+    Estimate mean_free_time;
     Estimate wall_pressure;   ///< from collisions with walls, (13c)
     Estimate virial_pressure; ///< from collisions with walls and of pairs, (19a)
     Estimate mean_speed;
-    Estimate speed_kurtosis;        ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
-    Estimate temperature;           ///< kT of translation, without a drift along periodic sides
-    TensorEstimate pressure_tensor; ///< kinetic part, and impulse times distance of pairs
-    Estimate pressure;              ///< half its trace
-    Estimate compressibility;       ///< P A / (N kT)
+    Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
+    Estimate temperature;    ///< kT of translation, without a drift along periodic sides
+    /// Kinetic part plus the impulses of pairs times their distances
+    TensorEstimate pressure_tensor;
+    Estimate pressure;        ///< half of the trace of `pressure_tensor`
+    Estimate compressibility; ///< compressibility factor Z = P A / (N kT)
 
-    /// Those that every run has, with short names.
+    /// The averages that every run has, with their short names.
     std::array<std::pair<std::string_view, Estimate>, 9> named() const {
         return {{{"collision rate", collision_frequency},
                  {"kT", temperature},

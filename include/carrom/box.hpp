@@ -6,7 +6,7 @@
 
 namespace carrom {
 
-/// Its edges. A single length stands for a square.
+/// Lengths of the edges. One length makes a square.
 struct Box {
     double x = 0, y = 0;
 

@@ -13,7 +13,7 @@ struct Disc {
     double vx = 0, vy = 0; ///< length per step
     double spin = 0;       ///< of rough discs: angle per step, counterclockwise; else 0
     std::uint64_t wall_collisions = 0; ///< since the scene's start
-    std::uint64_t pair_collisions = 0; ///< with other discs
+    std::uint64_t pair_collisions = 0; ///< collisions with other discs since the scene's start
 
     friend bool operator==(const Disc&, const Disc&) = default;
 };

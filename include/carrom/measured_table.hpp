@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of what a scene's [output.measurements] asks for.
+// One table that a scene's [output.measurements] has measured.
 #pragma once
 
 #include <string>
@@ -7,14 +7,15 @@
 
 namespace carrom {
 
-/// Shape: `rows` are all as long as `columns`. The tables, their columns and units are listed in
-/// docs/reference/measurements.md.
+/// Each row has as many numbers as there are columns. The tables, their columns and units are
+/// listed in docs/reference/measurements.md.
 struct MeasuredTable {
     std::string name;                 ///< "radial_distribution", "speeds", ...
-    std::vector<std::string> remarks; ///< what it shows, and units
+    std::vector<std::string> remarks; ///< lines that explain the table and its units
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    bool grows = false; ///< by a row at each sample; its file is written as the run goes on
+    /// The table gets a row at each sample, and its file is written during the run
+    bool grows = false;
 };
 
 } // namespace carrom

@@ -18,23 +18,25 @@ namespace carrom {
 
 class Session;
 
-/// What a checked scene comes to. Lengths in the scene's unit.
+/// Facts that follow from a checked scene. Lengths are in the scene's unit.
 struct SceneFacts {
     Box box;
     double x_low = 0, y_low = 0; ///< of its lower left corner; not 0 with `box.origin`
-    double radius = 0;           ///< the largest one, where there are several
+    double radius = 0;           ///< radius of the largest disc
     double packing = 0;          ///< share of the box that discs cover
     std::uint64_t n_discs = 0;
-    std::int64_t steps = 0;                            ///< the last step
-    std::int64_t micro_steps = 1;                      ///< per step
-    bool is_event_driven = false;                      ///< else time-stepped
-    bool is_periodic_x = false, is_periodic_y = false; ///< the sides left and right, bottom and top
-    std::vector<std::string> warnings;                 ///< legal, but worth a line each
+    std::int64_t steps = 0;       ///< the last step
+    std::int64_t micro_steps = 1; ///< micro-steps per step
+    bool is_event_driven = false; ///< otherwise the method is time-stepped
+    /// Whether the left and right, and the bottom and top sides are periodic
+    bool is_periodic_x = false, is_periodic_y = false;
+    /// One line for each setting that is allowed but often a mistake
+    std::vector<std::string> warnings;
 };
 
 class Scene {
 public:
-    /// No key is set: set them all. Not collective.
+    /// Makes a scene without keys, which `set` then adds. Not collective.
     Scene() = default;
 
     /// The scene of a file: TOML where its name ends in `.toml`, else the legacy text format. Rank
@@ -70,8 +72,7 @@ public:
     /// Use `discs.file` or a generator for more. Throws InputError for wrong ids. Not collective.
     Scene& set_discs(std::span<const Disc> discs);
 
-    /// Checks every key. Throws InputError with all problems. Looks into no other file. Not
-    /// collective.
+    /// Checks every key. Throws InputError with all problems. Reads no other file. Not collective.
     SceneFacts check() const;
 
     struct Source {

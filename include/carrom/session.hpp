@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The processes that simulate together: one or many MPI ranks. No MPI header is needed.
 //
-// The first thing to make, and the last to go. "Collective" in these headers means: every rank of
-// the session makes the same calls in the same order, with equal arguments where not said
-// otherwise. All calls come from the thread that made the session.
+// Make it before any other object of the library, and destroy it last. "Collective" in these
+// headers means: every rank of the session makes the same calls in the same order, with equal
+// arguments where not said otherwise. All calls come from the thread that made the session.
 #pragma once
 
 #include <functional>
@@ -16,13 +16,14 @@ namespace carrom {
 
 class Session {
 public:
-    /// Starts MPI, or takes part in a run of MPI that the program has started: then with all its
-    /// ranks. Started here, MPI ends with the session. Throws InputError where MPI has ended, or
-    /// was started without MPI_THREAD_FUNNELED. **Collective** over all processes of the program.
+    /// Starts MPI, or takes part in a run of MPI that the program has started: then all its ranks
+    /// take part. If the session started MPI, it also ends it. Throws InputError where MPI has
+    /// ended, or was started without MPI_THREAD_FUNNELED. **Collective** over all processes of the
+    /// program.
     ///
     /// Where it starts MPI, the session changes the process. A rank without memory then ends all
-    /// ranks with code 3. SIGXFSZ is ignored. HDF5 closes no files at exit: close your own. Where
-    /// it takes part, it changes none of these. It never sets how OpenMP's threads wait: set
+    /// ranks with code 3. SIGXFSZ is ignored. HDF5 closes no files at exit: close your own. If MPI
+    /// was already running, it changes none of these. It never sets how OpenMP's threads wait: set
     /// OMP_WAIT_POLICY=passive before the program starts, where other programs use its cores.
     Session();
 

@@ -24,20 +24,22 @@ namespace carrom {
 
 /// Choices that change how long a run takes, and never its result.
 struct Options {
-    int threads = 0; ///< of each rank; 0: OMP_NUM_THREADS, else its share of the node's cores
-    /// Gets on rank 0 each line that `carrom run` prints as it starts, such as warnings and what a
-    /// pilot has chosen. Empty: nobody does.
+    /// Threads of each rank; 0: OMP_NUM_THREADS, or else its share of the node's cores
+    int threads = 0;
+    /// Receives on rank 0 each line that `carrom run` prints when it starts, such as warnings and
+    /// the choice of a pilot. If empty, these lines are dropped.
     std::function<void(const std::string& line)> messages{};
-    bool counts_images = false; ///< of `read_images`; takes 16 bytes a disc in periodic boxes
+    /// Needed for `read_images`; takes 16 bytes a disc in periodic boxes
+    bool counts_images = false;
 };
 
 /// When `advance_to` writes checkpoints, and which of them it keeps.
 struct CheckpointSchedule {
-    std::string folder{};         ///< made where it is missing; no other run may write there
-    std::int64_t every_steps = 0; ///< 0: not by steps
-    double every_minutes = 0;     ///< of wall time; 0: not by time
-    std::int64_t keep = 2;        ///< older ones of this run are removed
-    bool at_end = true;           ///< also after the step `time.steps`
+    std::string folder{};         ///< made if it is missing; no other run may write to it
+    std::int64_t every_steps = 0; ///< steps between checkpoints; 0: none by steps
+    double every_minutes = 0;     ///< wall time between checkpoints; 0: none by time
+    std::int64_t keep = 2; ///< number of checkpoints to keep; older ones of this run are removed
+    bool at_end = true;    ///< writes one after the step `time.steps`, too
 };
 
 class Simulation {
@@ -50,15 +52,15 @@ public:
     Simulation(const Session& session, const Scene& scene, const Options& options = {});
 
     /// Goes on from a checkpoint, of this library or of `carrom run`, with the same bits as the
-    /// uninterrupted run. Of a folder it takes the newest whole one. The file has the scene;
-    /// `settings` ("time.steps=200") go on top and may change the last step and what is measured.
-    /// Throws CollectiveError (code 2) where the file is damaged, InputError where a setting would
-    /// make it another run. **Collective.**
+    /// uninterrupted run. If the place is a folder, it takes the newest complete checkpoint there.
+    /// The scene is in the file. `settings` (such as "time.steps=200") override its keys and may
+    /// change the last step and what is measured. Throws CollectiveError (code 2) where the file is
+    /// damaged, InputError where a setting would make it another run. **Collective.**
     static Simulation from_checkpoint(const Session& session, const std::string& path,
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
 
-    /// What has been moved from throws InputError in every call but assignment.
+    /// Every call of a moved-from simulation throws InputError, except assignment.
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
@@ -93,11 +95,12 @@ public:
     void read_directions(std::span<double> angles) const;
     void read_collisions(std::span<std::int64_t> counts) const;
 
-    /// Writes box lengths that discs have flown on through periodic sides, along x and along y, to
-    /// places 2 id and 2 id + 1: each rank those of its share of the ids. The place plus these
-    /// lengths goes on without jumps. They count from the scene's start, or from a checkpoint that
-    /// has none. Writes nothing unless `Options::counts_images` was set and a side is periodic.
-    /// Throws InputError between sheared sides, whose images move. **Collective.**
+    /// Writes by how many box lengths discs have crossed periodic sides, along x and along y, to
+    /// places 2 id and 2 id + 1. Each rank writes its share of the ids. Adding these lengths to a
+    /// position gives a path without jumps. They count from the scene's start, or from a checkpoint
+    /// that has none. Writes nothing unless `Options::counts_images` was set and a side is
+    /// periodic. Throws InputError between sheared sides, because their images move.
+    /// **Collective.**
     void read_images(std::span<std::int32_t> lengths) const;
 
     /// Radius, mass and species of all discs of the scene, by id. Not collective.
@@ -105,15 +108,16 @@ public:
 
     /// Gives this rank's discs other positions, velocities or spins between two steps. `discs` are
     /// those that `discs()` returns, in any order; counts of collisions in them are not taken.
-    /// Discs whose numbers are as they were keep all of their bits. Averages begin anew; where
-    /// positions have changed, measurements do so, too. Throws InputError for numbers that are
-    /// not finite, for discs outside of the box or in obstacles, and if more pairs than before
-    /// would overlap; nothing is changed then. Costs about as much as making the simulation from
-    /// a list of discs. **Collective.**
+    /// Discs whose numbers do not change keep all of their bits. Averages begin anew; where
+    /// positions have changed, measurements do so, too. Throws InputError for numbers that are not
+    /// finite, for discs outside of the box or in obstacles, and if more pairs than before would
+    /// overlap; nothing is changed then. Costs about as much as making the simulation from a list
+    /// of discs. **Collective.**
     void change_discs(std::span<const Disc> discs);
 
     /// An independent simulation of the same state, averages and measurements, which goes on with
-    /// the same bits. It keeps no checkpoints until it is told to. **Collective.**
+    /// the same bits. It writes no checkpoints until `keep_checkpoints` is called for it.
+    /// **Collective.**
     Simulation copy() const;
 
     /// Sums over all discs; every rank gets them. Costs a pass over the discs and one search for
@@ -123,15 +127,15 @@ public:
     /// Averages since stepping began here, or since `restart_averages`. Costs a pass over the
     /// discs. **Collective.**
     Averages averages() const;
-    void restart_averages(); ///< forgets what has been averaged so far; **Collective.**
+    void restart_averages(); ///< starts the averages anew; **Collective.**
 
     /// What the scene's `output.measurements` asks for, as sampled so far; nothing before the first
     /// sample. Sampling happens inside `advance_to`. The same on every rank. Not collective.
     std::vector<MeasuredTable> measurements() const;
 
     /// Writes the state as a whole file or not at all. Its folder must exist. Throws
-    /// CollectiveError (code 4) where it fails; an older file of that name is then as it was.
-    /// 80 bytes a disc to disk. **Collective.**
+    /// CollectiveError (code 4) where it fails; an older file of that name then stays unchanged.
+    /// Writes 80 bytes a disc to disk. **Collective.**
     void write_checkpoint(const std::string& path) const;
 
     /// From now on `advance_to` writes checkpoints as the schedule says, each as `write_checkpoint`

@@ -25,27 +25,31 @@ struct StateHash {
 /// 32 hexadecimal digits, the high half first, as in the summary of `carrom run`.
 std::string to_string(const StateHash& hash);
 
-/// What is known of a state. The same bits for any number of ranks and threads. Lengths and
-/// energies are in the scene's units, times in steps; masses are 1 unless the scene names them.
+/// Sums over a state, with the same bits for any number of ranks and threads. Lengths and energies
+/// are in the scene's units, times in steps; masses are 1 unless the scene gives them.
 struct Totals {
     std::uint64_t n_discs = 0;
-    std::uint64_t wall_collisions = 0;     ///< since the scene's start; a corner counts once
-    std::uint64_t pair_collisions = 0;     ///< pairs, not discs
-    std::uint64_t rejected_candidates = 0; ///< time-stepped method, since stepping began here
-    // Event-driven method, since stepping began here: what restitution has taken, and collisions
-    // that took nothing because one of the discs had collided within the contact time.
+    /// Since the scene's start; a disc that meets two walls in a corner counts once
+    std::uint64_t wall_collisions = 0;
+    std::uint64_t pair_collisions = 0; ///< number of collisions of two discs
+    /// Candidates that were not carried out since stepping began here; time-stepped method
+    std::uint64_t rejected_candidates = 0;
+    // Energy that restitution has taken in the event-driven method since stepping began here.
+    // Collisions within the contact time took nothing and are counted in `guarded_collisions`.
     double energy_taken = 0;
-    std::uint64_t guarded_collisions = 0; ///< contacts at rest aside
-    double energy_spared = 0;             ///< what these would have taken
-    std::uint64_t overlapping_pairs = 0;  ///< now, deeper than the tolerance
-    double deepest_overlap = 0;           ///< of these; 2 r where two discs are in one place
-    std::uint64_t touching_pairs = 0;     ///< now, within the tolerance of contact
-    std::uint64_t sliding_pairs = 0;      ///< of these: rounding decides whether they approach
-    std::uint64_t chained_discs = 0;      ///< discs that touch two others or more
-    double kinetic_energy = 0;            ///< of motion, not of spin
-    double rotational_energy = 0;         ///< of rough discs
-    double potential_energy = 0; ///< of places; under gravity above the walls that it pulls to at
-                                 ///< the start
+    std::uint64_t guarded_collisions = 0; ///< without contacts at rest
+    double energy_spared = 0;             ///< the energy that guarded collisions would have taken
+    std::uint64_t overlapping_pairs = 0;  ///< pairs that now overlap by more than the tolerance
+    /// Depth of the deepest overlap; 2 r if two discs are in one place
+    double deepest_overlap = 0;
+    std::uint64_t touching_pairs = 0; ///< pairs that are now within the tolerance of contact
+    /// Touching pairs for which only rounding decides whether they approach
+    std::uint64_t sliding_pairs = 0;
+    std::uint64_t chained_discs = 0; ///< discs that touch at least two others
+    double kinetic_energy = 0;       ///< of translation, without rotation
+    double rotational_energy = 0;    ///< of rough discs
+    /// Of positions; under gravity it is 0 at the walls towards which it pulled at the start
+    double potential_energy = 0;
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> departed{}; ///< discs that left through an open side: left, right,
                                              ///< bottom, top

@@ -16,21 +16,21 @@
 
 namespace carrom {
 
-/// What a trajectory holds of each disc. Positions are always there.
+/// The data of each disc in a trajectory. Positions are always there.
 struct TrajectoryFields {
     bool velocities = true;
-    bool spins = false;           ///< of rough discs only
-    bool collisions = false;      ///< both counters
-    bool directions = false;      ///< of active discs only
-    bool single_precision = true; ///< 4 bytes a number, else 8
+    bool spins = false;           ///< only for rough discs
+    bool collisions = false;      ///< counters of wall and pair collisions
+    bool directions = false;      ///< only for active discs
+    bool single_precision = true; ///< 4 bytes a number instead of 8
 };
 
 /// Writes one H5MD file, which can be read while it grows. Frames pass through rank 0.
 class TrajectoryWriter {
 public:
-    /// Begins a new file, in the place of any other; it has no frame yet. The simulation must
-    /// outlive this. Throws CollectiveError (code 4) where the file cannot be written. All calls
-    /// are **collective**.
+    /// Begins a new file, which replaces any other of that name; it has no frame yet. The
+    /// simulation must outlive this. Throws CollectiveError (code 4) where the file cannot be
+    /// written. All calls are **collective**.
     TrajectoryWriter(const Simulation& simulation, const std::string& path,
                      const TrajectoryFields& fields = {});
 
@@ -43,8 +43,8 @@ public:
     TrajectoryWriter(TrajectoryWriter&&) noexcept;
     ~TrajectoryWriter();
 
-    /// Adds the present step and brings it to disk: after this the file is whole whatever happens.
-    /// Throws CollectiveError (code 4) where that fails; frames before are as they were.
+    /// Adds the present step and brings it to disk: so a crash after this call does not damage the
+    /// file. Throws CollectiveError (code 4) where that fails; frames before it stay undamaged.
     /// **Collective.**
     void append();
 
@@ -59,19 +59,19 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Reads a trajectory, or a checkpoint: that is a file of one frame.
+/// Reads a trajectory, or a checkpoint as a file of one frame.
 class FrameReader {
 public:
-    /// Opens the file on every rank. Throws InputError where it is none of these, CollectiveError
-    /// (code 2) where it is damaged. **Collective.**
+    /// Opens the file on every rank. Throws InputError where the file is neither of these,
+    /// CollectiveError (code 2) where it is damaged. **Collective.**
     FrameReader(const Session& session, const std::string& path);
     FrameReader(FrameReader&&) noexcept;
     ~FrameReader();
 
-    const std::vector<std::int64_t>& steps() const; ///< of the frames; their number is its size
+    const std::vector<std::int64_t>& steps() const; ///< steps of the frames, in their order
     std::uint64_t n_discs() const;
-    Box box() const;                ///< that holds all frames
-    std::string state_hash() const; ///< of a checkpoint; else empty
+    Box box() const;                ///< a box that holds the discs of all frames
+    std::string state_hash() const; ///< hash of a checkpoint's state; empty for a trajectory
 
     /// The discs of a frame, by id, or those of ids from `begin` to `end` - 1. Places are those of
     /// the scene (`box.origin`). Numbers that the file does not have are 0. `frame` counts from 0.

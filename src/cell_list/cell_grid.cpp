@@ -14,15 +14,15 @@ namespace carrom {
 
 namespace {
 
-/// The least width of cells, in mean distances of discs. Smaller cells save no time,
-/// and each takes 4 bytes.
+/// The least width of cells, in mean distances between discs. Smaller cells save no time, and each
+/// takes 4 bytes.
 constexpr double least_spacings = 1.15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Resizes without much spare memory. Windows of many lengths have cells of many
-/// sizes, so the memory of the smallest cells is not kept for all, and a few more
-/// cells than last time do not take twice the memory. The old numbers may be lost.
+/// Resizes without much spare memory. The number of cells differs between windows, so the memory of
+/// the largest number is not kept, and a few more cells than last time do not double the memory.
+/// The old numbers may be lost.
 template <class Numbers> void resize_close(Numbers& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
         Numbers().swap(numbers);
@@ -42,15 +42,15 @@ int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
 
-/// The places of discs in a box without periodic sides.
+/// Positions of discs in a box without periodic sides.
 struct StoredPlaces {
     static double x_of(const DiscState& disc, double time) { return disc.x_at(time); }
     static double y_of(const DiscState& disc, double time) { return disc.y_at(time); }
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// The places of images in a box that repeats itself at rest. It is a type of its own,
-/// so that such boxes do not pay for images that move.
+/// Positions of images in a box that repeats itself at rest. It is a type of its own, so that such
+/// boxes do not pay for images that move.
 struct PlacesAtRest {
     const Periods& periods;
 
@@ -59,7 +59,7 @@ struct PlacesAtRest {
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// Calls `work` with the type that knows the places of discs in such a box.
+/// Calls `work` with the type that computes positions of discs in this kind of box.
 template <class Work> void with_places(const Periods& periods, Work work) {
     if (periods.are_moving())
         work(periods);
@@ -76,13 +76,13 @@ GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::s
     const auto [width, height] = turned(axis, std::max(extent.size().x, 0.0),
                                         std::max(extent.size().y, 0.0));
     const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a thin tube one cell holds its whole height.
+    // In a narrow tube one cell has the whole height.
     const double sparse_width = std::max(std::sqrt(width / n_cells) * std::sqrt(height),
                                          std::max(width, height) / n_cells);
-    // Two cells to the reach save a third of the pairs if cells as wide as the reach
-    // would hold many discs.
+    // Two cells for each reach save a third of the pairs, if cells as wide as the reach would
+    // contain many discs.
     const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
-    // With much smaller cells the reach of fast discs would be more cells than an int counts.
+    // With much smaller cells the reach of fast discs would be more cells than an int can count.
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
                                          : (discs_per_reach > 4 ? reach / 2 : reach);
     GridGeometry geometry;
@@ -142,7 +142,7 @@ void CellGrid::sort_cells(std::span<DiscState> own, const GridGeometry& geometry
     anchor_ = time;
     has_flights_ = false;
     sort(own, n_threads, companions);
-    RawVector<float>().swap(lanes_); // only the sorter used them
+    RawVector<float>().swap(lanes_); // because only the sorter used them
 }
 
 void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& companions) {
@@ -154,8 +154,8 @@ void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& c
     n_own_ = own.size();
     lane_length_ = n_own_ + filter_padding;
     resize_close(cell_start_, static_cast<std::size_t>(geometry_.n_columns) * rows() + 1);
-    // Several threads count in the memory behind the second lane. It is there at once, because to
-    // grow later means to copy the lanes.
+    // Several threads count in the memory behind the second lane. It is allocated at once, because
+    // growing later would copy the lanes.
     const std::size_t n_counts = n_threads > 1 ? cell_start_.size() + cell_start_.size() / 8 : 0;
     resize_close(lanes_, std::max<std::size_t>(has_flights_ ? 4 * lane_length_ : 0,
                                                2 * lane_length_ + n_counts));
@@ -177,8 +177,8 @@ void CellGrid::sort_columns(SideColumns& columns, Lent order, int n_threads) con
     });
 }
 
-/// Writes which disc goes where into the second of the lanes, and then moves the
-/// discs. Nearly all come from near by, so this is one pass over the discs.
+/// Writes the new order into the second lane, and then moves the discs. Nearly all move only a
+/// little, so this is one pass over the discs.
 template <class Places>
 void CellGrid::sort(const Places& places, std::span<DiscState> own, int n_threads,
                     const Companions& companions) {
@@ -263,8 +263,8 @@ void CellGrid::set_apart(double speed) {
             longest_squared = std::max(longest_squared, squared);
             apart_.push_back(index_of(static_cast<std::uint32_t>(slot)));
             kept.insert(kept.end(), {x[slot], y[slot], vx[slot], vy[slot]});
-            // Far from all discs and from each other, and flying away, because the
-            // filter keeps pairs without relative velocity.
+            // Far from all discs and from each other, and moving away, because the filter keeps
+            // pairs without relative velocity.
             x[slot] = y[slot] = 1e6f * static_cast<float>(apart_.size());
             vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
         }
@@ -288,10 +288,10 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 }
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
-    constexpr double margin = 1e-6; // the ends of cells are rounded
+    constexpr double margin = 1e-6; // because the ends of cells are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
-    // The cells first .. end - 1 of n that lie within low .. high, if the first one
-    // begins at `origin`. The cells at the ends also hold discs from beyond them.
+    // The cells first .. end - 1 of n that lie within low .. high, if the first one begins at
+    // `origin`. The first and the last cell also contain discs from outside of the grid.
     const auto cells_within = [this](double low, double high, double origin, int n) {
         const double from = (low - origin) / geometry_.cell_width + margin,
                      to = (high - origin) / geometry_.cell_width - margin;
@@ -338,8 +338,8 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
 }
 
 float CellGrid::touching_squared(double diameter) const {
-    // Positions and velocities have an error of 2^-24 of the grid's size. The filter
-    // allows for its own rounding itself.
+    // Positions and velocities have an error of 2^-24 of the grid's size. The filter allows for its
+    // own rounding.
     const double extent = std::max(geometry_.n_columns, geometry_.n_rows) +
                           4.0 * std::max<double>(geometry_.n_reach, longest_flight_);
     const double touching = diameter / geometry_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;

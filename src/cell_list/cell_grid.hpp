@@ -32,7 +32,7 @@ struct GridGeometry {
     double low = 0, across_low = 0; ///< where the first column and the first row begin
     double cell_width = 1;          ///< see set_cell_width
     int n_columns = 1, n_rows = 1;
-    int n_reach = 1; ///< a partner is at most this many cells away
+    int n_reach = 1; ///< discs that can collide are at most this many cells apart
 
     int column_of(double place) const {
         return clamp_cell((place - low) * cells_per_length_, n_columns);
@@ -48,8 +48,8 @@ struct GridGeometry {
     }
 
 private:
-    double cells_per_length_ =
-        1; ///< one division for each disc would cost as much as the rest of finding its cell
+    double cells_per_length_ = 1; ///< the inverse saves a division for each disc, which would
+                                  ///< double the cost of finding its cell
     static int clamp_cell(double cell, int n) {
         if (!(cell > 0)) return 0;
         return cell < n ? static_cast<int>(cell) : n - 1;
@@ -61,8 +61,8 @@ private:
 GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::size_t n_discs,
                            double cell_width);
 
-/// Returns at most half as many cells as discs, for a search now and then. They take
-/// less memory, and a search tries more pairs.
+/// Returns at most half as many cells as discs, for searches that are rare. Such a grid takes less
+/// memory, but a search tries more pairs.
 GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
                                   std::size_t n_discs);
 
@@ -83,10 +83,12 @@ struct DiscPair {
     LocalIndex first = 0, second = 0;
 };
 
-/// Slots that must be readable beyond the last one, because vectors read past their run's end.
+/// Number of slots behind the last one that must be readable, because vectors read past the end of
+/// their range.
 inline constexpr std::size_t filter_padding = 64;
 
-/// Arrays that run along the own discs and are moved with them. Empty arrays do not exist.
+/// Arrays with one element for each own disc, which are sorted and moved together with the discs.
+/// Empty arrays are left out.
 struct Companions {
     std::span<DiscState> states;
     SideColumns* columns = nullptr;
@@ -94,9 +96,9 @@ struct Companions {
 
 class CellGrid {
 public:
-    /// Brings `own` into the order of their cells at `anchor`. Flights begin at `time`
-    /// and last for `duration`. In a periodic box a disc is where its image is. There
-    /// is no halo until add_halo.
+    /// Brings `own` into the order of their cells at `anchor`. Flights begin at `time` and last for
+    /// `duration`. In a periodic box the position of the disc's image counts. There is no halo
+    /// until add_halo.
     void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
@@ -104,7 +106,7 @@ public:
     /// `lanes()`, so searches find nothing.
     void sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
                     int n_threads, const Periods& periods = {}, const Companions& companions = {});
-    /// Puts the discs that follow the own ones in memory into cells of the halo.
+    /// Sorts the halo's discs, which follow the own ones in memory, into cells.
     void add_halo(std::span<const DiscState> halo, int n_threads = 1);
 
     /// Takes the flights of discs faster than `speed`, in lengths per unit of time,
@@ -134,7 +136,7 @@ public:
         return halo_.slot_of(index - static_cast<LocalIndex>(n_own_));
     }
 
-    /// The column or row of a position in cells, cut at the grid's ends.
+    /// The column or row of a position given in cells, limited to the grid.
     int clamped_column(float x) const {
         return x > 0 ? (x < static_cast<float>(geometry_.n_columns) ? static_cast<int>(x)
                                                                     : geometry_.n_columns - 1)
@@ -146,7 +148,8 @@ public:
                      : 0;
     }
 
-    /// The own discs of the cells (column, first_row .. last_row). Rows are cut at the grid's ends.
+    /// The own discs of the cells (column, first_row .. last_row). Rows outside the grid are left
+    /// out.
     SlotRange run(int column, int first_row, int last_row) const {
         return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row,
                         last_row);
@@ -162,13 +165,15 @@ public:
         return halo_.next_row(column, row, geometry().n_rows);
     }
 
-    /// Finds the cell of an own disc by a search. Loops over discs go over the cells instead.
+    /// Finds the cell of an own disc by a search. Loops over all discs should go over the cells
+    /// instead, which is faster.
     struct Cell {
         int column = 0, row = 0;
     };
     Cell cell_of(LocalIndex own_index) const;
 
-    /// Ascending ranges that hold all own discs outside of `inner` at the anchor, and many others.
+    /// Ascending ranges that contain all own discs outside of `inner` at the anchor, and also many
+    /// that are inside.
     std::vector<SlotRange> outside(const Inside& inner) const;
 
     /// The first columns of `n_shares` shares with about equally many own discs, and
@@ -215,7 +220,8 @@ private:
         return {starts[base + static_cast<std::size_t>(low)],
                 starts[base + static_cast<std::size_t>(high) + 1]};
     }
-    /// Calls visit for the disc's cell and those to the left and right, by the place of its flight.
+    /// Calls visit for the disc's cell and the cells to its left and right, depending on where it
+    /// is in its cell.
     template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
         if (index >= n_own_) return;
         const int column = clamped_column(lanes_[index]);
@@ -246,17 +252,17 @@ private:
     double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;
     std::size_t n_own_ = 0;
-    RawVector<std::uint32_t> cell_start_; ///< by cell, with an end
-    std::size_t lane_length_ = 0;         ///< own discs and padding for whole vectors
-    RawVector<float>
-        lanes_; ///< x, y, vx, vy by own disc, one array after the other; the sorter borrows it
+    RawVector<std::uint32_t> cell_start_; ///< first slot of each cell, and the end
+    std::size_t lane_length_ = 0;         ///< own discs plus padding for whole vectors
+    RawVector<float> lanes_; ///< x, y, vx, vy of own discs, one array after the other; the sorter
+                             ///< borrows this memory
     DiscSorter sorter_;
 
     HaloCells halo_;
-    RawVector<float> halo_lanes_; ///< x, y, vx, vy by slot
+    RawVector<float> halo_lanes_; ///< x, y, vx, vy of halo discs, by slot
 
     std::vector<LocalIndex> apart_;
-    std::vector<float> apart_lanes_; ///< x, y, vx, vy by place in `apart_`
+    std::vector<float> apart_lanes_; ///< x, y, vx, vy of the discs in `apart_`
     double longest_flight_ = 0;      ///< longest flight in `apart_`, in cells
 };
 

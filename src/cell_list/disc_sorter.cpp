@@ -54,8 +54,8 @@ bool DiscSorter::make_room_for_counts(std::size_t n_cells, SortMemory memory) {
     return !are_too_many;
 }
 
-/// Calls visit(cell, place of the count) for the counts of all sorters in the cells
-/// begin .. end, cell by cell.
+/// Calls visit(cell, index of the count) for the counts of all sorters in the cells begin .. end,
+/// cell by cell.
 template <class Visit>
 void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const {
     std::vector<Sorter> here;
@@ -65,7 +65,8 @@ void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit&
         return sorter.first_cell <= cell && cell < sorter.end_cell;
     };
     for (std::size_t cell = begin;
-         cell < end;) { // up to where another sorter begins or ends; most cells have one sorter
+         // Up to the cell where another sorter begins or ends; most cells have one sorter
+         cell < end;) {
         std::size_t stretch_end = end;
         const Sorter* one = nullptr;
         std::size_t n_here = 0;
@@ -91,7 +92,7 @@ void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit&
     }
 }
 
-/// Turns the sorters' counts into the places of their next discs.
+/// Replaces the sorters' counts by the places of their next discs.
 void DiscSorter::turn_into_places(RawVector<std::uint32_t>& cell_start, Lent all_counts) {
     const std::size_t n_cells = cell_start.size() - 1;
     const auto n_shares = static_cast<std::size_t>(n_threads_);
@@ -161,12 +162,12 @@ void DiscSorter::rearrange(std::initializer_list<std::span<DiscState>> arrays, S
     const Lent old_order = memory.order();
 #pragma omp parallel for num_threads(n_threads_) schedule(static)
     for (std::size_t i = 0; i < n_discs_; ++i) order[i] = old_order[i];
-    // A quarter of each state at a time goes through the lanes, so that no second array of states
-    // is needed.
+    // The states are copied through the lanes, a quarter of each state at a time, so that no second
+    // array of states is needed.
     constexpr std::size_t quarter = sizeof(DiscState) / 4;
     static_assert(quarter == 4 * sizeof(float));
     if (memory.lanes.size() < 4 * memory.lane_length) {
-        RawVector<float>().swap(memory.lanes); // so that the old lanes do not exist beside them
+        RawVector<float>().swap(memory.lanes); // frees the old lanes before new ones are allocated
         memory.lanes.resize(4 * memory.lane_length);
     }
     auto* lent = reinterpret_cast<std::byte*>(memory.lanes.data());

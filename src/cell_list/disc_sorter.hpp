@@ -2,9 +2,9 @@
 // Brings discs into the order of their cells, in place.
 //
 // A counting sort finds which disc goes where. Then one pass over the discs moves them: nearly all
-// come from near by, from a place further on or from one passed lately. The few that come from afar
-// are set aside beforehand. Price: two passes, and no memory beside that of the flights, which are
-// written afterwards.
+// come from a place a little ahead or a little behind. The few that come from farther away are
+// copied beforehand. Price: two passes. The sorter works in the memory of the flights, which are
+// written afterwards, so it needs no memory of its own.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// Stores whole numbers in memory of floats.
+/// Stores whole numbers in memory that belongs to floats.
 class Lent {
 public:
     explicit Lent(float* at) : at_(at) {}
@@ -61,8 +61,8 @@ public:
             order_together(discs, find_cell, cell_start, memory);
     }
 
-    /// Gives each thread the travellers among its places. Returns false if there are
-    /// many: such discs are in no order yet, and have to be rearranged.
+    /// Gives each thread the travellers among its places. Returns false if there are many: then the
+    /// discs are not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
     /// Brings discs to their places, ascending. Calls placed(i) when the disc of place i is there;
     /// the order up to i is not needed any more.
@@ -71,7 +71,7 @@ public:
         set_travellers_aside(discs, memory);
         bring(discs, memory, placed);
     }
-    /// Brings discs in no order to their places, in each of the arrays that are not empty.
+    /// Sorts discs that are not nearly sorted, in each of the arrays that are not empty.
     void rearrange(std::initializer_list<std::span<DiscState>> arrays, SortMemory memory);
 
 private:
@@ -84,10 +84,11 @@ private:
     };
     /// The state of a thread while it brings its share of the places into order.
     struct Carrier {
-        DiscStates passed;                ///< a ring with the discs of the places just passed
-        DiscStates travellers;            ///< discs that come from afar, set aside beforehand
+        DiscStates passed;     ///< a ring buffer of the discs whose places were just overwritten
+        DiscStates travellers; ///< discs that move far, copied beforehand
         std::vector<LocalIndex> arrivals; ///< their new places, ascending, with an end
-        std::vector<LocalIndex> sent;     ///< new places of travellers that leave, in no order
+        /// New places of travellers that go to other threads, unsorted
+        std::vector<LocalIndex> sent;
     };
 
     void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);
@@ -104,8 +105,8 @@ private:
     bool make_room_for_counts(std::size_t n_cells, SortMemory memory);
     template <class Visit>
     void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
-    /// Notes a disc whose new place belongs to another thread, or was passed so long
-    /// ago that the disc that was there is not at hand any more.
+    /// Records a disc whose new place belongs to another thread, or whose disc has already left the
+    /// ring buffer.
     void note_traveller(Carrier& carrier, std::uint32_t place) const {
         if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
     }
@@ -115,11 +116,11 @@ private:
 
     int n_threads_ = 1;
     std::size_t n_discs_ = 0;
-    std::vector<Sorter> sorters_;     ///< scratch for several threads
+    std::vector<Sorter> sorters_;     ///< scratch memory for several threads
     std::vector<Carrier> carriers_;   ///< by thread
-    std::size_t n_passed_ = 1;        ///< the length of the ring of passed discs, a power of two
-    std::size_t most_travellers_ = 0; ///< in one share
-    bool are_in_disorder_ = false;    ///< true if too many discs come from afar
+    std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
+    std::size_t most_travellers_ = 0; ///< limit for each thread's share
+    bool are_in_disorder_ = false;    ///< true if too many discs move far
 };
 
 } // namespace carrom

@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// Prefetches numbers that are read in a row, further ahead than the processor does by
-/// itself. A prefetch beyond the last number is no access.
+/// Prefetches consecutive numbers, further ahead than the processor does by itself. Prefetching
+/// beyond the last number is harmless.
 inline void ask_ahead(const DiscState& disc) {
     constexpr std::uintptr_t ahead = 32 * sizeof(DiscState);
     __builtin_prefetch(
@@ -23,8 +23,8 @@ void DiscSorter::order_alone(std::span<const DiscState> discs, const CellOf& fin
                              RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     Lent cell_of = memory.cells(), order = memory.order();
     std::fill(cell_start.begin(), cell_start.end(), 0u);
-    std::uint32_t* next = cell_start.data() +
-                          1; // by cell: the number of discs, then the place of the next one
+    std::uint32_t* next = cell_start.data() + 1; // for each cell the number of its discs, later the
+                                                 // place of its next disc
     for (std::size_t i = 0; i < discs.size(); ++i) {
         ask_ahead(discs[i]);
         const std::uint32_t cell = find_cell(discs[i]);
@@ -44,7 +44,7 @@ void DiscSorter::order_alone(std::span<const DiscState> discs, const CellOf& fin
     }
 }
 
-/// Files the discs under their cells, and notes which cells each sorter meets.
+/// Stores each disc's cell, and records which cells each sorter meets.
 template <class CellOf>
 void DiscSorter::find_cells(std::span<const DiscState> discs, const CellOf& find_cell,
                             SortMemory memory) {

@@ -48,10 +48,13 @@ private:
     std::uint32_t number_columns(std::uint32_t n_rows);
     void turn_counts_into_starts(int n_threads);
 
-    std::vector<std::uint32_t> column_; ///< by column: its first cell in `start_`, or `no_discs`
-    RawVector<std::uint32_t> start_;    ///< by cell, with an end
-    RawVector<LocalIndex> order_;       ///< discs by slot; columns by disc before discs are sorted
-    RawVector<std::uint32_t> slot_;     ///< by disc; rows, then cells before discs are sorted
+    /// For each column its first cell in `start_`, or `no_discs`
+    std::vector<std::uint32_t> column_;
+    RawVector<std::uint32_t> start_; ///< first slot of each cell, and the end
+    /// The disc of each slot; before sorting, the column of each disc
+    RawVector<LocalIndex> order_;
+    /// The slot of each disc; before sorting, its row, then its cell
+    RawVector<std::uint32_t> slot_;
 };
 
 } // namespace carrom

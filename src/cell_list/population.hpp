@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rank's discs, its own and its halo's, as searches and measurements see them.
+// The own and halo discs of a rank, for searches and measurements.
 #pragma once
 
 #include <cstddef>

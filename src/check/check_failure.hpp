@@ -12,26 +12,27 @@
 
 namespace carrom {
 
-/// What must be true of each disc, in the order of the checks. The first broken one is reported.
+/// Invariants of each disc, in the order of the checks. The first broken one is reported.
 enum class Invariant : int {
     finite,     ///< every number of every state is finite
     owned_once, ///< each of the discs 0 .. N-1 is owned by exactly one rank
-    in_box,     ///< the disc's centre is a radius from every wall, to within rounding
+    in_box,     ///< the disc's centre is at least a radius away from every wall, within rounding
     in_domain,  ///< the disc is in the domain of the rank that owns it
     in_cell,    ///< the disc is in the cell into which it was sorted
-    clear,      ///< the disc is in no obstacle
-    counters,   ///< the disc's counters have grown by the number of its collisions that were
-                ///< carried out, for both discs of a pair
-    motion,     ///< the disc's velocity and its spin have changed in collisions only
-    overlap,    ///< no pair overlaps, except as the time-stepped method allows
-    energy,     ///< the discs that have collided have the same energy together as before, and so
-                ///< have all discs
+    clear,      ///< the disc does not overlap an obstacle
+    /// The disc's counters have grown by the number of its collisions; a collision of a pair counts
+    /// for both discs
+    counters,
+    motion,  ///< the disc's velocity and its spin have changed in collisions only
+    overlap, ///< no pair overlaps, except as the time-stepped method allows
+    energy,  ///< the discs that have collided have the same energy together as before, and so
+             ///< have all discs
 };
 
-/// Thrown on every rank with the same contents; exit code 70. `discs_around`: the
-/// reported discs, those that they collided with and the nearest, as they were when
-/// the failed step began, in the order of their ids. It is empty if the reported disc
-/// does not exist. Spins of rough discs, per step, run along them.
+/// Thrown on every rank with the same contents; exit code 70. `discs_around`: the reported discs,
+/// the discs with which they collided and the nearest ones, at the start of the failed step, in the
+/// order of their ids. It is empty if the reported disc does not exist. Spins of rough discs, per
+/// step, run along them.
 class CheckFailure : public CollectiveError {
 public:
     CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,
@@ -43,7 +44,7 @@ public:
     Invariant invariant;
     std::int64_t step; ///< the step that ended with the broken invariant
     DiscId disc;
-    int rank; ///< the disc's owner, or its last one
+    int rank; ///< the rank that owned the disc last
     std::vector<InputDisc> discs_around;
     std::vector<double> spins;
 };

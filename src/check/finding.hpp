@@ -13,7 +13,7 @@ namespace carrom {
 
 /// `partner`, `value` and `bound` depend on the invariant (text_of).
 struct Finding {
-    Finding() = default; ///< nothing is found
+    Finding() = default; ///< finds nothing
     Finding(Invariant broken, int owner, DiscId id, double how_much = 0, double allowed = 0,
             DiscId other = 0)
         : invariant(broken), rank(owner), is_found(1), disc(id), partner(other), value(how_much),
@@ -26,7 +26,7 @@ struct Finding {
     double value = 0, bound = 0;
 };
 
-/// `body` names the fixed body that a disc overlaps, if that is the finding.
+/// `body` names the fixed body that a disc overlaps, if there is one.
 std::string text_of(const Finding& finding, const SceneParameters& scene, const std::string& body,
                     std::int64_t step);
 

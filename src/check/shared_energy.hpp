@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Only collisions transfer energy, so discs that are linked by a step's collisions
-// keep their energy together, except for what effects take or give.
+// Only collisions transfer energy. So discs that are linked by a step's collisions keep their total
+// energy, except for what effects take or give.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,8 @@ struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    double n_reflections = 0; ///< from obstacles at any angle, which round like collisions of pairs
+    /// Reflections from obstacles at any angle, which round like collisions of pairs
+    double n_reflections = 0;
 };
 
 /// A cluster of discs whose energy has changed: its lowest disc, the share by which it changed, and

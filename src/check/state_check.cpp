@@ -19,13 +19,13 @@ namespace carrom {
 
 namespace {
 
-/// One disc's part in a collision, for the rank that keeps its record.
+/// One disc's part in a collision, sent to the rank that has its record.
 struct Part {
     DiscId disc = 0;
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
-    double impulse = 0; ///< if it was with a wall
-    double work = 0;    ///< by growing surfaces
+    double impulse = 0; ///< impulse of a collision with a wall
+    double work = 0;    ///< work of growing surfaces
 };
 
 bool is_finite(const DiscState& disc) {
@@ -33,7 +33,7 @@ bool is_finite(const DiscState& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-/// Returns the stored bits if the box's coordinates are those of the discs.
+/// Returns the stored state unchanged if the box's coordinates are those of the discs.
 DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
                   double micro_steps_since_sync) {
     if (!frame.is_moving) return disc;
@@ -114,7 +114,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     note_speeds();
-    if (were_rewritten()) // they have flown straight since the sync
+    if (were_rewritten()) // because they have flown straight since the sync
         for (Known& known : known_)
             known.free_from = std::max(known.free_from,
                                        micro_steps_done_ / scene_.sync_every * scene_.sync_every);
@@ -160,7 +160,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
                        first.rank, std::move(discs), std::move(spins));
 }
 
-/// The walls at the last check. Moving walls are where they began.
+/// The walls at the last check. Moving walls are at their positions of that time.
 Extent StateCheck::walls_before() const {
     Effects effects = effects_;
     for (Boundary& side : effects.boundaries) side.speed = 0;
@@ -198,8 +198,8 @@ Finding StateCheck::first_not_finite(std::span<const DiscState> own,
     return {};
 }
 
-/// Sends every disc to the rank that keeps its record. The `value` of a finding is the
-/// number of ranks, or places, that own the disc.
+/// Sends every disc to the rank that keeps its record. The `value` of a finding is how often the
+/// disc is owned.
 Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const double> spins,
                                  const Frame& frame, double time) {
     std::vector<std::vector<DiscState>> out(static_cast<std::size_t>(communicator_.size()));
@@ -322,7 +322,7 @@ Finding StateCheck::first_wrong_count() const {
                                                then.disc.pair_collisions),
                    had_walls = static_cast<double>(now.walls),
                    had_pairs = static_cast<double>(now.pairs);
-        // `partner` tells which of the two counters differs
+        // `partner` is the number of the counter that differs
         if (walls != had_walls)
             return {Invariant::counters, now.owner, first_id_ + i, walls, had_walls, 0};
         if (pairs != had_pairs)
@@ -331,20 +331,20 @@ Finding StateCheck::first_wrong_count() const {
     return {};
 }
 
-/// Keeps the finding of the lowest pair.
+/// Keeps the finding of the pair with the lowest ids.
 void StateCheck::keep_lowest(Finding& first, const Suspect& s) {
     if (first.is_found == 0 || std::pair(s.p.id, s.q.id) < std::pair(first.disc, first.partner))
         first = {Invariant::overlap, s.owner, s.p.id, s.depth, s.bound, s.q.id};
 }
 
 Finding StateCheck::first_overlap(const LocalView& now) const {
-    if (effects_.contact.kind == ContactKind::none) return {}; // they pass through each other
+    if (effects_.contact.kind == ContactKind::none) return {}; // discs pass through each other
     const bool is_one = scene_.method == Method::time_stepped;
     const double bound = (is_one ? 1 : 2) * tolerance_ + blur(64);
     std::vector<Suspect> suspects;
     visit_near_pairs(*now.grid, [&](LocalIndex a, LocalIndex b) {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
-        if (a >= now.population.n_own) return; // the owner of the lower id judges the pair
+        if (a >= now.population.n_own) return; // the owner of the lower id tests the pair
         DiscState p = now.population.discs[a], q = now.population.discs[b];
         for (DiscState* disc : {&p, &q}) StableArithmetic::advance(*disc, now.time);
         const Shift shift = now.periods.between(p, q, now.time);
@@ -358,8 +358,8 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Asks the ranks that keep the records of both discs, one after the other, when the
-/// disc last had a collision.
+/// Asks the ranks that have the records of the two discs, one after the other, when each disc last
+/// collided.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
@@ -380,7 +380,7 @@ Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
                      dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
         const double gap = std::hypot(dx, dy) - diameter_of(s.p, s.q);
         if (gap <= blur(8 * (1 + n_syncs_since(s.free_from))))
-            continue; // they were not apart yet, or their contact is at that time
+            continue; // the pair overlapped before, or its contact is exactly at that time
         keep_lowest(first, s);
     }
     return first;
@@ -393,7 +393,7 @@ int StateCheck::slab_of_disc(DiscId id) const {
 double StateCheck::blur(double n_ulps) const {
     constexpr double ulp = std::numeric_limits<double>::epsilon();
     const double time = ulp * static_cast<double>(
-                                  scene_.sync_every); // the rounding of a time just before a sync
+                                  scene_.sync_every); // rounding of a time just before a sync
     return n_ulps * ulp * scene_.box.longest() + 2 * fastest_ * time;
 }
 

@@ -5,20 +5,20 @@
 // It keeps a record of each disc at the last check, by id, so that a disc is compared
 // with itself whichever rank owns it. The log shows which discs have collided.
 //
-// In the time-stepped method discs may pass through each other. An overlap is explained if the pair
-// was closer than a diameter before both were free to collide: when the last micro-step ended in
-// which one of them had a collision, or when the check began. From then on they flew straight. Had
-// they been apart, nothing could have taken their contact from them.
+// In the time-stepped method discs may pass through each other. An overlap is allowed if the pair
+// was already closer than a diameter when both became free to collide. That is the end of the last
+// micro-step in which one of them collided, or the beginning of the check. From then on they flew
+// straight, so discs that were apart would have collided.
 //
-// Effects are allowed for. Discs are compared as the box sees them. They fall and slow down
-// as they should, may overlap if they do not collide at all, and lose energy in collisions
-// that take some. Growing discs push each other: the work is the impulse times the speed at
-// which surfaces grow. How much energy thermal and moving walls give is not known beforehand,
-// so the energy of discs that have met such a wall is not checked. Oscillating walls give or
-// take at most the impulse times their largest speed. Gravity that changes in time is seen from a
-// frame that falls with its changing part from the last inspection on: there it does nothing, and
-// walls move. Energies include masses and spins.
-// Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
+// Effects are allowed for. Discs are compared as the box sees them. The check knows how they fall
+// and slow down, that discs of an ideal gas may overlap, and how much energy collisions take.
+// Growing discs push each other: the work is the impulse times the speed at which surfaces grow.
+// How much energy thermal and moving walls give is not known beforehand, so the energy of discs
+// that have met such a wall is not checked. Oscillating walls give or take at most the impulse
+// times their largest speed. Gravity that changes in time is seen from a frame that falls with its
+// changing part from the last inspection on: there it does nothing, and walls move. Energies
+// include masses and spins. Price: 128 bytes a disc, every disc and collision sent once a step,
+// collisions to rank 0.
 #pragma once
 
 #include <array>
@@ -45,8 +45,9 @@ namespace carrom {
 
 class StateCheck {
 public:
-    /// Takes the present state as right. `scene` must outlive this and have the default
-    /// arithmetic. `spins` of rough discs run along the discs, per micro-step. **Collective.**
+    /// Begins with the present state, which is taken as correct. `scene` must outlive this and have
+    /// the default arithmetic. `spins` of rough discs run along the discs, per micro-step.
+    /// **Collective.**
     StateCheck(const SceneParameters& scene, const SpeciesTable& species,
                std::span<const DiscState> own, std::int64_t micro_steps_done,
                const Communicator& communicator, const Frame& frame = {}, double time = 0,
@@ -66,9 +67,9 @@ private:
         double spin = 0;
         std::int64_t free_from =
             0; ///< the end of the last micro-step with a collision, or the check's begin
-        std::uint64_t walls = 0, pairs = 0; ///< collisions since the last inspection
-        double wall_impulse = 0;            ///< sum over these collisions
-        double work = 0; ///< that growing surfaces did in these collisions, per micro-step
+        std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
+        double wall_impulse = 0;            ///< total impulse of these collisions
+        double work = 0; ///< work of growing surfaces in these collisions, per micro-step
         int owner = -1;
     };
     struct Suspect {
@@ -119,7 +120,7 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// The share of energy that is left since the last check, and how long ago that was.
+    /// The share of energy that drag has left since the last check, and the time since then.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const {
@@ -136,34 +137,40 @@ private:
     bool may_have_met_seam(std::size_t i) const;
 
     int slab_of_disc(DiscId id) const;
-    /// How far rounding moves a disc: so many ulp(L), and its flight in the rounding of times.
+    /// The position error by rounding: `n_ulps` ulp of the box length, plus the flight during a
+    /// rounding error of the time.
     double blur(double n_ulps) const;
 
     const SceneParameters& scene_;
     Effects effects_; ///< times in micro-steps
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;
-    std::array<Swayed, 2> swayed_{}; ///< by gravity that changes, since the last inspection
+    /// Motion by gravity that changes in time, since the last inspection
+    std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
-    double wall_speed_ = 0, wall_pull_ = 0; ///< for walls that swing: the largest speed, and the
-                                            ///< largest acceleration with which one presses a disc
-    double work_of_images_ = 0;             ///< on this rank, since the last inspection
-    double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last inspection
-    /// Beside that of motion, without those that change at syncs alone.
+    /// Of walls that swing: the largest speed, and the largest acceleration towards a disc
+    double wall_speed_ = 0, wall_pull_ = 0;
+    double work_of_images_ = 0; ///< work on this rank since the last inspection
+    /// Largest speed along y of the discs between sheared sides, now or at the last inspection
+    double fastest_up_ = 0;
+    /// Energies besides the kinetic one, without those that change at syncs only.
     std::vector<OtherEnergy> energies_;
-    bool depends_on_x_ = false, depends_on_y_ = false; ///< they do, or what discs get on their way
+    /// Energies, or the work on a disc's way, depend on these coordinates
+    bool depends_on_x_ = false, depends_on_y_ = false;
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
-    bool surfaces_rub_ = false; ///< walls or obstacles rub: spins change there
+    bool surfaces_rub_ = false; ///< walls or obstacles rub, so spins change there
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
-    double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
-    double size_ = 1, size_before_ = 1; ///< LocalView::size now, and at the last check
+    /// Energy that effects at syncs gave on this rank, now and at the last inspection
+    double energy_given_ = 0, energy_given_before_ = 0;
+    double size_ = 1, size_before_ = 1; ///< LocalView::size now and at the last inspection
     Communicator communicator_;
     std::uint64_t first_id_ = 0;
-    std::vector<Known> known_, before_; ///< this rank's slab of ids now, and at the last check
+    /// Discs of this rank's slab of ids, now and at the last inspection
+    std::vector<Known> known_, before_;
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0;                   ///< plain discs cannot become faster than with all of it
-    std::uint64_t n_pair_collisions_ = 0; ///< on all ranks since the check began
+           energy_ = 0;                   ///< total energy, which limits the speed of plain discs
+    std::uint64_t n_pair_collisions_ = 0; ///< by all ranks since the check began
 };
 
 } // namespace carrom

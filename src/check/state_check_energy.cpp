@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of motion and energy: of a disc between its collisions, of discs that a
-// step's collisions link, and of all discs.
+// Checks motion and energy: of a disc between its collisions, of discs that a step's collisions
+// link, and of all discs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// Relative bounds on speeds that falling and slowing down change from sync to sync.
+/// Relative bounds of speeds that gravity and drag change from sync to sync.
 constexpr double motion_bound = 1e-13;
 constexpr double energy_bound = 1e-12;
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
@@ -28,7 +28,7 @@ constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 Finding StateCheck::first_other_motion() const {
     if (were_rewritten()) return {};
-    const bool is_free = effects_.are_flights_free(); // nothing rewrites velocities then
+    const bool is_free = effects_.are_flights_free(); // no effect changes velocities in this case
     const FallingFrame flight(effects_);
     const double time = flight.clock_at(stretch()), left = flight.slowing_at(time);
     const Gravity& pull = flight.acceleration();
@@ -37,7 +37,7 @@ Finding StateCheck::first_other_motion() const {
         const Known& now = known_[i];
         const DiscState &disc = now.disc, &then = before_[i].disc;
         if (now.pairs == 0 && !(surfaces_rub_ && now.walls > 0) &&
-            now.spin != before_[i].spin) // `partner` says that it is the spin
+            now.spin != before_[i].spin) // `partner` is 1 if the spin has changed
             return {Invariant::motion,
                     now.owner,
                     first_id_ + i,
@@ -48,7 +48,7 @@ Finding StateCheck::first_other_motion() const {
         const double seam = effects_.periods(scene_.box).speed;
         double wx = disc.vx - (then.vx * left + pull.x * time + swayed_[0].speed);
         const double wy = disc.vy - (then.vy * left + pull.y * time + swayed_[1].speed);
-        if (seam != 0) // a disc is shown with the velocity of its image in the box
+        if (seam != 0) // because a disc is shown with the velocity of its image in the box
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
                                              (std::sqrt(squared_speed_of(then)) + std::fabs(seam))
@@ -89,12 +89,12 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    if (finding.is_found == 1) finding.rank = -1; // the rank that keeps the record found it
+    if (finding.is_found == 1) finding.rank = -1; // the rank that has the record has found it
     return finding;
 }
 
-/// Checks all discs together since the check began; since the last check if effects
-/// take or give energy. **Collective.**
+/// Checks the energy of all discs since the check began, or since the last check if effects take or
+/// give energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || surfaces_give_energy_) return {};
@@ -105,7 +105,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     const double energy = energy_of(own, sways);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
-        double gain = 0; // few discs add to it, so rounding does not matter
+        double gain = 0; // rounding does not matter, because few discs add to it
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
         expected = energy_ * energy_left();
@@ -128,12 +128,12 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     }
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
-    // Nobody in particular: the lowest disc that collided.
+    // No disc is to blame, so the lowest disc that collided is reported.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }
 
-/// A disc's energy before and after, without what effects explain.
+/// A disc's energy before and after, with allowances for what effects can add.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i,
@@ -141,7 +141,7 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
                            twice_energy(in_swaying_frame(known.disc), known.spin)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
     energy.before += 2 * energy_of_way(i);
-    if (surfaces_give_energy_) { // surfaces are where they should be but for rounding
+    if (surfaces_give_energy_) { // surfaces are exact except for rounding
         energy.before += 2 * known.work;
         energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
     }
@@ -153,9 +153,9 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
 }
 
 /// Images beyond the seam give energy to discs that collide with them, and discs that come through
-/// it are shown with another velocity. What all discs get together is checked (first_other_total);
-/// what each gets is not. Collisions may make a disc faster for a part of a step: four times as
-/// fast as any is at its ends.
+/// it are shown with another velocity. The energy of all discs together is checked
+/// (first_other_total), but not the energy of each. During a step collisions may make a disc up to
+/// four times as fast as any disc is at its ends.
 bool StateCheck::may_have_met_seam(std::size_t i) const {
     if (!effects_.are_sheared()) return false;
     const double near = 4 * fastest_up_ * stretch() + 2 * scene_.radius;
@@ -171,8 +171,8 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Where effects make discs faster, what is known of the fastest grows with them. And gravity that
-/// changes has moved its frame. **Collective.**
+/// Updates bounds of speeds if effects make discs faster, and the motion of the frame by gravity
+/// that changes. **Collective.**
 void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
     swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
@@ -188,7 +188,7 @@ void StateCheck::note_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
-/// Of what changes with the place all the time, for a mass of 1.
+/// The largest energy of position for a mass of 1, for effects that act all the time.
 double StateCheck::largest_energy_of_place() const {
     double sum = 0;
     for (const OtherEnergy& energy : energies_)
@@ -204,8 +204,8 @@ double StateCheck::other_energy(const DiscState& seen, double spin) const {
     return sum;
 }
 
-/// Energies of places are counted from far enough below that the rounding of places is small
-/// against them.
+/// Energies of position are counted from a low level, so that the rounding of positions is small
+/// compared with them.
 double StateCheck::twice_energy(const DiscState& seen, double spin) const {
     const double mass = mass_of(seen.id);
     return mass * squared_speed_of(seen) +
@@ -220,10 +220,9 @@ DiscState StateCheck::in_swaying_frame(const DiscState& seen) const {
     return disc;
 }
 
-/// What effects have given to a disc on its way beside the change of such an energy, and what that
-/// energy, counted in the box, has gained where the disc went round a periodic side. That it flies
-/// less than a quarter of the box between two inspections tells how often it went round; otherwise
-/// nothing is known, and the number is infinite.
+/// The energy that effects gave a disc along its path, besides changes of its energy of position,
+/// plus the jump of that energy at periodic sides. If the disc moves less than a quarter of the box
+/// between two inspections, the number of crossings is known; otherwise the result is infinite.
 double StateCheck::energy_of_way(std::size_t i) const {
     if (!depends_on_x_ && !depends_on_y_) return 0;
     const DiscState &then = before_[i].disc, &now = known_[i].disc;
@@ -252,15 +251,16 @@ double StateCheck::resting_gain(const Known& known) const {
     return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// The most that walls that swing have given, or taken. A disc that comes with v and
-/// leaves with v' gets m (v' - v) (v' + v) / 2. Seen from the wall it leaves no faster
-/// than it came, so this is the impulse times the wall's speed, less what the
-/// restitution takes. The guard of discs at rest is in resting_gain.
+/// The largest energy that walls that swing have given or taken. A disc that arrives with v and
+/// leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it does not become faster, so
+/// this is the impulse times the wall's speed, minus the loss by restitution. The least speed of
+/// discs at rest is in resting_gain.
 double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
-/// Of walls that swing, and of all walls in a frame that falls from the last inspection on.
+/// The speed of walls that swing, and of all walls in a frame that falls from the last
+/// inspection on.
 double StateCheck::speed_of_walls() const {
     const Gravity g = effects_.acceleration();
     if (!g.sways()) return wall_speed_;
@@ -291,7 +291,8 @@ double StateCheck::energy_of(std::span<const DiscState> own, bool in_swaying_fra
             seen.push_back(in_swaying_frame ? this->in_swaying_frame(known.disc) : known.disc);
             spins.push_back(known.spin);
         }
-        // Between sheared sides a sync changes stored states, and the engine knows the difference.
+        // Between sheared sides a sync changes stored states, and the engine records the
+        // difference.
         if (!effects_.are_sheared()) own = seen;
     }
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;

@@ -13,15 +13,15 @@
 
 namespace carrom {
 
-/// In the units of scenes: per step, in the box.
+/// A disc in the units of scenes: velocities per step, position in the box.
 struct SceneDisc {
     InputDisc disc;
     double spin = 0;
 };
 
-/// The finding's discs, those that they collided with in `log`, and the nearest, a
-/// dozen in the order of ids. `discs` are this rank's share; those of rank `keeper`
-/// include the finding's disc. All ranks get the same list. **Collective.**
+/// Returns about a dozen discs in the order of ids: the finding's, the ones that collided with them
+/// in `log`, and the nearest ones. `discs` are this rank's share; those of rank `keeper` include
+/// the finding's disc. All ranks get the same list. **Collective.**
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,
                                     int keeper, std::span<const Collision> log,
                                     const Periods& periods, const Communicator& communicator);

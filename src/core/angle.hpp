@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Angles and directions by + - * / alone, so that they have the same bits on every machine.
+// Angles and directions, computed only with + - * / so that they have the same bits on every
+// machine.
 #pragma once
 
 #include "core/random_numbers.hpp"
@@ -9,11 +10,11 @@ namespace carrom {
 /// The angle in [-pi, pi], in radians, that differs from `angle` by whole turns.
 double wrapped_angle(double angle);
 
-/// Cosine and sine of an angle in [-pi, pi], to within 2e-15. It takes a fiftieth of the time of
-/// `rounded_sine`, whose last bit is right, too.
+/// Cosine and sine of an angle in [-pi, pi], to within 2e-15. It is fifty times faster than
+/// `rounded_sine`, which also rounds the last bit correctly.
 Direction direction_of(double angle);
 
-/// Uniform in [-pi, pi).
+/// A random angle, uniform in [-pi, pi).
 double random_angle(DiscRandom random);
 
 } // namespace carrom

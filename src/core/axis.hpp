@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two axes. Strips cut the box across its longer side, which is x in a square, and
-// cells follow each other along it. Code for strips and cells asks for places along
-// that axis and across it. No decision depends on which axis it is.
+// The two axes. Strips cut the box across its longer side, which is x in a square, and cells follow
+// each other along it. Code for strips and cells uses coordinates along that axis and across it, so
+// it is the same for both axes.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ template <class Number>
 }
 constexpr double along(Axis axis, const Box& box) { return along(axis, box.x, box.y); }
 
-/// (x, y) as (along, across), and the other way round.
+/// (x, y) as (along, across), and the reverse.
 template <class Number> constexpr std::pair<Number, Number> turned(Axis axis, Number x, Number y) {
     return axis == Axis::x ? std::pair(x, y) : std::pair(y, x);
 }

@@ -7,7 +7,8 @@ namespace carrom {
 /// psi6 of one disc: the mean of exp(6 i angle) over its neighbours, each with the same weight.
 struct BondOrder {
     double real = 0, imaginary = 0;
-    int n_neighbours = -1; ///< -1: the disc's centre is not in the box, and it has no cell
+    /// Number of neighbours; -1 if the disc's centre is not in the box, so that it has no cell
+    int n_neighbours = -1;
 
     bool has_cell() const { return n_neighbours >= 0; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks the functions on the way of a pair of discs: a compiler for GPUs needs a word before
-// each of them, and for others it is empty. They are inline, and take and return plain data.
+// Marks the functions that kernels call for a pair of discs. A compiler for GPUs needs a word
+// before each of them; for other compilers the word is empty. These functions are inline, and take
+// and return plain data.
 #pragma once
 
 #ifdef __CUDACC__

@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// One number of 8 bytes for each disc: a double, or else a whole number.
+/// One number of 8 bytes for each disc: a double or a whole number.
 struct StateColumn {
     const char* name;
     const char* unit;
@@ -29,7 +29,7 @@ struct StateColumn {
 
 namespace columns {
 
-/// `Get(disc)` is the number, `Set(disc, bits)` takes it over.
+/// `Get(disc)` returns the number, `Set(disc, bits)` stores it.
 template <auto Get, auto Set>
 constexpr StateColumn make(const char* name, const char* unit, bool is_real) {
     return {name, unit, is_real,
@@ -54,7 +54,7 @@ inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
 /// Stands for the time of a departed disc, which has none.
 inline constexpr double departed_time = -1;
-/// Stands for the time of a collision that was at the very time of a sync.
+/// Stands for the time of a collision that happened exactly at a sync.
 inline constexpr double collided_at_sync = -0.0;
 inline double stored_time(const DiscState& disc) {
     if (disc.has_departed()) return departed_time;

@@ -32,14 +32,15 @@ struct alignas(64) DiscState {
     double tau = 0;
     DiscId id = 0;
     std::uint64_t wall_collisions : 47 = 0;
-    std::uint64_t is_departed : 1 = 0; ///< see depart
-    std::int64_t image_x : 16 = 0;     ///< displaced by so many box lengths (image.hpp)
+    std::uint64_t is_departed : 1 = 0; ///< see depart()
+    std::int64_t image_x : 16 = 0; ///< the disc's image is this many box lengths away (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    std::uint64_t has_collided : 1 = 0; ///< since the last sync; where collisions may take energy
+    /// Since the last sync; only used if collisions may take energy
+    std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 
-    /// The disc has left the box at (x, y) through an open side. It is at rest there, and takes
-    /// part in nothing any more.
+    /// The disc has left the box at (x, y) through an open side. It stays at rest there and takes
+    /// no further part in the simulation.
     void depart() {
         vx = vy = tau = 0;
         is_departed = 1;
@@ -57,8 +58,8 @@ struct alignas(64) DiscState {
 };
 static_assert(sizeof(DiscState) == 64);
 
-/// Many states. Growing it writes nothing: whoever resizes writes every new state, or gives a value
-/// to fill with.
+/// Many states. Resizing does not initialise the new elements: the caller writes each of them, or
+/// passes a value.
 using DiscStates = RawVector<DiscState>;
 
 CARROM_DEVICE inline double squared_speed_of(const DiscState& disc) {

@@ -18,7 +18,7 @@ public:
     explicit ExactSum(double bound);
 
     void add(double term) {
-        const double scaled = term * scale_; // exact: the scale is a power of two
+        const double scaled = term * scale_; // exact, because the scale is a power of two
         if (std::fabs(scaled) < 0x1p62) [[likely]]
             sum_ += static_cast<std::int64_t>(scaled);
         else
@@ -29,11 +29,12 @@ public:
     ExactSum& operator-=(const ExactSum& other);
     /// Adds integers in the sum's unit.
     void add_units(std::int64_t units) { sum_ += units; }
-    double scale() const { return scale_; } ///< 1 over the unit, or infinite
+    /// The number of units in 1: the inverse of the unit, or infinite.
+    double scale() const { return scale_; }
     void clear() { sum_ = 0; }
     double value() const;
 
-    /// The raw sum, to be added across ranks word by word with carries (see `add_words`).
+    /// The two words of the raw sum, which ranks add with carries (see `add_words`).
     std::uint64_t low_word() const { return static_cast<std::uint64_t>(sum_); }
     std::uint64_t high_word() const { return static_cast<std::uint64_t>(sum_ >> 64); }
     void add_words(std::uint64_t low, std::uint64_t high);

@@ -7,8 +7,8 @@
 // where gravity turns. Where a sync changes no velocity the integral may go on over many of them.
 //
 // The integral over a path with collisions is then a sum over events. A collision at time t that
-// changes v into v' adds the integral up to t with v and takes away the one with v'; where the
-// integral begins anew the whole one is added.
+// changes v into v' adds the integral up to t with v and subtracts the integral up to t with v'.
+// Before the integral begins anew, the integral over the whole time is added.
 #pragma once
 
 namespace carrom {

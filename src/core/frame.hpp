@@ -2,9 +2,10 @@
 // The frame of reference of stored states, as seen from the box.
 //
 // Under gravity states are stored in a frame that falls freely from each sync on. Under drag they
-// are stored in a clock that slows down as discs do. There they fly straight and evenly, so pairs
-// need neither. In a periodic box stored states fly on where a disc leaves it, and the box sees the
-// image that is in it. Without these effects the frame is the box's, and nothing is computed.
+// are stored in a clock that slows down as discs do. In this frame they fly straight at constant
+// speed, so contacts of pairs need neither gravity nor drag. In a periodic box stored states fly on
+// when a disc leaves it, and the box sees the image that is in it. Without these effects the frame
+// is the box's, and nothing is computed.
 #pragma once
 
 #include "core/disc_state.hpp"
@@ -14,12 +15,12 @@ namespace carrom {
 
 struct Frame {
     bool is_moving =
-        false; ///< or its clock is another one, or places have to be brought into a periodic box
-    double x = 0, y = 0;   ///< the origin in the box
+        false; ///< or has a clock of its own, or positions have to be brought into a periodic box
+    double x = 0, y = 0;   ///< position of the frame's origin in the box
     double vx = 0, vy = 0; ///< the frame's velocity, per micro-step
-    double slowing = 1;    ///< how fast the frame's clock goes
-    double clock = 0;      ///< the frame's time
-    Periods periods{};     ///< periods of the box, if it is periodic
+    double slowing = 1;    ///< rate of the frame's clock relative to the box's
+    double clock = 0;      ///< time on the frame's clock
+    Periods periods{};     ///< periods of a periodic box
 
     bool keeps_velocities() const {
         return vx == 0 && vy == 0 && slowing == 1 && !periods.are_moving();

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images of discs in a box with periodic sides, and what an image is: a shift and a velocity, as
-// functions of time. Every room that needs to know where an image is asks `Periods`.
+// functions of time. All code that needs the position of an image uses `Periods`.
 //
 // A stored state is never shifted: between syncs a disc may fly out of the box and on. What an
 // engine works with is the state and the number of boxes, along x and along y, by which it is meant
-// to be displaced: its image. Two entries of the same disc differ in that alone. A pair's contact
-// depends on the difference of its two images, a pair of whole numbers, which is the same for
-// everybody who sees the pair. Images are part of the state's cache line, so that they go where the
-// disc goes. Only engines see them, and a scene without periodic sides has none.
+// to be displaced: its image. Two entries of the same disc differ only in the image. A pair's
+// contact depends on the difference of its two images, a pair of whole numbers, which is the same
+// on every rank that has the pair. Images are part of the state's cache line, so that they move
+// together with the disc. Only engines see them, and a scene without periodic sides has none.
 //
 // Usually boxes repeat themselves at rest, and an image is shifted by a whole number of box
 // lengths. Under shear (Lees and Edwards, J. Phys. C 5, 1921 (1972)) the row of boxes above moves
 // along x with a constant velocity, the next row with twice that, and so on. The kernels that have
-// to be fast are compiled for boxes at rest, and ask the functions without a time.
+// to be fast are compiled for boxes at rest, and call the functions without a time.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct Image {
 /// The displacement from a disc to an image of it, or from one image to another one.
 struct Shift {
     double x = 0, y = 0;
-    double vx = 0; ///< how fast the shift grows; it never does along y
+    double vx = 0; ///< rate at which the shift grows along x; along y it is constant
 };
 
 CARROM_DEVICE inline Image image_of(const DiscState& disc) {
@@ -50,7 +50,8 @@ CARROM_DEVICE inline bool is_unshifted(const DiscState& disc) {
     return disc.image_x == 0 && disc.image_y == 0;
 }
 
-/// Whether both discs' images are displaced alike, which is so for nearly all pairs.
+/// Whether both discs' images are displaced by the same numbers of boxes, which is so for nearly
+/// all pairs.
 CARROM_DEVICE inline bool are_shifted_alike(const DiscState& p, const DiscState& q) {
     return p.image_x == q.image_x && p.image_y == q.image_y;
 }
@@ -65,8 +66,8 @@ CARROM_DEVICE inline void move_image(DiscState& disc, Image by) {
     set_image(disc, {image_of(disc).x + by.x, image_of(disc).y + by.y});
 }
 
-/// The places at which nothing has to be done about images. They have no end along an
-/// axis where the box does not repeat itself.
+/// The range of positions for which no image has to be considered. It has no ends along an axis
+/// that is not periodic.
 struct Inside {
     double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 
@@ -75,13 +76,13 @@ struct Inside {
     }
 };
 
-/// A place in [0, period) for one anywhere: a function of the two alone, one rounding away.
-/// Unchanged where there is no period. Adds to `lengths` how many periods it went up, if that is
-/// asked for.
+/// Maps any coordinate into [0, period), with one rounding; the result depends on the two arguments
+/// only. Returns it unchanged if there is no period. Adds the number of periods by which it moved
+/// up to `lengths`, unless that is null.
 CARROM_DEVICE inline double wrapped(double place, double period, double* lengths = nullptr) {
     if (period == 0 || (place >= 0 && place < period)) return place;
     double up = -std::floor(place / period), inside = std::fma(up, period, place);
-    if (inside < 0) { // what is left of it may be less than a rounding of the period
+    if (inside < 0) { // the sum may round to the period itself
         inside += period;
         up += 1;
     }
@@ -95,20 +96,20 @@ CARROM_DEVICE inline double wrapped(double place, double period, double* lengths
 
 /// How a box repeats itself. Times are micro-steps since the last sync.
 struct Periods {
-    double x = 0, y = 0; ///< the box repeats itself after these lengths; 0: it does not
+    double x = 0, y = 0; ///< the box repeats itself after these lengths; 0 if it does not
     double offset = 0;   ///< the row of boxes above is shifted by this along x at time 0
     double speed = 0;    ///< that row moves along x at this speed; 0 where boxes are at rest
 
     bool are_any() const { return x != 0 || y != 0; }
     CARROM_DEVICE bool are_moving() const { return speed != 0; }
-    /// Returns 0 if there are no periods.
+    /// The shorter of the periods; 0 if there are none.
     double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
     CARROM_DEVICE double along(Axis axis) const { return carrom::along(axis, x, y); }
     /// The shift of the row above the box.
     CARROM_DEVICE double offset_at(double time) const { return offset + speed * time; }
 
-    /// From now on times count from micro-step `n` of the scene. The offset is exact to a rounding
-    /// of the box's length, however far the row has gone.
+    /// From now on times count from micro-step `n` of the scene. The offset is exact except for one
+    /// rounding of the box's length, however far the row has moved.
     void begin_interval(std::int64_t n) {
         if (!are_moving()) return;
         const double steps = static_cast<double>(n), gone = speed * steps,
@@ -120,8 +121,8 @@ struct Periods {
     CARROM_DEVICE Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
-    /// The shift from the image of `p` to that of `q`, beside the difference of their
-    /// stored states. For (q, p) the numbers are the same with the other sign.
+    /// The shift from the image of `p` to that of `q`, in addition to the difference of their
+    /// stored states. For (q, p) it has the opposite sign.
     CARROM_DEVICE Shift between(const DiscState& p, const DiscState& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
@@ -154,7 +155,7 @@ struct Periods {
         return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
     }
 
-    /// The image that is in the box, to within a rounding.
+    /// The image whose position is in the box, to within rounding.
     CARROM_DEVICE Image home(const DiscState& disc, double time) const {
         const int up = lengths(disc.y_at(time), y);
         return {lengths(disc.x_at(time) + up * offset_at(time), x), up};
@@ -189,7 +190,7 @@ struct Periods {
     friend bool operator==(const Periods&, const Periods&) = default;
 
 private:
-    // Not inlined, so that the common case, an unshifted disc, is.
+    // Not inlined, because images are rarely shifted. So the common case stays short.
     [[gnu::noinline]] CARROM_DEVICE double shifted_x(const DiscState& disc, double time) const {
         return disc.x_at(time) + image_of(disc).x * x;
     }

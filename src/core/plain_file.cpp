@@ -19,7 +19,7 @@ std::ifstream failed_stream() {
     return stream;
 }
 
-/// What keeps an open file from being read as a plain one.
+/// Why an open file cannot be read as a plain file.
 OpenProblem problem_of(int number) {
     struct stat status{};
     if (number < 0 || ::fstat(number, &status) != 0)
@@ -42,7 +42,7 @@ std::ifstream open_plain_file(const std::string& path, OpenProblem& problem) {
     problem = is_socket ? OpenProblem{"is not a plain file", false, true} : problem_of(number);
     std::ifstream stream;
     if (problem.text.empty()) {
-        // By the handle that was checked: another file may have taken the name meanwhile.
+        // By the handle that was tested, because another file may have taken the name.
         stream.open("/proc/self/fd/" + std::to_string(number), std::ios::binary);
         if (!stream) problem = {"cannot be opened: " + std::generic_category().message(errno)};
     }

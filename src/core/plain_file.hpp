@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens files for reading that a user can name or put into a folder. Anything but a plain file is
-// refused on the open handle, because a pipe without a writer would make the open wait for ever.
+// Opens a file for reading whose name comes from a user or a folder. Anything except a plain file
+// is an error, because a pipe without a writer would make the open wait for ever.
 #pragma once
 
 #include <fstream>
@@ -11,11 +11,12 @@ namespace carrom {
 /// Why a stream could not be opened, for messages; empty if it was.
 struct OpenProblem {
     std::string text;
-    bool is_folder = false, is_special = false; ///< a pipe, a device or a socket
+    /// Not a plain file: a folder; or a pipe, a device or a socket
+    bool is_folder = false, is_special = false;
 };
 
 /// Opens a plain file for reading as bytes. Otherwise the stream has failed, and `problem` says
-/// why. Waits for nothing.
+/// why. Never waits.
 std::ifstream open_plain_file(const std::string& path, OpenProblem& problem);
 std::ifstream open_plain_file(const std::string& path);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names and texts of files hold any bytes; a terminal obeys some of them.
+// Makes text from files safe to print. It may contain any bytes, and a terminal takes some of them
+// as commands.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vector of numbers or plain structs that does not fill new elements with zeros. The thread that
-// resizes would write them all, while the others wait, and their memory would be near that thread's
-// processor. So the threads that use the elements write them first.
+// A vector of numbers or plain structs that does not fill new elements with zeros. Filling would be
+// done by the one thread that resizes, while the others wait, and would place the memory near that
+// thread's processor. Without it each thread first writes the elements that it uses.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ template <class T> struct RawAllocator : std::allocator<T> {
     template <class U> struct rebind {
         using other = RawAllocator<U>;
     };
-    /// Does nothing, because whole elements are assigned before they are read.
+    /// Does nothing, because every element is assigned before it is read.
     template <class U> void construct(U*) {}
     template <class U, class... Arguments> void construct(U* place, Arguments&&... arguments) {
         ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);

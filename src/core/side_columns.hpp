@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of discs beside their 64-byte states, in runs whose dynamics need them.
+// Numbers of discs that are stored beside their 64-byte states, in runs whose dynamics need them.
 //
-// Engines migrate, sort, exchange, speculate on and roll back whatever is present, and need not
-// know its meaning. Scenes, checkpoints, restarts and recordings have what is in the table below.
-// A new column takes a name and a line there. One that effects need takes a line in the function
-// `side_columns_of` that inspects a scene's effects, and one that collisions change takes another
-// in the one below. A run without a column has no memory and no work for it.
+// Engines migrate, sort, exchange, speculate on and roll back whatever is present, without knowing
+// its meaning. Scenes, checkpoints, restarts and recordings use the table below. A new column takes
+// a name and a line there. One that effects need takes a line in the function `side_columns_of`
+// that inspects a scene's effects, and one that collisions change takes another in the one below. A
+// run without a column has no memory and no work for it.
 #pragma once
 
 #include <array>
@@ -22,11 +22,12 @@ enum class SideColumn : std::size_t { spin, direction, n_columns };
 inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_columns);
 
 struct SideColumnInfo {
-    const char* name;    ///< in checkpoints, and where a scene gives the discs' first numbers
-    const char* shown;   ///< its name in recordings, tables and the fields of a trajectory
-    bool is_rate;        ///< stored per micro-step
-    bool is_of_dynamics; ///< effects decide who has it; else whoever is given first numbers
-    const char* needs;   ///< the message about discs that do not have it
+    const char* name;  ///< name in checkpoints, and in scenes that give initial values
+    const char* shown; ///< its name in recordings, tables and the fields of a trajectory
+    bool is_rate;      ///< a rate, which is stored per micro-step
+    /// The effects decide which runs have it; otherwise a run has it if initial values are given
+    bool is_of_dynamics;
+    const char* needs; ///< error message if initial values are given to discs without this column
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
     {{"spin", "angular_velocity", true, true,
@@ -69,7 +70,7 @@ struct SideColumnSet {
     friend bool operator==(const SideColumnSet&, const SideColumnSet&) = default;
 };
 
-/// Numbers along a list of discs that is kept elsewhere. An absent column has no numbers.
+/// Values for a list of discs that is stored elsewhere. An absent column is empty.
 using SideSpans = BySideColumn<std::span<const double>>;
 
 /// The columns that are present, each along the same list of discs.
@@ -85,7 +86,7 @@ public:
 
     const SideColumnSet& present() const { return present_; }
     bool has(SideColumn column) const { return present_.has(column); }
-    /// Without `values` all numbers are 0.
+    /// Adds a column. Without `values` all its numbers are 0.
     void add(SideColumn column, std::vector<double> values = {}) {
         present_.add(column);
         (*this)[column] = std::move(values);
@@ -108,7 +109,8 @@ public:
         for_each([&](SideColumn column) { (*this)[column].resize(n, 0); });
     }
 
-    /// Takes `places[i]` of `from`, which has these columns and perhaps others, to place i.
+    /// Copies for each i the numbers at `places[i]` of `from` to place i. `from` has these columns
+    /// and perhaps others.
     void gather(const SideColumns& from, std::span<const LocalIndex> places) {
         for_each([&](SideColumn column) {
             std::vector<double>& values = (*this)[column];
@@ -116,7 +118,8 @@ public:
             for (std::size_t i = 0; i < places.size(); ++i) values[i] = from[column][places[i]];
         });
     }
-    /// Copies what stands at place `source` of `from`, whose columns are among these.
+    /// Copies the numbers at place `source` of `from`, whose columns are among these, to place
+    /// `target`.
     void copy(std::size_t target, const SideColumns& from, std::size_t source) {
         from.for_each([&](SideColumn column) { (*this)[column][target] = from[column][source]; });
     }
@@ -130,7 +133,7 @@ private:
     std::array<std::vector<double>, n_side_columns> values_;
 };
 
-/// The columns that the dynamics' collisions change, without numbers yet.
+/// The columns that collisions change under these dynamics, still without numbers.
 template <class Dynamics> SideColumns side_columns_of(const Dynamics& dynamics) {
     SideColumns columns;
     if (dynamics.has_spin()) columns.add(SideColumn::spin);

@@ -14,7 +14,7 @@ namespace carrom {
 static_assert(std::endian::native == std::endian::little, "the hashed record is little-endian");
 
 StateHash hash_of(const DiscState& disc) {
-    // Adding +0 turns -0 into +0 and leaves every other number as it is.
+    // Adding +0 turns -0 into +0 and changes no other number.
     const std::array<std::uint64_t, 8> record = {
         disc.id,
         std::bit_cast<std::uint64_t>(disc.x + 0.0),
@@ -34,7 +34,7 @@ StateHash hash_of(std::span<const DiscState> discs) {
     return sum;
 }
 
-/// The column is the seed. Spins are column 0, and seed 0 is the same as no seed.
+/// The number of the column is the seed. Spins are column 0, and seed 0 equals no seed.
 StateHash hash_of(SideColumn column, DiscId id, double number) {
     const std::array<std::uint64_t, 2> record = {id, std::bit_cast<std::uint64_t>(number + 0.0)};
     const XXH128_hash_t hash = XXH3_128bits_withSeed(record.data(), sizeof record,

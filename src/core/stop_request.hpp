@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A request to stop, as a handler of signals notes it, and what all ranks throw who obey it.
+// A request to stop, as a signal handler records it, and the exception by which all ranks obey it.
 //
-// A run obeys between two steps. Work that takes too long for that ends itself: a
-// start, or a step that does not end within the patience. Ranks get signals at
-// different times, so they must agree before they throw.
+// A run obeys between two steps.  Work that takes too long for that ends itself: a start, or a step
+// that does not end within the patience. Ranks get signals at different times, so they must agree
+// before they throw.
 #pragma once
 
 #include <atomic>
@@ -15,26 +15,27 @@
 namespace carrom {
 
 namespace stop_request {
-extern std::atomic<std::int64_t> asked_at; ///< in nanoseconds of the steady clock; 0: never
+/// Time of the request in nanoseconds of the steady clock; 0: none
+extern std::atomic<std::int64_t> asked_at;
 bool has_patience_ended();
 } // namespace stop_request
 
-/// Notes a request; only the first one counts. Signal handlers may call it.
+/// Records a request; only the first one counts. Signal handlers may call it.
 void request_stop();
 
 inline bool is_stop_requested() {
     return stop_request::asked_at.load(std::memory_order_relaxed) != 0;
 }
 
-/// Whether the request has been there for longer than the patience, so that the step under way is
-/// to be given up. Costs one comparison as long as there is no request.
+/// Whether the request is older than the patience, so that the present step should be abandoned.
+/// Costs one comparison as long as there is no request.
 inline bool is_stop_overdue() { return is_stop_requested() && stop_request::has_patience_ended(); }
 
 /// How long a step may still take after a request; a second unless this is called.
 void set_stop_patience(double seconds);
 
-/// Thrown on every rank where a start or a step is given up because of a request. What was under
-/// way is in no consistent state then. Exit code 75.
+/// Thrown on every rank if a start or a step is abandoned because of a request. The simulation is
+/// then in no consistent state. Exit code 75.
 class StopRequested : public CollectiveError {
 public:
     explicit StopRequested(const std::string& text) : CollectiveError(text, ExitCode::stopped) {}

@@ -9,7 +9,7 @@ namespace carrom {
 
 class Stopwatch {
 public:
-    /// Seconds since the last call, or since it was made.
+    /// Returns the seconds since the last call, or since the stopwatch was made.
     double lap() {
         const auto now = Clock::now();
         return std::chrono::duration<double>(now - std::exchange(lap_start_, now)).count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many threads a number of discs keeps at work.
+// How many threads are worth using for a number of discs.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 
 namespace carrom {
 
-/// With fewer discs a thread works mostly on copies of discs of others, or only wakes and sleeps.
+/// With fewer discs a thread spends most of its time on copies of others' discs, or on waking and
+/// sleeping.
 inline constexpr std::uint64_t least_discs_per_thread = 16;
 
 /// At most `n_threads`, at least one.

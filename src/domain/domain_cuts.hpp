@@ -18,17 +18,17 @@ namespace carrom {
 /// Domains of equal area, `group_sizes[k]` of them in strip k.
 Domains equal_domains(const Box& box, Axis axis, const std::vector<int>& group_sizes);
 
-/// Weights of equal bins of [0, length].
+/// Sums of weights in equal bins of [0, length].
 class WeightBins {
 public:
-    /// How many bins are enough for so many parts of equal weight.
+    /// A sufficient number of bins to cut the weight into `n_parts` equal parts.
     static std::size_t n_for(int n_parts);
-    /// `weights` outlive this.
+    /// `weights` must outlive this.
     WeightBins(double length, std::span<std::uint64_t> weights)
         : length_(length), weights_(weights) {}
 
     void add(double place, std::uint64_t weight);
-    /// The cuts between as many parts as there are sizes, of weights by their sizes.
+    /// The cuts that divide the weight in proportion to `sizes`.
     std::vector<double> cuts(const std::vector<int>& part_sizes) const;
 
 private:

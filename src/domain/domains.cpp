@@ -10,13 +10,13 @@ namespace carrom {
 
 namespace {
 
-/// Groups must see less than this share of what ranks of whole strips do, and save a rank at least
-/// this many discs of its halo: about as many as take the time of the messages to six neighbours
-/// more.
+/// With groups, a rank must have less than this share of the discs that it would have with whole
+/// strips. It must also save at least this many discs of its halo, about as many as cost the time
+/// of messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 
-/// The area that ranks see divided by what they own, in the mean. At a wall they see nothing
-/// beyond.
+/// The area of a rank's domain and halo divided by that of its domain, on average. Halos do not
+/// extend beyond walls.
 double share_seen(const GroupNeeds& needs, int n_strips) {
     const double n_across = static_cast<double>(needs.n_ranks) / n_strips;
     const auto seen = [&](double length, double parts, bool is_periodic) {

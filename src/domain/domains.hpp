@@ -3,13 +3,13 @@
 // strip belongs to a group of ranks that cut it again, across the axis. A group of one owns its
 // whole strip. Pure arithmetic, no MPI.
 //
-// Few ranks have groups of one, because a whole strip has the fewest neighbours. A strip of many
-// ranks would be so narrow that most of what its rank sees is halo; a rectangle that is about as
-// wide as high has the least. Each strip has cuts of its own, so that all domains can have equal
-// work wherever the discs are.
+// Few ranks have groups of one, because a whole strip has the fewest neighbours. With many ranks
+// whole strips would be so narrow that most discs of a rank would be halo. A rectangle that is
+// about as wide as high has the smallest halo. Each strip has its own cuts, so that all domains can
+// have equal work in any distribution of discs.
 //
-// What strips.hpp says of lists holds here, too: all follow from numbers that every rank knows,
-// they are symmetric, and complete to the last bit.
+// As in strips.hpp, all lists follow from numbers that every rank knows. They are symmetric, and
+// complete to the last bit.
 #pragma once
 
 #include <utility>
@@ -37,12 +37,13 @@ struct Domain {
     }
 };
 
-/// The domains cover all places. Ranks of a group follow each other, and so do groups.
+/// The domains cover all positions. The ranks of a group have consecutive numbers, and groups are
+/// in the order of strips.
 class Domains {
 public:
-    /// One domain that holds everything.
+    /// One domain that covers everything.
     Domains() : Domains(Strips()) {}
-    /// Groups of one: each rank owns a whole strip.
+    /// Groups of one rank: each rank owns a whole strip.
     explicit Domains(Strips strips);
     /// `groups[k]` cuts strip k across. There is one for each strip.
     Domains(Strips strips, std::vector<Strips> groups);
@@ -88,22 +89,24 @@ private:
 std::vector<int> movers_between(const Domains& before, const Domains& after, int rank,
                                 double distance);
 
-/// What the choice of groups depends on. Lengths are in any unit.
+/// The arguments for the choice of groups. Lengths are in any unit.
 struct GroupNeeds {
     int n_ranks = 1;
     double n_discs = 0;           ///< of all ranks
-    double length = 1, width = 1; ///< of the box along the strips' axis, and across it
+    double length = 1, width = 1; ///< edges of the box along the strips' axis, and across it
     double halo = 0;              ///< depth of a rank's halo
-    bool is_periodic = false, is_periodic_across = false; ///< the box, in these directions
+    /// Whether the box is periodic in these directions
+    bool is_periodic = false, is_periodic_across = false;
 };
 
 /// How many ranks share each strip. They differ by at most one. Strips stay whole unless groups
 /// save enough of the halo, because domains have more neighbours than strips.
 std::vector<int> choose_groups(const GroupNeeds& needs);
-/// Groups of `n_across` ranks, or of one less.
+/// Sizes of groups that have `n_across` ranks, or one less.
 std::vector<int> groups_of(int n_ranks, int n_across);
 
-/// The shares of the strips below each cut, if strips have work by the sizes of their groups.
+/// For each cut the share of the work below it, if the work of strips is proportional to their
+/// groups' sizes.
 std::vector<double> shares_below_cuts(const std::vector<int>& group_sizes);
 
 } // namespace carrom

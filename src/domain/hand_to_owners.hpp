@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands discs to their ranks at the start of a run, in little memory.
+// Sends discs to their ranks at the start of a run, with little memory.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,16 @@
 
 namespace carrom {
 
-/// Moves each value to the rank `owner_of(place)`, which may read the value: it still stands in its
-/// place then. Values go in rounds, and what comes takes the places of what has left. With all at
-/// once, every rank would need the memory of its discs two or three times. **Collective.**
+/// Moves each value to the rank `owner_of(place)`, which may read the value, because it is still in
+/// its place. Values are sent in rounds, and arriving values take the places of departed ones. If
+/// all were sent at once, every rank would need two or three times the memory of its discs.
+/// **Collective.**
 template <class Values, class Owner>
 void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {
     using T = typename Values::value_type;
     constexpr std::size_t n_rounds = 32;
     const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
-    std::vector<T> waiting; // for a place: where more has come than left
+    std::vector<T> waiting; // values that still need a place, because more have arrived than left
     std::size_t n_kept = 0;
     for (std::size_t round = 0; round < n_rounds; ++round) {
         std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));

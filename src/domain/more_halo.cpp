@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans of halos, halos that grow for some ranks alone, and reports to the owners of their discs.
+// Plans of halos, halos that grow on some ranks only, and reports to the owners of halo discs.
 #include <algorithm>
 
 #include "core/errors.hpp"
@@ -17,7 +17,8 @@ TransferPlan StripDiscs::plan_of_halo(double time, const HaloDepth& depth) const
     return plan_halo(domains_, rank, own(), searched, time, depth, n_threads_);
 }
 
-/// Neighbours first say whether they want more. Only those exchange discs of which one wants some.
+/// Neighbours first report whether they need more. Only pairs of ranks of which one does exchange
+/// discs.
 void StripDiscs::fetch_more_halo(double time, double beyond, double reach, bool wants) {
     if (has_no_halo()) return;
     const std::vector<int> near = halo_partners(domains_, communicator_.rank(), reach, periods_);
@@ -55,7 +56,7 @@ void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
     for (const HaloPart& part : more_halo_) report_part(part.plan, part.offsets, of_halo, reported);
 }
 
-/// Reports those discs that have come with one part of the halo. **Collective.**
+/// Reports those discs that arrived with one part of the halo. **Collective.**
 void StripDiscs::report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
                              std::span<const LocalIndex> of_halo,
                              std::vector<LocalIndex>& reported) {

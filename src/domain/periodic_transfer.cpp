@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans for periodic boundaries, where domains are neighbours across the sides of the box too, and
+// Plans for periodic boundaries, where domains are also neighbours across the sides of the box, and
 // a rank is its own neighbour.
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@ namespace carrom {
 
 namespace {
 
-/// Lists of partners reach this much further than the distances, because images are rounded.
+/// Lists of partners extend this much further than the distances, because images are rounded.
 constexpr double margin = 1e-9;
 
-/// The domain, ending where the box does along axes that are periodic.
+/// The domain, limited to the box along periodic axes.
 Domain domain_in_box(const Domains& domains, int rank, const Periods& periods) {
     const auto cut = [](Strip& strip, double period) {
         if (period == 0) return;
@@ -27,14 +27,14 @@ Domain domain_in_box(const Domains& domains, int rank, const Periods& periods) {
     return domain;
 }
 
-/// Whether something in one strip can be within `distance` of something in the other one, displaced
-/// by n periods.
+/// Whether a position in one strip can be within `distance` of a position in the other one that is
+/// displaced by n periods.
 bool are_near(const Strip& a, const Strip& b, double distance, double shift) {
     return a.low - distance <= b.high + shift && a.high + distance >= b.low + shift;
 }
 
-/// Whether something in one strip can be within `distance` of something in the other one, or of an
-/// image of it; of the images beyond a side alone if `is_beyond`.
+/// Whether a position in one strip can be within `distance` of a position in the other one or of an
+/// image of it; if `is_beyond`, only of images beyond a side.
 bool are_near_images(const Strip& a, const Strip& b, double distance, double period,
                      bool is_beyond) {
     const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
@@ -43,24 +43,24 @@ bool are_near_images(const Strip& a, const Strip& b, double distance, double per
     return false;
 }
 
-/// Whether something in the domain of `rank_a` can be within the distances, along and across, of
-/// something in that of `rank_b` or of its images. Always asks in the same order, so that two ranks
-/// that ask for each other get the same answer.
+/// Whether a position in the domain of `rank_a` can be within the distances, along and across, of a
+/// position in the domain of `rank_b` or of its images. The order of the tests does not depend on
+/// which rank makes them, so both get the same result.
 bool are_near(const Domains& a, int rank_a, const Domains& b, int rank_b, double distance,
               double distance_across, const Periods& periods) {
     if (a.is_empty(rank_a) || b.is_empty(rank_b)) return false;
     const double period = periods.along(a.axis()),
                  period_across = periods.along(other_axis(a.axis()));
     const Domain from = domain_in_box(a, rank_a, periods), to = domain_in_box(b, rank_b, periods);
-    // Rows of boxes that slide may bring any place across the axis beside any other one.
+    // If rows of boxes slide, any position across the axis can be beside any other one.
     if (periods.are_moving() && are_near_images(from.along, to.along, distance, period, true))
         return true;
     return are_near_images(from.along, to.along, distance, period, false) &&
            are_near_images(from.across, to.across, distance_across, period_across, false);
 }
 
-/// The displacements by n periods that may bring `place` to within `reach` of low ..
-/// high. There may be a few too many.
+/// The displacements by n periods that may bring `place` within `reach` of low .. high. It may
+/// contain a few more.
 struct Shifts {
     int first = 0, last = 0;
 
@@ -68,7 +68,7 @@ struct Shifts {
         if (period == 0) return;
         if (place - low < (1 - margin) * period - reach &&
             high - place < (1 - margin) * period - reach)
-            return; // nearly always so along one axis
+            return; // nearly always the case along one axis
         const double lowest = low - reach - margin * period,
                      highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;
@@ -96,7 +96,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
                                      const Periods& periods, int n_threads) {
     TransferPlan plan;
     const Axis axis = domains.axis();
-    const auto distance_along = [&](Axis of) { // no place is further than once around
+    const auto distance_along = [&](Axis of) { // no position is more than a period away
         const double period = periods.along(of);
         return period == 0 ? farthest : std::min(farthest, period) + margin * period;
     };
@@ -117,7 +117,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
         const double along = periods.place_of(own[i], axis, time);
         const double across = domains.are_cut_across()
                                   ? periods.place_of(own[i], other_axis(axis), time)
-                                  : 0; // a whole strip holds any
+                                  : 0; // a whole strip contains any position
         if (mine.holds(along, across)) return;
         const int owner = domains.owner(along, across);
         if (owner == rank) return;
@@ -159,7 +159,7 @@ TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<cons
     plan.images.resize(plan.partners.size());
     std::vector<Domain> theirs;
     for (const int other : plan.partners) theirs.push_back(domain_in_box(domains, other, periods));
-    // Moving rows of boxes slide along x, so strips are cut along y then.
+    // Moving rows of boxes slide along x, so strips must be cut along y.
     ensure(axis == Axis::y || !periods.are_moving(), "strips are cut along the rows of boxes");
     const double slide = axis == Axis::y ? periods.offset_at(time) : 0;
     const auto is_far = [](const Strip& strip, double place, double distance) {

@@ -2,11 +2,11 @@
 // Moves the cuts between domains, so that all ranks have equal work. Strips are cut first, by the
 // weights along their axis. Then each strip is cut across by the weights in it.
 //
-// A rank's work has been counted, with all that its halo costs. It is shared out among the rank's
-// discs: each has the same part of what discs cost, and a part of what pairs cost by the number of
-// others in its cell. So a cut through a crowd finds its place, and what this guesses wrong is
-// counted, and put right, at the next inspection. Price: one pass over the own discs, or two, and
-// sums of some thousand numbers for each direction and strip.
+// A rank's work, including that of its halo, has been counted. It is divided among the rank's
+// discs: each gets the same part of the cost of discs, and a part of the cost of pairs in
+// proportion to the other discs in its cell. So a cut can pass through a cluster, and an error of
+// this estimate is counted and corrected at the next inspection. Price: one pass over the own
+// discs, or two, and sums of some thousand numbers for each direction and strip.
 #include <algorithm>
 
 #include "domain/domain_cuts.hpp"
@@ -24,7 +24,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
     const double n = static_cast<double>(std::max<std::size_t>(1, n_own_));
     const double of_discs = static_cast<double>(work.of_discs) / n,
                  of_pairs = static_cast<double>(work.of_pairs);
-    std::uint64_t n_pairs = 0; // each counted twice
+    std::uint64_t n_pairs = 0; // each pair counts twice
     const auto for_each_cell = [&](const auto& act) {
         const GridGeometry& geometry = grid_.geometry();
         for (int column = 0; column < geometry.n_columns; ++column)
@@ -41,7 +41,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
     }
     const double of_pair = of_pairs / static_cast<double>(n_pairs);
     for_each_cell([&](SlotRange cell) {
-        if (cell.begin == cell.end) return; // what would be the weight may be negative
+        if (cell.begin == cell.end) return; // avoids a negative number
         const double n_others = static_cast<double>(cell.end - cell.begin) - 1;
         const std::uint64_t weight = of_disc(of_discs, of_pair * n_others);
         for (std::uint32_t i = cell.begin; i < cell.end; ++i) visit(discs_[i], weight);
@@ -49,7 +49,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
 }
 
 void StripDiscs::rebalance(double time, double above, const RankWork& work) {
-    constexpr double units_of_disc = 0x1p20; // of a mean one
+    constexpr double units_of_disc = 0x1p20; // weight of a mean disc
     if (communicator_.size() == 1) return;
     struct Work {
         std::uint64_t of_all = 0;

@@ -14,13 +14,13 @@ namespace carrom {
 
 namespace {
 
-/// Moving rows of boxes slide along x. Strips are rows then, so that only the first
-/// and the last one have images that move.
+/// Moving rows of boxes slide along x. Strips are then rows, so that only the first and the last
+/// one have moving images.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
 
-/// The depth of halos in mean distances of discs becomes one in lengths.
+/// Converts the depth of halos from mean distances between discs to a length.
 std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks,
                              std::uint64_t n_discs, const GroupChoice& choice) {
     if (choice.ranks_across) return groups_of(n_ranks, std::min(*choice.ranks_across, n_ranks));
@@ -37,14 +37,15 @@ std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks
     return choose_groups(needs);
 }
 
-/// The first domains. They have equal areas, unless discs crowd so much that a rank would get far
-/// more of them than the mean: it would have to hold them all before the first cuts by work.
-/// `owner_in(domains, disc)` and `place_of(disc)` are those at the disc's own time. **Collective.**
+/// The first domains. They have equal areas, unless discs are so clustered that a rank would get
+/// far more than the mean, and would have to store all of them before the first cuts by work.
+/// `owner_in(domains, disc)` and `place_of(disc)` are at the disc's own time. **Collective.**
 template <class OwnerIn, class PlaceOf>
 Domains first_domains(const Communicator& communicator, const Box& box, const Domains& equal,
                       const std::vector<int>& group_sizes, std::span<const DiscState> discs,
                       const OwnerIn& owner_in, const PlaceOf& place_of) {
-    constexpr double most_crowded = 1.5; // what the fullest domain has, over the mean
+    // Limit of the number of discs in the fullest domain relative to the mean
+    constexpr double most_crowded = 1.5;
     std::vector<std::uint64_t> counts(static_cast<std::size_t>(communicator.size()), 0);
     for (const DiscState& disc : discs) ++counts[owner_in(equal, disc)];
     communicator.sum(counts);
@@ -97,7 +98,7 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, DiscSta
     n_own_ = discs_.size();
 }
 
-/// The disc's place in the box, along the strips' axis and across it.
+/// The disc's position in the box, along the strips' axis and across it.
 std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double time) const {
     DiscState in_box = disc;
     in_box.x = disc.x_at(time);
@@ -108,7 +109,7 @@ std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double
 
 void StripDiscs::set_departed_aside() {
     forget_halo();
-    // Not std::stable_partition: its buffer is aligned for less than a disc.
+    // Without std::stable_partition, because the alignment of its buffer is too small for discs.
     const auto has_departed = [](const DiscState& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
     columns_.for_each([&](SideColumn column) {
@@ -141,7 +142,7 @@ void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     redistributed_domains_ = domains_;
 }
 
-/// Sends the values of the discs that leave, and appends those of the discs that come.
+/// Sends the values of the discs that leave, and appends the values of arriving discs.
 template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Values& values) {
     Values arrived;
     transfer(exchange_, plan, values, arrived, n_threads_);
@@ -149,7 +150,7 @@ template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Va
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Discs far from the sides of the domain when they were sorted cannot have left it.
+/// Discs that were far from the sides of the domain when they were sorted cannot have left it.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
@@ -195,9 +196,9 @@ void StripDiscs::drop_grid() {
     is_sorted_ = false;
 }
 
-/// A disc's companion stands for the same image, wherever the disc's own state takes
-/// it. Discs far from all sides at the time of sorting still have the right image.
-/// This holds because no frame may jump along a periodic axis (scene/rules.cpp).
+/// A disc's companion gets the same image, although its position may differ. Discs far from all
+/// sides at the time of sorting still have the right image. This holds because no frame may jump
+/// along a periodic axis (scene/rules.cpp).
 void StripDiscs::set_home_images(double time, double farthest, DiscStates* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
@@ -211,7 +212,8 @@ void StripDiscs::set_home_images(double time, double farthest, DiscStates* compa
             DiscState& disc = discs_[i];
             const Image image = image_of(disc);
             const bool is_at_home = inside.holds(periods_.x_of(disc, time),
-                                                 periods_.y_of(disc, time)); // for nearly all discs
+                                                 // The same for nearly all discs
+                                                 periods_.y_of(disc, time));
             if (is_at_home && !companion) continue;
             const Image home = is_at_home ? image : periods_.home(disc, time);
             if (!is_at_home) set_image(disc, home);
@@ -263,7 +265,8 @@ void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     for (std::size_t& offset : halo_offsets_) offset += n_own_;
-    is_shown_.reserve(discs_.capacity()); // so that it grows as rarely as they do
+    // With the same capacity as the discs, so that it grows as rarely
+    is_shown_.reserve(discs_.capacity());
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 1;
@@ -307,7 +310,7 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
     });
 }
 
-/// Lists by partner where in its halo the own discs among `changed` are.
+/// Lists for each partner where the own discs among `changed` are in its halo.
 TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const {
     TransferPlan plan;
     plan.partners = halo_plan_.partners;
@@ -326,8 +329,8 @@ TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const
     return plan;
 }
 
-/// Takes over the states that a partner has sent, whose discs begin at `offset` in the halo. Writes
-/// their places to `updated`.
+/// Copies the states that a partner has sent, whose discs begin at `offset` in the halo. Writes
+/// their indices to `updated`.
 void StripDiscs::take_updates(std::span<const Update> items, std::size_t offset,
                               std::span<LocalIndex> updated) {
 #pragma omp parallel for num_threads(n_threads_)                                                   \
@@ -358,7 +361,7 @@ bool StripDiscs::is_valid(double time) const {
                     redistributed_domains_.owner(along, across) == communicator_.rank();
     }
     communicator_.sum(sums);
-    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, like the expected sums
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as for the expected sums
     for (std::uint64_t id = 0; id < n_with_departed_; ++id) {
         id_sum += id;
         square_sum += id * id;

@@ -28,12 +28,13 @@ namespace carrom {
 
 /// How many ranks share a strip. It affects the cost only.
 struct GroupChoice {
-    double halo_spacings = 0;        ///< the usual depth of halos, in mean distances of discs
-    std::optional<int> ranks_across; ///< unset: by that depth, the box and the number of ranks
+    double halo_spacings = 0; ///< usual depth of halos, in mean distances between discs
+    /// If unset, it is chosen from the halo's depth, the box and the number of ranks
+    std::optional<int> ranks_across;
 };
 
-/// What a rank has done, in any unit that all ranks share. Work for pairs of near discs, such as
-/// collisions, is counted apart, because it grows with the density around a disc.
+/// The work of a rank, in any unit that all ranks share. Work for pairs of near discs, such as
+/// collisions, is counted separately, because it grows with the density around a disc.
 struct RankWork {
     std::uint64_t of_discs = 0, of_pairs = 0;
 
@@ -73,12 +74,12 @@ public:
     void fetch_more_halo(double time, double beyond, double reach, bool wants);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their
-    /// halo. Takes over those of the own halo, and appends their places to `updates`.
-    /// **Collective.**
+    /// halo. Updates the own halo in the same way, and appends the places of its updated discs to
+    /// `updates`. **Collective.**
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 
-    /// `values` run along the own discs. Sends those of discs in other ranks' halos,
-    /// and appends those of the own halo's discs. **Collective.**
+    /// `values` has one element for each own disc. Sends the values of discs in other ranks' halos,
+    /// and appends the values of this halo's discs. **Collective.**
     template <class Values> void show(Values& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
@@ -87,13 +88,13 @@ public:
             transfer(exchange_, part.plan, values, values, n_threads_);
     }
 
-    /// Reports discs of the halo to their owners. Appends to `reported` the own discs that others
-    /// have reported. **Collective.**
+    /// Sends discs of the halo to their owners. Appends the own discs that other ranks have sent to
+    /// `reported`. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
-    /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest one
-    /// exceeds the mean by a factor of more than `above`. Discs count at their places at `time`,
-    /// and follow when they migrate next. **Collective.**
+    /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest
+    /// share exceeds the mean by more than the factor `above`. Discs count where they are at
+    /// `time`; the next migration moves them.  **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -104,7 +105,7 @@ public:
     DiscStates& all() { return discs_; }
     std::span<const DiscState> own() const { return std::span(discs_).first(n_own_); }
     std::span<DiscState> own() { return std::span(discs_).first(n_own_); }
-    /// Along all discs, own and halo.
+    /// Numbers of all discs, own and halo.
     SideColumns& columns() { return columns_; }
     const SideColumns& columns() const { return columns_; }
     SideSpans own_columns() const {
@@ -113,7 +114,7 @@ public:
         return own;
     }
     std::size_t n_own() const { return n_own_; }
-    std::uint64_t n_total() const { return n_total_; } ///< over all ranks
+    std::uint64_t n_total() const { return n_total_; } ///< number of discs on all ranks
     const Domains& domains() const { return domains_; }
     /// The other ranks that had own discs in their halo when it was fetched.
     std::span<const int> neighbours() const {
@@ -121,26 +122,28 @@ public:
     }
 
     const Periods& periods() const { return periods_; }
-    /// After a sync, because images that move are elsewhere then.
+    /// Call it after a sync, because moving images are then elsewhere.
     void set_periods(const Periods& periods) { periods_ = periods; }
     /// Whether no rank has a halo, because there are no neighbours.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
     /// Own discs have no images until the next migration. If all of them are in the box, as after a
-    /// sync, only those near its sides when they were sorted can need one then.
+    /// sync, only discs that were near its sides when they were sorted can need an image then.
     void forget_images(bool are_in_box = false);
 
-    /// The places that a rank with a halo of `reach` sees, in a box of this extent. It
-    /// matters along axes that are not periodic.
+    /// The positions that a rank with a halo of `reach` uses, in a box of this extent. The box
+    /// limits them only along axes that are not periodic.
     Extent extent_seen(const Extent& box, double reach) const;
 
-    /// Takes discs that have left the box out of the own ones, for good, and forgets the halo.
+    /// Removes discs that have left the box from the own ones for good, and drops the halo.
     /// **Collective.**
     void set_departed_aside();
     std::span<const DiscState> departed() const { return departed_; }
     const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
-    std::uint64_t n_with_departed() const { return n_with_departed_; }        ///< over all ranks
+    /// Number of discs on all ranks, departed ones included.
+    std::uint64_t n_with_departed() const { return n_with_departed_; }
+    ///< included
 
-    /// Removes the discs of the halo.
+    /// Drops the discs of the halo.
     void forget_halo() {
         more_halo_.clear();
         discs_.resize(n_own_);
@@ -152,7 +155,7 @@ public:
     bool is_valid(double time) const;
 
 private:
-    /// Discs that have come to the halo later.
+    /// Discs that were added to the halo later.
     struct HaloPart {
         TransferPlan plan;
         std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
@@ -169,7 +172,7 @@ private:
                      std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(DiscStates* states);
 
-    /// A disc's new state, and its place in the neighbour's halo.
+    /// New state of a disc, and its place in the neighbour's halo.
     struct Update {
         DiscState disc;
         std::uint64_t place;
@@ -182,24 +185,25 @@ private:
     int n_threads_;
     Box box_;
     Periods periods_;
-    DiscStates discs_;    ///< own, then halo
-    SideColumns columns_; ///< along `discs_`
+    DiscStates discs_;    ///< own discs, then the halo
+    SideColumns columns_; ///< numbers of these discs
     std::size_t n_own_ = 0;
     std::uint64_t n_total_, n_with_departed_;
-    DiscStates departed_;          ///< discs at the places where they have left
-    SideColumns departed_columns_; ///< along `departed_`
-    std::vector<int> group_sizes_; ///< by strip
+    DiscStates departed_;          ///< departed discs, at the positions where they left
+    SideColumns departed_columns_; ///< numbers of the departed discs
+    std::vector<int> group_sizes_; ///< number of ranks in each strip
     Domains domains_,
-        redistributed_domains_; ///< the cuts now, and those of the last migration
+        redistributed_domains_; ///< the present cuts, and the cuts at the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
     bool is_sorted_ = false;  ///< the grid has the own discs' places
-    bool has_images_ = false; ///< own discs had the images in the box when they were sorted
+    bool has_images_ = false; ///< own discs had their images in the box when they were sorted
     TransferPlan halo_plan_;
-    std::vector<int> other_partners_;       ///< in a periodic box, where a rank is its own partner
+    /// Neighbours without this rank; in a periodic box a rank is also a neighbour of itself
+    std::vector<int> other_partners_;
     std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
     std::vector<HaloPart> more_halo_;
-    std::vector<std::uint8_t> is_shown_; ///< by own disc: a partner has it in its halo
+    std::vector<std::uint8_t> is_shown_; ///< whether a neighbour has the own disc in its halo
 };
 
 } // namespace carrom

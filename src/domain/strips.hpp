@@ -2,10 +2,10 @@
 // An axis, by default x, cut into half-open slabs, and which owners of slabs may therefore exchange
 // discs. Domains (domains.hpp) are strips in both directions. Pure arithmetic, no MPI.
 //
-// All lists follow from numbers that every rank knows, so both partners of an exchange
-// know of it without a message. Lists are symmetric: a lists b if and only if b lists
-// a. They are complete to the last bit if senders pick receivers with `meets(x -
-// reach, x + reach)` or `owner(x)`, because these comparisons round the same way.
+// All lists follow from numbers that every rank knows, so both partners of an exchange compute the
+// same lists without a message. Lists are symmetric: a lists b if and only if b lists a. They are
+// complete to the last bit if senders pick receivers with `meets(x - reach, x + reach)` or
+// `owner(x)`, because these comparisons round the same way.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// [low, high)
+/// the half-open interval [low, high)
 struct Strip {
     double low = 0, high = 0;
 
@@ -31,10 +31,10 @@ struct Strip {
 /// ends at +infinity. Equal cuts make empty strips; those own nothing and have no neighbours.
 class Strips {
 public:
-    /// One strip that holds everything.
+    /// One strip that covers everything.
     Strips() = default;
 
-    /// `cuts` ascending, finite, one fewer than strips.
+    /// `cuts`: ascending and finite, one fewer than strips.
     explicit Strips(std::vector<double> cuts, Axis axis = Axis::x);
 
     Axis axis() const { return axis_; }
@@ -71,8 +71,8 @@ bool can_move(const Strip& before, const Strip& after, double distance);
 /// Whether a disc in one of the strips can lie within `reach` >= 0 of the other. Neither is empty.
 bool are_within(const Strip& a, const Strip& b, double reach);
 
-/// The cuts below which the shares `below` of the weight lie, which ascend from 0 to 1. `weights`
-/// belong to equal bins of [0, length], and are taken as spread evenly inside a bin. The cuts
+/// The cuts below which the shares `below`, ascending from 0 to 1, of the weight lie. `weights`
+/// belong to equal bins of [0, length], and are assumed to be spread evenly inside a bin. The cuts
 /// ascend, lie within the box, and are a function of the arguments alone.
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   std::span<const double> below);

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// Finds a partner's place in the plan; a plan has few.
+/// Finds a partner's index in the plan, which has few partners.
 class PartnerPlaces {
 public:
     explicit PartnerPlaces(const std::vector<int>& partners) {

@@ -24,11 +24,11 @@ struct PlaceRange {
     std::size_t begin = 0, end = 0;
 };
 
-/// Which discs leave, by partner.
+/// The discs that leave, in one list for each partner.
 struct LeavingDiscs {
-    std::vector<std::vector<LocalIndex>> leaving; ///< ascending
-    std::vector<std::vector<Image>>
-        images; ///< along `leaving`: the images that go there; only for halos of periodic boxes
+    std::vector<std::vector<LocalIndex>> leaving; ///< ascending places
+    std::vector<std::vector<Image>> images; ///< for each entry of `leaving` the image that is sent;
+                                            ///< only for halos of periodic boxes
 
     std::size_t n_sent() const {
         std::size_t n = 0;
@@ -38,35 +38,35 @@ struct LeavingDiscs {
 };
 
 struct TransferPlan : LeavingDiscs {
-    std::vector<int> partners; ///< ranks, each of them once
+    std::vector<int> partners; ///< each rank is listed once
 };
 
 /// The discs whose place at `time` lies in another rank's domain. They were in this rank's domain
-/// of `before`, or at most `farthest` away along each axis. `searched` are ascending ranges of own
-/// discs that hold all discs outside of the domain.
+/// in `before`, or at most `farthest` outside it along each axis. `searched` are ascending ranges
+/// of own discs that contain all discs outside of the domain.
 TransferPlan plan_migration(const Domains& before, const Domains& domains, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest, int n_threads);
 
-/// A halo holds the discs within `reach` of a domain, along each axis, but for those within
-/// `beyond` of it; it leaves out none if that is negative.
+/// A halo holds the discs within `reach` of a domain along each axis, except those within `beyond`
+/// of it. A negative `beyond` excludes none.
 struct HaloDepth {
     double reach = 0, beyond = -1;
 };
 
 /// The discs for the halos of other ranks at `time`. Empty domains get none. `searched` are
-/// ascending ranges of own discs that hold all discs not further than the reach inside the domain.
+/// ascending ranges of own discs that contain all discs within the reach of the domain's sides.
 TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                        std::span<const PlaceRange> searched, double time, const HaloDepth& depth,
                        int n_threads);
 
-/// Plans by the places of the discs' images in a box with periodic sides. After a
-/// migration these are the images in the box. In a halo a disc also goes to its own
-/// rank, as other images, and may go to a rank several times.
+/// Makes a plan from the positions of the discs' images in a box with periodic sides. After a
+/// migration these are the images in the box. In a halo a disc also goes to its own rank, as other
+/// images, and may go to a rank several times.
 TransferPlan plan_periodic_migration(const Domains& before, const Domains& domains, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods, int n_threads);
-/// `searched` are ascending ranges of own discs that hold all discs outside of `interior`.
+/// `searched` are ascending ranges of own discs that contain all discs outside of `interior`.
 TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> searched, double time,
                                 const HaloDepth& depth, const Periods& periods, int n_threads);
@@ -74,13 +74,14 @@ TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<cons
 std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
                                const Periods& periods);
 
-/// The places in the rank's domain that are further than `reach` from its sides, where it ends, or
-/// the box does and is periodic.
+/// The part of the rank's domain that is further than `reach` from its sides. Sides of the box
+/// count only if they are periodic.
 Inside interior(const Domains& domains, int rank, double reach, const Periods& periods);
 
-/// Sends the values that `plan` names of an array along the own discs, and appends those that come
-/// to `arrived`, which may be the same array. Returns where each partner's values begin in what has
-/// come, and their number. For discs, numbers and hashes. **Collective.**
+/// Sends those values of an array along the own discs that `plan` names, and appends the values
+/// that arrive to `arrived`, which may be the same array. Returns where each partner's values begin
+/// among the arrived ones, and their number at the end. The values are discs, numbers or hashes.
+/// **Collective.**
 template <class Values>
 std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
                                   const Values& values, Values& arrived, int n_threads);
@@ -90,7 +91,7 @@ std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const Tran
                                          const DiscStates& values, DiscStates& arrived,
                                          int n_threads);
 
-/// Appends the images that a rank without others sends to itself.
+/// Appends the images that a single rank sends to itself.
 void append_images(const TransferPlan& plan, DiscStates& values, int n_threads);
 
 /// Removes the discs that have left, and fills the gaps from the end.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planning and packing by all threads of a rank, for the sources of this folder. The other threads
-// would wait for one that plans alone, once or twice a window.
+// Planning and packing by all threads of a rank, for the sources of this folder. Otherwise the
+// other threads would wait once or twice a window while one thread plans.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace carrom {
 
-/// With fewer discs, threads cost more than they save. To plan for one takes several times as long
-/// as to pack it.
+/// With fewer discs, threads cost more than they save. Planning a disc takes several times as long
+/// as packing it.
 inline constexpr std::size_t least_for_threads = 4096, least_planned_on_threads = 512;
 
-/// Calls visit(place) for the places first .. last - 1 of those that the ranges hold together.
+/// Calls visit(place) for the places first .. last - 1, counted over all ranges together.
 template <class Visit>
 void visit_places(std::span<const PlaceRange> ranges, std::size_t first, std::size_t last,
                   const Visit& visit) {
-    std::size_t n_before = 0; // in earlier ranges
+    std::size_t n_before = 0; // number of places in earlier ranges
     for (const PlaceRange range : ranges) {
         const std::size_t end = n_before + (range.end - range.begin);
         for (std::size_t k = std::max(first, n_before); k < std::min(last, end); ++k)
@@ -47,7 +47,8 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
     std::vector<LeavingDiscs> parts(n_parts);
 #pragma omp parallel for num_threads(n_threads) schedule(static, 1)
     for (std::size_t k = 0; k < n_parts; ++k) {
-        LeavingDiscs part = plan; // empty lists; not in `parts`, where they would share cache lines
+        // A copy with empty lists; lists in `parts` itself would share cache lines
+        LeavingDiscs part = plan;
         visit_places(searched, share(n_searched, k, n_parts), share(n_searched, k + 1, n_parts),
                      [&](LocalIndex place) { visit(place, part); });
         parts[k] = std::move(part);
@@ -62,7 +63,7 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
     }
 }
 
-/// As `transfer`, but sends pack(value, k, i) for the i-th disc that goes to partner k.
+/// Like `transfer`, but sends pack(value, k, i) for the i-th disc that goes to partner k.
 template <class Values, class Pack>
 std::vector<std::size_t> transfer_packed(NeighbourExchange& exchange, const TransferPlan& plan,
                                          const Values& values, Values& arrived, int n_threads,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All dynamics that kernels and engines are compiled for. engine/dynamics_of_scene.hpp
-// chooses one of them. Each costs some seconds of compile time, so questions that are
-// not asked for each pair are answered at run time.
+// All dynamics that kernels and engines are compiled for. engine/dynamics_of_scene.hpp chooses one
+// of them. Each costs some seconds of compile time, so choices that are not made for each pair are
+// made at run time.
 #pragma once
 
 #include "dynamics/dynamics.hpp"
@@ -21,12 +21,12 @@ using WalledDynamics = Dynamics<WalledSpace, EqualBodies>;
 using WalledMixedDynamics = Dynamics<WalledSpace, SpeciesBodies>;
 using PeriodicDynamics = Dynamics<PeriodicSpace, EqualBodies>;
 using PeriodicMixedDynamics = Dynamics<PeriodicSpace, SpeciesBodies>;
-/// One species or several, between walls, too: a box without periodic sides has no images.
+/// For one species or several. The box may have walls only, and then no images.
 using GrowingDynamics = Dynamics<PeriodicSpace, GrowingBodies>;
 /// One species or several.
 using ShearedDynamics = Dynamics<ShearedSpace, SpeciesBodies>;
 
-// Calls make(dynamics) for each of them.
+// Calls make(dynamics) for each of these dynamics.
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(WalledDynamics) make(WalledMixedDynamics) make(PeriodicDynamics)                      \

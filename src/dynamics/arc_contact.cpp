@@ -14,7 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// When a flight gets farther than `reach` from the centre, and has not passed `wall` yet.
+/// The time at which a flight gets further than `reach` from the centre, if it has not passed
+/// `wall` yet.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;
@@ -23,13 +24,13 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     const double speed = std::sqrt(a), most = speed * reach,
                  x = std::fabs(cross(f.dx, f.dy, f.wx, f.wy));
     const double square = (most - x) * (most + x);
-    // A flight along the wall that rounding has put outside of it all the way.
+    // A flight along the wall that is completely outside of it by rounding.
     if (!(square > 0)) return b < 0 && x < speed * wall ? -b / a : never;
     const double root = std::sqrt(square);
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
 }
 
-/// The times at which the distance stops falling or rising, ascending.
+/// The times, ascending, at which the distance has its extrema.
 struct Turns {
     std::array<double, 3> times{};
     std::size_t n = 0;
@@ -43,7 +44,7 @@ Turns turns_of(const Parabola& flight) {
     const auto [first, second] = flight.bends();
     for (const double bend : {first, second, never}) {
         if (!(bend > start)) continue;
-        if (bend == never && !falls) break; // it grows ever faster
+        if (bend == never && !falls) break; // the distance grows ever faster
         const double end = bend == never ? flight.late(start) : bend;
         const bool falls_at_end = bend != never && flight.rate(end).value < 0;
         if (falls != falls_at_end) {
@@ -64,7 +65,7 @@ double contact_while_falling(Parabola flight, double outer, double wall, double 
     return root_between(begin, end, false, [&flight](double s) { return flight.gap(s); });
 }
 
-/// The same while the distance rises; `end` may be `never`.
+/// The same while the distance grows; `end` may be `never`.
 double contact_while_rising(Parabola flight, double inner, double wall, double begin, double end) {
     flight.reach = inner;
     if (!(inner > 0)) return never;
@@ -83,7 +84,7 @@ double arc_contact(const ArcFlight& flight, double radius, double arc_radius, co
         return span.holds(x, y, std::sqrt(x * x + y * y));
     };
     const auto [dx, dy, wx, wy] = flight;
-    // A centre inside of the arc overlaps its outer face by more than a radius.
+    // A centre inside the arc overlaps its outer face by more than a radius.
     const double in = contact_delay(-dx, -dy, -wx, -wy, arc_radius + radius, radius);
     if (in >= 0 && is_there(in)) return in;
     const double out = way_out(flight, arc_radius - radius, arc_radius);

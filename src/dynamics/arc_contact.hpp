@@ -4,8 +4,8 @@
 // the inner face where it gets farther than R - r, if the arc is in that direction. The ends of an
 // arc are points, which are bodies of their own (obstacles.hpp).
 //
-// On a straight flight both are roots of one quadratic, without differences of like numbers. Under
-// gravity the distance is the root of a quartic, and is monotone in up to four pieces of time
+// On a straight flight both are roots of one quadratic, without subtracting nearly equal numbers.
+// Under gravity the distance is the root of a quartic, and is monotone in up to four pieces of time
 // (falling_contact.hpp). Price: some three square roots, or some 20 divisions a root under gravity.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace carrom {
 /// The directions from an arc's centre in which the arc is.
 struct ArcSpan {
     double ux = 1, uy = 0;    ///< the direction of its middle
-    double least_cosine = -2; ///< of the angle from there; below -1 for a whole circle
+    double least_cosine = -2; ///< cosine of half the angle of the arc; below -1 for a whole circle
 
     bool holds(double x, double y, double distance) const {
         return ux * x + uy * y >= least_cosine * distance;
@@ -27,10 +27,10 @@ struct ArcFlight {
 };
 
 /// The first time s >= 0 at which a disc of `radius` touches either face of the arc of `arc_radius`
-/// and comes nearer to it; infinite if there is none. A disc that rounding has left too near counts
-/// from where it comes nearer.
+/// and comes nearer to it; infinite if there is none. If rounding has left the disc too near, the
+/// contact is when it next comes nearer.
 double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span);
-/// The same under gravity, which must not be zero.
+/// As arc_contact, under gravity, which must not be zero.
 double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
                            double arc_radius, const ArcSpan& span);
 

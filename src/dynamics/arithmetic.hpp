@@ -21,7 +21,8 @@ class StableArithmetic {
 public:
     using Real = double;
     using State = const DiscState&;
-    static constexpr bool is_for_study = false; // states are rounded, contacts missed
+    // True if states are rounded and contacts may be missed
+    static constexpr bool is_for_study = false;
     static constexpr double cascade_interval = 0, time_rounding = 0x1p-50;
 
     StableArithmetic() = default;
@@ -29,14 +30,14 @@ public:
 
     static Box rounded(const Box& box) { return box; }
     static constexpr double rounded(double number) { return number; }
-    /// Rounding makes no deeper overlap than this.
+    /// Rounding makes no overlap deeper than this.
     static double tolerance(const Box& box, double diameter) {
         return std::max(1e-12 * diameter, 16 * 0x1p-52 * box.longest());
     }
-    /// The largest gap between discs in a contact, and the rounding of places.
+    /// The largest gap between discs in a contact, caused by the rounding of positions.
     static constexpr double slack() { return 0; }
     static constexpr double place_rounding() { return 0; }
-    /// Overlapping discs collide if they approach.
+    /// Overlapping discs collide if they approach each other.
     static constexpr bool parts_overlaps() { return true; }
 
     CARROM_DEVICE static void advance(DiscState& disc, double time) {

@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// A disc as sides of the box see it at a time.
+/// A disc as a side of the box needs it, at a given time.
 struct Body {
     double radius = 0, mass = 1;
     double growth = 0; ///< how fast the surface moves out
@@ -37,20 +37,25 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                  requires(B changing, const B bodies, const DiscState& p, std::int64_t n,
                           double time, const Encounter<double>& met, StableArithmetic by,
                           SpeciesView species) {
-                     { B::have_species } -> std::convertible_to<bool>; // radii and masses differ
+                     {
+                         B::have_species
+                     } -> std::convertible_to<bool>; // radii and masses may differ
                      { B::grow } -> std::convertible_to<bool>;
-                     // Thousands of collisions of a disc within so many micro-steps do not end.
+                     // If discs collide thousands of times within this many micro-steps, the run
+                     // ends as a collision cascade.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n);   // times now count from micro-step n
-                     changing.look_up_in(species); // where radii and masses are
-                     { bodies.largest() } -> std::same_as<double>; // radius, before it has grown
+                     changing.begin_interval(n);   // from now on times count from micro-step n
+                     changing.look_up_in(species); // uses the radii and masses of this table
+                     {
+                         bodies.largest()
+                     } -> std::same_as<double>; // the largest radius at the start
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;
-                     // Radii have grown by this factor.
+                     // the factor by which radii have grown
                      { bodies.growth_at(time) } -> std::convertible_to<double>;
-                     // The delay from the time on until discs touch (pair_contact.hpp).
+                     // time from `time` until the discs touch (pair_contact.hpp)
                      { bodies.delay(by, p, p, met, time, time) } -> std::same_as<double>;
-                     // The encounter of the surfaces of discs that touch.
+                     // velocity of the touching surfaces relative to each other
                      { bodies.surfaces(met, time) } -> std::same_as<Encounter<double>>;
                  };
 
@@ -91,7 +96,7 @@ public:
     static constexpr bool have_species = true, grow = false;
     static constexpr double cascade_interval = 0x1p-40;
 
-    /// `radius` is the largest one.
+    /// `radius` is the largest radius of all species.
     SpeciesBodies(double radius, const Effects& /*effects*/, SpeciesView species)
         : radius_(radius), species_(species) {}
 
@@ -106,7 +111,7 @@ public:
         return {it.radius, it.mass, 0};
     }
     CARROM_DEVICE static constexpr double growth_at(double /*time*/) { return 1; }
-    /// Sums of two numbers are the same in any order.
+    /// The sum of two radii does not depend on their order.
     [[gnu::always_inline]] CARROM_DEVICE double delay(const StableArithmetic& arithmetic,
                                                       const DiscState& p, const DiscState& q,
                                                       const Encounter<double>& met, double /*time*/,
@@ -129,14 +134,15 @@ public:
     /// before it takes hours.
     static constexpr double cascade_interval = 0x1p-10;
 
-    /// `effects` per micro-step.
+    /// `effects` have times in micro-steps.
     GrowingBodies(double radius, const Effects& effects, SpeciesView species)
         : radius_(radius), rate_(effects.growth), species_(species) {}
 
     CARROM_DEVICE void begin_interval(std::int64_t n) {
         at_sync_ = size_ * (1 + rate_ * static_cast<double>(n));
     }
-    /// From now on radii are the scene's times `size`; without a rate.
+    /// From now on all radii are the scene's times `size`. Only for discs that do not grow at a
+    /// rate.
     void resize(double size) { at_sync_ = size_ = size; }
     void look_up_in(SpeciesView species) { species_ = species; }
     CARROM_DEVICE double largest() const { return radius_; }
@@ -167,7 +173,7 @@ private:
     double radius_, rate_;
     SpeciesView species_;
     double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
-    double size_ = 1;    ///< the part of it that an effect has given
+    double size_ = 1;    ///< the part of `at_sync_` that comes from an effect
 };
 
 } // namespace carrom

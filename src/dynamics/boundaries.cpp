@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// An eighth of a period at most, in which the wall's pull changes little.
+/// At most an eighth of a period, during which the wall's acceleration changes little.
 double rest_time_at(const Boundary& side, const ContactGuard& guard, double gravity, double sway,
                     double period, double radius) {
     if (sway != 0)
@@ -69,15 +69,15 @@ Extent Boundaries::extent_of_lines(double time) const {
 
 Extent Boundaries::walls_between(double begin, double end) const {
     const Extent first = extent_of_lines(begin), last = extent_of_lines(end);
-    // A chord is at most an eighth of (end - begin)^2 times the largest acceleration,
-    // that at the end, away from its curve.
+    // A curve deviates from its chord by at most an eighth of (end - begin)^2 times the largest
+    // acceleration, which is the one at the end.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
     // A disc departs where its centre is a radius beyond an open side. So bounds for discs of every
-    // radius begin at the side itself, two of the largest radii inside that disc's line. A disc
-    // that an oscillating wall hits is at most as fast as the wall, and gets no further than this
-    // takes it from the wall's highest place.
-    // Where the pull changes, a wall that moves in may become faster meanwhile. Then a disc that it
-    // hits is at most as far as a constant pull of the largest size takes the wall.
+    // radius begin at the side itself, which is two of the largest radii inside the line where the
+    // largest disc departs. After a collision with an oscillating wall a disc is at most as fast as
+    // the wall, which limits its distance from the wall's highest position. If gravity changes, a
+    // wall that moves in may accelerate. Then the distance of a disc that it hits is at most the
+    // path of a wall under the largest constant acceleration.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
         const double pull = sways_along(side) ? 8 * largest_pull_at(side)
@@ -85,9 +85,9 @@ Extent Boundaries::walls_between(double begin, double end) const {
         return pull * eighth + (is_open(side) ? 2 * radius_ : 0) +
                (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
-    // A wall that moves in, and from which all discs fall away, may have hit discs
-    // that are far from it at the end. They are no further than its first velocity
-    // would have taken it, because discs are slower than the wall when it hits them.
+    // A wall that moves in, and from which all discs fall away, may have hit discs that are far
+    // from it at the end. Their distance is at most the one that the wall would travel with its
+    // first velocity, because discs are slower than the wall before the collision.
     const auto led = [&](std::size_t side) { return wall_velocity(side, begin) * (end - begin); };
     return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0),
             std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
@@ -95,8 +95,8 @@ Extent Boundaries::walls_between(double begin, double end) const {
             std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
 }
 
-/// With drag a frame and a clock that begin at `time` describe the same flight: F(s +
-/// d) - F(s) - F'(s) d = F(d / (1 - c s)).
+/// With drag a frame and a clock that begin at `time` describe the same flight, because F(s + d) -
+/// F(s) - F'(s) d = F(d / (1 - c s)).
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (drag_ == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -106,7 +106,7 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
 
 double Boundaries::delay_to(const DiscState& disc, std::size_t side, const Body& body) const {
     const Approach line = approach(disc, side, body);
-    if (sways_along(side)) [[unlikely]] // no side oscillates then
+    if (sways_along(side)) [[unlikely]] // no side oscillates in this case
         return fall_.sway().contact_delay(side / 2, sign_of(side), line.distance, line.rate,
                                           line.pull, disc.tau);
     if (!oscillations_[side].is_any()) [[likely]]
@@ -124,8 +124,8 @@ Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis, const 
     return {disc.tau + to_high, low + 1};
 }
 
-/// Takes a straight flight and a pull towards the wall only. A pull away from it is
-/// ignored, to be on the safe side.
+/// Assumes a straight flight, and an acceleration only if it is towards the wall. Ignoring one away
+/// from the wall is safe.
 bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
                           const Body& body) const {
     if (disc.has_departed()) return false;
@@ -134,7 +134,8 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_any();
-        if (oscillates) [[unlikely]] { // from the wall's highest place, which may come at once
+        // From the wall's highest position, where the wall may be soon
+        if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);
         }
@@ -174,8 +175,8 @@ void Boundaries::reverse(DiscState& disc, Axis axis, const Body& body, double* s
     rebound(disc, side, never, 0, body, spin);
 }
 
-/// The acceleration that presses a disc at rest against the side. Where it changes, the larger one
-/// of now and of the end of a contact.
+/// The acceleration that presses a disc at rest against the side. If it changes, the larger of its
+/// values now and at the end of a contact.
 double Boundaries::pressure_at(std::size_t side, double time) const {
     const double sign = sign_of(side), steady = -sign * pull_at(side);
     if (!sways_along(side)) [[likely]]
@@ -194,14 +195,15 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
     const double sign = sign_of(side),
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     const auto& [radius, mass, growth] = body;
-    // Like a bounce at a wall that comes in as fast as the disc grows.
+    // As in a bounce from a wall that moves in as fast as the disc grows.
     const double closing = std::fabs(sign * (wall - normal) + growth),
                  restitution = sides_[side].restitution;
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
     double away = growth + (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
-        // Discs leave a wall of temperature T with v_n of the density v_n / T exp(-v_n^2 / 2
-        // T); the other component is Maxwell's. All images of a disc draw the same numbers.
+        // Discs leave a wall of temperature T with a normal velocity of the density v_n / T
+        // exp(-v_n^2 / 2 T); the other component has the normal distribution. All images of a disc
+        // draw the same numbers.
         const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(thermal_seed_, Purpose::thermal_wall, disc.id,
                           4 * n_before + drawn_side(side));
@@ -211,8 +213,8 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
         along = (speed * random_direction(random).x) / fall_.slowing_at(time) +
                 surface_velocity(side, time);
     }
-    // A disc that is pulled back stays away for a contact at least, because one at rest would
-    // otherwise bounce without end.
+    // If gravity pulls the disc back, it leaves fast enough to stay away for the duration of a
+    // contact, because a disc at rest would otherwise bounce for ever.
     const double pull = oscillates ? oscillations_[side].pressure_at(time, time + rest_times_[side])
                                    : pressure_at(side, time);
     if (pull > 0)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The four sides of a box with effects: walls that lose energy, heat, move or oscillate, and open
-// sides. Periodic sides are walls infinitely far away.
+// sides. Periodic sides are treated as walls infinitely far away.
 //
 // Times and places are those of the falling frame (gravity.hpp). In it a wall at w0 that moves with
 // u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a disc is a
-// quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain dynamics'
-// formulas are left, bit for bit. With drag in the clock s, t = s + c F(s), the wall is at
-// (w0 + u s) - (g - c u) F(s). The line of an oscillating wall is such a wall (oscillation.hpp).
+// quadratic, solved without subtracting nearly equal numbers. For g = 0 and u = 0 the formulas are
+// those of the plain dynamics, bit for bit. With drag in the clock s, t = s + c F(s), the wall is
+// at (w0 + u s) - (g - c u) F(s). An oscillating wall moves about such a wall (oscillation.hpp).
 #pragma once
 
 #include <array>
@@ -29,28 +29,30 @@ namespace carrom {
 
 class Boundaries {
 public:
-    /// `effects` per micro-step; `radius` is the largest one.
+    /// `effects` have times in micro-steps; `radius` is the largest one.
     Boundaries(const Box& box, double radius, const Effects& effects);
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
-    /// The walls themselves in the frame's coordinates.
+    /// Positions of the walls at `time`, in the frame's coordinates.
     Extent extent_at(double time) const;
-    /// See Dynamics: inside of the walls at both ends, by as much as their paths
-    /// bend in between.
+    /// Bounds that lie inside the walls throughout [begin, end], by as much as the walls' paths
+    /// bend; see Dynamics.
     Extent walls_between(double begin, double end) const;
     /// When the disc meets a side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis, const Body& body) const {
         return meeting(disc, axis, body).time;
     }
-    /// Carries out the collision of `time` = wall_time(disc, axis, body), the event-driven method;
-    /// `then` is the body at that time. `spin`, here and below: null where discs do not turn.
+    /// Carries out the collision at `time` = wall_time(disc, axis, body) in the event-driven
+    /// method. `then` is the body at that time. `spin`, here and below: null where discs do not
+    /// turn.
     Loss bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
                 double* spin) const;
-    /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
+    /// Returns false only if the disc meets no wall before `time`, with an allowance of `margin`
+    /// for rounding.
     bool may_meet(const DiscState& disc, double time, double margin, const Body& body) const;
 
-    /// The side to which a velocity along `axis` leads; it must not be 0.
+    /// The side that the disc flies to along `axis`; its velocity there must not be 0.
     static std::size_t side_ahead(const DiscState& disc, Axis axis) {
         return 2 * static_cast<std::size_t>(axis) +
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
@@ -60,16 +62,17 @@ public:
         return is_open(side_ahead(disc, axis));
     }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
-    /// The centre's coordinate across an open side, in the box, when the disc is just outside.
+    /// The coordinate, in the box, at which the centre of a disc is just outside an open side.
     double departure(std::size_t side, const Body& body) const {
         return departure_or_touch(side, body.radius);
     }
-    /// What becomes of a disc that has come there, advanced to `time`.
+    /// Turns a disc that has reached that coordinate into a departed one; its state is advanced to
+    /// `time`.
     void depart(DiscState& disc, std::size_t side, double time, const Body& body,
                 double* spin) const;
 
-    /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being
-    /// where it touches.
+    /// Reverses the velocity along `axis` of a disc that touches a wall at rest; time-stepped
+    /// method.
     void reverse(DiscState& disc, Axis axis, const Body& body, double* spin) const;
 
 private:
@@ -77,8 +80,8 @@ private:
         double time = never;
         std::size_t side = 0;
     };
-    /// Distance into the box, its rate in the clock, and its acceleration, at the disc's time. A
-    /// surface that moves out comes nearer.
+    /// Distance to the wall, its rate of change in the clock, and its acceleration, at the disc's
+    /// time. A surface that grows reduces the distance.
     struct Approach {
         double distance, rate, pull;
     };
@@ -91,10 +94,10 @@ private:
     }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
-    /// The length of the axis that the side ends.
+    /// The length of the box along the axis at whose end the side is.
     double length_of(std::size_t side) const { return side / 2 == 0 ? box_.x : box_.y; }
-    /// The side by which a thermal wall draws. A box that is taller than wide draws
-    /// like the same box lying down.
+    /// The number of the side for random numbers of thermal walls. It is the same for a tall box
+    /// and for the same box turned on its side.
     std::size_t drawn_side(std::size_t side) const {
         return longer_axis(box_) == Axis::x ? side : (side + 2) % 4;
     }
@@ -102,8 +105,9 @@ private:
         const double from_line = is_open(side) ? -radius : radius;
         return side % 2 == 0 ? from_line : length_of(side) - from_line;
     }
-    /// For the centre of a disc of this radius that touches, or has just left through an
-    /// open side. For an oscillating wall this and the next two functions describe its line.
+    /// Position of the wall for the centre of a disc of this radius, which touches it or has just
+    /// left through an open side. For an oscillating wall this and the next two functions describe
+    /// its line.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
         const double fallen = fall_.fallen(pull_at(side), time);
@@ -116,7 +120,7 @@ private:
     /// The acceleration of discs near the wall towards it, relative to the wall. Drag
     /// brakes discs that a moving wall pushes.
     double pull_at(std::size_t side) const { return gravity_[side / 2] - drag_ * speeds_[side]; }
-    /// The largest size that it has at any time.
+    /// The largest magnitude of this acceleration at any time.
     double largest_pull_at(std::size_t side) const {
         return std::fabs(pull_at(side)) + std::fabs(sways_[side / 2]);
     }
@@ -141,7 +145,7 @@ private:
     Meeting meeting(const DiscState& disc, Axis axis, const Body& body) const;
     Loss rebound(DiscState& disc, std::size_t side, double since, double time, const Body& body,
                  double* spin) const;
-    /// The velocity of the surface along itself, in the frame.
+    /// The velocity of the wall's surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
         const double velocity = sides_[side].surface.velocity / fall_.slowing_at(time) -
                                 gravity_[1 - side / 2] * fall_.falling_time(time);
@@ -150,7 +154,7 @@ private:
         return velocity - fall_.sway().at(1 - side / 2, time).speed;
     }
     double pressure_at(std::size_t side, double time) const;
-    /// The direction t of rubbing.hpp along +x or +y.
+    /// 1 or -1: the sign of the tangent t of rubbing.hpp along +x or +y.
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
     std::array<Boundary, 4> sides_;
@@ -159,12 +163,15 @@ private:
     std::uint64_t thermal_seed_;
     Box box_;
     double radius_;
-    std::array<double, 4> away_{};             ///< infinite for periodic sides
-    std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
-    std::array<double, 2> gravity_, sways_;    ///< the steady part, and the amplitudes of the other
+    std::array<double, 4> away_{}; ///< distance from the box; infinite for periodic sides
+    /// Moved: distance from the scene's start to the last sync
+    std::array<double, 4> moved_{}, speeds_{};
+    /// The steady part of gravity, and the amplitudes of the part that changes in time
+    std::array<double, 2> gravity_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
-    std::array<double, 4> rest_times_{}; ///< how long a disc at rest is away from such a wall
+    /// Time after which a disc that rests at such a wall is back
+    std::array<double, 4> rest_times_{};
     std::array<Rubbing, 4> rubbing_{};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a collision takes no energy, because it belongs to a contact that lasts.
+// Decides which collisions take no energy, because they belong to a contact that lasts.
 //
 // Discs that lose energy would come to infinitely many collisions in a finite time (inelastic
 // collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). So dissipation takes time, as in the

@@ -10,16 +10,16 @@ namespace carrom {
 
 namespace {
 
-/// Over-relaxation brings forces through a heap in fewer sweeps; more of it does not settle under
-/// friction.
+/// Over-relaxation brings forces through a heap in fewer sweeps; a larger factor does not converge
+/// with friction.
 constexpr double relaxation = 1.3;
-/// Sweeps end when none changes a velocity by more than this share of g T.
+/// Sweeps end when no velocity changes by more than this share of g T.
 constexpr double small_change = 0.005;
-/// Impulses begin from those of the last sync, so a sync need not find all of them. Sweeps at most
-/// for n contacts: that many and the root of n.
+/// The largest number of sweeps for n contacts is this number plus the square root of n. A sync
+/// need not reach the solution, because the next one begins with its impulses.
 constexpr double sweeps_at_most = 20;
-/// In a flow contacts change from sync to sync, so the last impulses are no good begin. Discs that
-/// are left with wrong ones meet until the next sync, which takes longer than the sweeps.
+/// In a flow contacts change from sync to sync, so the last impulses are a poor start. Discs with
+/// wrong impulses collide before the next sync, which takes longer than more sweeps.
 constexpr double sweeps_of_flow = 400;
 
 } // namespace
@@ -29,23 +29,23 @@ bool may_flow_on(const Effects& effects) {
            (effects.gravity.y != 0 && effects.is_periodic_y());
 }
 
-/// In the mean until the next sync. `turning` is the spin times the radius.
+/// A body with its mean velocity until the next sync. `turning` is the spin times the radius.
 struct ContactImpulses::Body {
     double vx = 0, vy = 0, turning = 0;
-    double share = 0; ///< 1 over the mass, 0 of what stands fixed
+    double share = 0; ///< inverse mass; 0 for fixed bodies
 };
 
 struct ContactImpulses::Contact {
-    std::uint32_t a = 0, b = 0; ///< b is the place after the last disc's for fixed bodies
+    std::uint32_t a = 0, b = 0; ///< indices of bodies; b is the last one for all fixed bodies
     std::uint32_t part = 0;
-    std::int64_t body = -1; ///< of LastingContact
+    std::int64_t body = -1; ///< LastingContact::body
     double nx = 0, ny = 0;
     double friction = 0, velocity = 0;
-    double approach = 0; ///< the largest normal velocity that is allowed
-    double mass = 0;     ///< 1 over the sum of both shares
+    double approach = 0; ///< the largest allowed normal velocity
+    double mass = 0;     ///< effective mass: 1 over the sum of both inverse masses
     double height = 0;
     double distance = 0;
-    double normal = 0, tangential = 0; ///< impulses on b
+    double normal = 0, tangential = 0; ///< impulses on body b
 };
 
 struct ContactImpulses::Part {
@@ -66,7 +66,7 @@ ContactImpulses::ContactImpulses(const Box& box, const Effects& effects,
 LastingForces ContactImpulses::act(std::span<HeapDisc> discs,
                                    std::vector<KeptImpulse>& kept) const {
     std::vector<Contact> contacts = lasting_contacts(discs, kept);
-    std::vector<Body> bodies(discs.size() + 1); // the last one is what stands fixed
+    std::vector<Body> bodies(discs.size() + 1); // the last one stands for all fixed bodies
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const SizeAndMass& body = species_.of(discs[i].id);
         bodies[i] = {discs[i].vx + fall_x_, discs[i].vy + fall_y_, discs[i].spin * body.radius,
@@ -95,7 +95,7 @@ LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
     for (const Contact& contact : contacts) {
         if (!(contact.normal > 0)) continue;
         const HeapDisc& a = discs[contact.a];
-        PairImpulse pair; // on disc a
+        PairImpulse pair; // impulses on disc a
         pair.ix = -(contact.normal * contact.nx - contact.tangential * contact.ny);
         pair.iy = -(contact.normal * contact.ny + contact.tangential * contact.nx);
         pair.p_vx = 0.5 * (a.vx + bodies[contact.a].vx - fall_x_);
@@ -147,7 +147,7 @@ std::vector<KeptImpulse> ContactImpulses::kept_of(std::span<const Contact> conta
     return kept;
 }
 
-/// Discs that nothing presses keep the bits of theirs.
+/// Discs without impulses keep their bits.
 void ContactImpulses::set_velocities(std::span<const Contact> contacts,
                                      std::span<const Body> bodies,
                                      std::span<HeapDisc> discs) const {
@@ -188,7 +188,8 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
         contact.friction = one.friction;
         contact.velocity = one.velocity;
         contact.distance = one.distance;
-        // Discs closer than the rest gap need not part: where they cannot, impulses would grow.
+        // Discs closer than the rest gap need not separate, because impulses would grow if they
+        // cannot.
         contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
         contact.mass = 1 / (1 / species_.of(a.id).mass +
                             (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));
@@ -207,7 +208,7 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
     return contacts;
 }
 
-/// Sorts contacts by the part that they belong to, and in it from the lowest up.
+/// Sorts contacts by connected component, and within a component from the lowest up.
 std::vector<ContactImpulses::Part> ContactImpulses::connected_parts(std::vector<Contact>& contacts,
                                                                     std::size_t n) const {
     std::vector<std::uint32_t> root(n);
@@ -263,7 +264,7 @@ ContactImpulses::Change ContactImpulses::change_of(const Contact& contact,
     return change;
 }
 
-/// Impulses that are right already stay as they are, so that a heap at rest repeats its state.
+/// Impulses that are already correct do not change, so that a heap at rest repeats its state.
 int ContactImpulses::sweep(std::span<Contact> part, std::vector<Body>& bodies) const {
     for (const Contact& contact : part) give(contact, {contact.normal, contact.tangential}, bodies);
     const double small = small_change * pull_;

@@ -33,11 +33,11 @@
 
 namespace carrom {
 
-/// Whether gravity pulls along periodic sides, so that discs may flow on without end.
+/// Whether gravity pulls along periodic sides, so that discs may flow for ever.
 bool may_flow_on(const Effects& effects);
 
-/// The impulse of a contact, from which the next sync begins. `b` is a disc's id, or below 0 for
-/// walls and obstacles.
+/// The impulse of a contact, from which the solution at the next sync begins. `b` is a disc's id,
+/// or negative for walls and obstacles.
 struct KeptImpulse {
     DiscId a = 0;
     std::int64_t b = 0;
@@ -48,15 +48,15 @@ struct KeptImpulse {
 
 struct LastingForces {
     std::vector<PairImpulse> pairs;
-    std::vector<WallImpulse> walls; ///< the four sides, then the rows of obstacles
-    int n_sweeps = 0;               ///< the most of any connected component
+    std::vector<WallImpulse> walls; ///< of the four sides, then of the rows of obstacles
+    int n_sweeps = 0;               ///< largest number of sweeps that a connected component needed
 };
 
 class ContactImpulses {
 public:
     static constexpr double least_motion = 0.01;
 
-    /// `effects` per micro-step; `interval` in micro-steps. Gravity must not be zero.
+    /// `effects` have times in micro-steps, as `interval`. Gravity must not be zero.
     ContactImpulses(const Box& box, const Effects& effects, const SpeciesTable& species,
                     double interval);
 
@@ -72,7 +72,7 @@ private:
         double normal = 0, along = 0;
     };
 
-    /// What contacts with an impulse give, where `discs` have their velocities of before.
+    /// Forces of contacts that have an impulse; `discs` hold the velocities before them.
     LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
                             std::span<const Body> bodies) const;
     void add_obstacle(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
@@ -94,12 +94,12 @@ private:
     Effects effects_;
     SpeciesTable species_;
     std::vector<ObstacleRow> rows_;             ///< of obstacles
-    std::vector<std::uint32_t> rows_of_pieces_; ///< of contacts' bodies, less the sides
+    std::vector<std::uint32_t> rows_of_pieces_; ///< the scene's rows of obstacles
     double interval_, pull_;
-    double fall_x_, fall_y_; ///< g T / 2
+    double fall_x_, fall_y_; ///< speed gained in half a sync interval, g T / 2
     double rest_gap_;
     double turning_; ///< 1 over the moment of inertia in m r^2; 0 where discs do not turn
-    double sweeps_;  ///< at most, and more for many contacts
+    double sweeps_;  ///< largest number of sweeps, which grows with the number of contacts
 };
 
 } // namespace carrom

@@ -13,7 +13,8 @@ namespace carrom {
 
 namespace {
 
-constexpr double inset = 0x1p-30; ///< from the sides of the box, over its shorter edge
+/// Distance from the sides of the box, relative to its shorter edge
+constexpr double inset = 0x1p-30;
 
 double length_of(const Segment& one) {
     const double dx = one.x1 - one.x0, dy = one.y1 - one.y0;

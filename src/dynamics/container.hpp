@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes that are no rectangles. Discs move inside of a closed line of arcs and segments, which are
-// obstacles as those that a scene lists. The rectangle around it stays what strips, cells and
-// outputs refer to.
+// Boxes that are not rectangles. Discs move inside a closed line of arcs and segments, which are
+// obstacles like those that a scene lists. The rectangle around it still defines strips, cells and
+// outputs.
 //
 //   round      the largest circle in a square
 //   stadium    two halves of a circle, joined by segments along the longer side
 //
 // The line is a billionth of the box away from the sides, so that discs meet it before the sides,
-// whatever rounding does.
+// despite any rounding.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,12 @@ public:
 
     bool is_rectangle() const { return shape_ == BoxShape::rectangle; }
     double area() const;
-    /// How far a place is outside of the line; negative inside. Not for rectangles.
+    /// Distance of a position outside of the line; negative inside. Not for rectangles.
     double outside(double x, double y) const;
-    /// In the order of a walk counterclockwise.
+    /// The arcs, in counterclockwise order.
     std::vector<Arc> arcs() const;
     std::vector<Segment> segments() const;
-    /// "the round wall", for messages.
+    /// Name for messages, such as "the round wall".
     std::string_view name() const;
 
 private:
@@ -48,21 +48,22 @@ std::vector<Segment> edges_of(const Polygon& polygon);
 std::vector<Segment> all_segments(const ObstacleList& obstacles, const Box& box);
 /// The scene's arcs, then those of the box's shape.
 std::vector<Arc> all_arcs(const ObstacleList& obstacles, const Box& box);
-/// The area in which discs move, obstacles inside of it included.
+/// The area of the region in which discs move; obstacles inside it are not subtracted.
 double area_of(const ObstacleList& obstacles, const Box& box);
 
 /// A row of the scene's lists of obstacles, or the wall of the box's shape.
 struct ObstacleRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
     std::uint32_t number = 0; ///< from 1 on in its list; 0 for the box's wall
-    double x = 0, y = 0;      ///< its centre: the mean of corners where it has none
-    double length = 0;        ///< of its line; both faces of a segment or an arc share it
+    double x = 0, y = 0;      ///< position: its centre, or the mean of its corners if it has none
+    double length = 0;        ///< length of its line; both faces of a segment or an arc share it
 
-    std::string name() const; ///< "fixed disc 3", or "the round wall"
+    std::string name() const; ///< name for messages, such as "fixed disc 3" or "the round wall"
 };
-/// Discs first, then segments, polygons, arcs and the wall.
+/// Rows of all obstacles: discs first, then segments, polygons, arcs and the wall.
 std::vector<ObstacleRow> rows_of(const ObstacleList& obstacles, const Box& box);
-/// The places in `rows_of` of the discs, of `all_segments`, and of `all_arcs`, one after the other.
+/// For each disc, each of `all_segments` and each of `all_arcs`, one after the other: its row in
+/// `rows_of`.
 std::vector<std::uint32_t> rows_of_pieces(const ObstacleList& obstacles, const Box& box);
 
 /// The point of an arc at an angle in degrees. Its bits are the same on every machine.
@@ -72,7 +73,7 @@ struct PointOfArc {
 PointOfArc direction_at(double degrees);
 PointOfArc point_of(const Arc& arc, double degrees);
 ArcSpan span_of(const Arc& arc);
-/// Chords along the arc, none longer than `longest` unless there are 65536, for searches that
+/// Chords along the arc, none longer than `longest` (but at most 65536 chords), for searches that
 /// need no exact contacts.
 std::vector<Segment> chords_of(const Arc& arc, double longest);
 

@@ -8,17 +8,17 @@ namespace carrom {
 
 namespace {
 
-/// (1 - exp(-z)) / z by its series, 0 <= z <= 1/2: the 16th term is below 2^-60.
+/// (1 - exp(-z)) / z by its series, for 0 <= z <= 1/2, where the 16th term is below 2^-60.
 double short_integral(double z) {
     double sum = 1;
     for (int k = 17; k >= 2; --k) sum = 1 - z / k * sum;
     return sum;
 }
 
-constexpr int most_halvings = 2100; ///< the product of the two largest doubles needs fewer
+constexpr int most_halvings = 2100; ///< enough for the product of the two largest doubles
 
-/// A time that was halved until the series serves for it, and what drag does until then. Of an
-/// infinite time or rate the results are no numbers.
+/// A time that was halved until the series converges, and the clock and the slowing at this time.
+/// If the time or the rate is infinite, the results are NaN.
 struct Halving {
     Halving(double rate, double time) {
         for (; rate * time > 0.5 && count < most_halvings; time /= 2) ++count;
@@ -46,7 +46,7 @@ double drag_clock(double rate, double time) {
     const Halving halving(rate, time);
     double slowing = halving.slowing, clock = halving.clock;
     for (int k = 0; k < halving.count; ++k, slowing *= slowing)
-        clock *= 1 + slowing; // s(t) = s(t/2) (1 + exp(-c t/2)): no like numbers are subtracted
+        clock *= 1 + slowing; // s(t) = s(t/2) (1 + exp(-c t/2)) subtracts no nearly equal numbers
     return clock;
 }
 

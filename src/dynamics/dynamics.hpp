@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs do: a space, bodies and a law, with what surrounds discs beside them.
+// What discs do: a space, bodies and a law, and what surrounds the discs.
 //
 //        space (space.hpp)         which image a disc meets, and where it is
 //        bodies (bodies.hpp)       radius, mass, speed of the surface
@@ -9,12 +9,13 @@
 //
 // Each is a value with a small concept in its own header. The text that uses the first four stands
 // in motion.hpp, and the text about all else that discs meet stands here. Kernels take a dynamics
-// as a template argument. What is asked for each pair is compiled, and all else is decided when the
-// program runs, so that few combinations are enough (all_dynamics.hpp).
+// as a template argument. Choices that are made for each pair are template parameters and all
+// others are made at run time, so that few combinations are compiled (all_dynamics.hpp).
 //
 // Lengths are the scene's. Times are micro-steps since the last sync, on the dynamics' own clock.
-// Places and velocities are those of its frame. Answers depend on the stored states alone, so all
-// ranks get the same bits. An effect whose parameters make it none gives the plain bits.
+// Places and velocities are those of its frame. Results depend on the stored states alone, so all
+// ranks get the same bits. An effect whose parameters switch it off gives the bits of plain
+// dynamics.
 #pragma once
 
 #include <algorithm>
@@ -44,20 +45,21 @@ public:
     using Base::may_lose_discs;
     using typename Base::Arithmetic, typename Base::Real;
 
-    static constexpr bool has_mirror_walls = !have_effects, // they only reverse a velocity
+    static constexpr bool has_mirror_walls = !have_effects, // walls only reverse a velocity
         may_have_obstacles = have_effects && !OfBodies::grow;
-    /// Thousands of collisions of a disc within this many micro-steps are an endless cascade.
+    /// If discs collide thousands of times within this many micro-steps, the run ends as a
+    /// collision cascade.
     static constexpr double cascade_interval = std::max(OfBodies::cascade_interval,
                                                         Arithmetic::cascade_interval);
     static constexpr double never = carrom::never;
 
-    /// `effects` per micro-step; `radius` is the largest one.
+    /// `effects` have times in micro-steps; `radius` is the largest one.
     Dynamics(const Box& box, double radius, const Effects& effects = {},
              ContactFormula formula = ContactFormula::stable)
         : Dynamics(box, radius, effects, formula,
                    SpeciesTable(effects.species, Arithmetic::rounded(radius))) {}
 
-    /// What kernels of a GPU run.
+    /// The part that kernels of a GPU run.
     const Base& motion() const { return *this; }
 
     /// From now on times count from micro-step `n` of the scene.
@@ -68,14 +70,15 @@ public:
         flight_.begin_interval(static_cast<double>(n));
     }
 
-    /// From now on all radii are the scene's times `size`; for bodies that can grow, and do not.
+    /// From now on all radii are the scene's times `size`. Only for bodies that can grow, in a
+    /// scene without a rate of growth.
     void resize(double size) {
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }
 
     // Questions about the scene.
 
-    /// Discs can meet walls or obstacles.
+    /// Whether discs can meet walls or obstacles.
     bool has_walls() const { return space_.has_sides() || has_obstacles(); }
     bool has_obstacles() const { return may_have_obstacles && obstacles_ != nullptr; }
     bool has_open_sides() const { return may_lose_discs && sides_.are_any_open(); }
@@ -88,12 +91,12 @@ public:
     Frame frame_at(double time) const { return flight_.at(time); }
     bool has_own_frame() const { return flight_.is_any(); }
     double slowing_at(double time) const { return flight_.slowing_at(time); }
-    /// The state in the frame of the next interval.
+    /// Turns the state into one in the frame of the next interval.
     void restart_frame(DiscState& disc, double time) const { flight_.restart(disc, time); }
     double jump_at(Axis axis, double time) const { return flight_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return flight_.speed_gained_at(time); }
     /// See StressSums. Where images move, kinetic stress is relative to the flow, and changes along
-    /// a flight, so it is sampled.
+    /// a flight, so it is sampled at syncs instead.
     FlightIntegral flight_integral_at(double time) const {
         if constexpr (has_moving_images) return {};
         return flight_.flight_integral_at(time);
@@ -105,7 +108,8 @@ public:
     // Sides. `spin`, here and below, is null where discs do not turn.
 
     Extent extent_at(double time) const { return sides_.extent_at(time); } ///< where walls are
-    /// A disc inside at some time in between, and within these walls at the end, has met none.
+    /// A disc that was inside at some time in between, and is within these bounds at the end, has
+    /// met no wall.
     Extent walls_between(double begin, double end) const {
         return sides_.walls_between(begin, end);
     }
@@ -113,17 +117,18 @@ public:
     double wall_time(const DiscState& disc, Axis axis) const {
         return sides_.wall_time(disc, axis, bodies_.at(disc, disc.tau));
     }
-    /// False only if neither wall time is up to `time`.
+    /// Returns false only if the disc meets no wall before `time`.
     bool may_meet_wall(const DiscState& disc, double time) const {
         const Body body = bodies_.at(disc, disc.tau);
-        // The product allows for rounded times, in which a fast disc flies some way.
+        // The product allows for the rounding of times, during which a fast disc flies some
+        // distance.
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
                                (speed_gained_at(time) + body.growth);
         const double margin = (tolerance_ + arithmetic_.place_rounding()) +
                               Arithmetic::time_rounding * time * fastest;
         return sides_.may_meet(disc, time, margin, body);
     }
-    /// Carries out the collision of `time` = wall_time(disc, axis).
+    /// Carries out the collision at `time` = wall_time(disc, axis).
     Loss bounce(DiscState& disc, Axis axis, double time, double* spin = nullptr) const {
         return sides_.bounce(disc, axis, time, bodies_.at(disc, disc.tau), bodies_.at(disc, time),
                              spin);
@@ -133,13 +138,13 @@ public:
 
     // Obstacles.
 
-    /// The first obstacle that the disc comes to.
+    /// The first obstacle that the disc meets.
     ObstacleContact first_obstacle(const DiscState& disc, const ContactTimes& times) const {
         return disc.has_departed()
                    ? ObstacleContact{}
                    : obstacles_->first_contact(disc, bodies_.of(disc).radius, times);
     }
-    /// Where a disc touches the obstacle that it comes to at `time`.
+    /// Where a disc touches the obstacle that it meets at `time`.
     ObstacleTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
         DiscState there = disc;
         advance(there, time);
@@ -167,7 +172,7 @@ private:
             obstacles_ = std::make_shared<const Obstacles>(box_, radius_, effects);
     }
 
-    SpeciesTable species_; ///< owns what bodies look at
+    SpeciesTable species_; ///< owns the table that bodies read
     typename Surroundings::Sides sides_;
     typename Surroundings::Flight flight_;
     std::shared_ptr<const Obstacles> obstacles_; ///< null if there are none; copies share it

@@ -25,54 +25,56 @@
 
 namespace carrom {
 
-/// What two discs that touch do to each other.
+/// What two touching discs do to each other.
 enum class ContactKind { elastic, none, restitution, rough };
 
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
-    double restitution = 1;  ///< share of the normal relative velocity that is left, 0 to 1
+    double restitution = 1;  ///< share of the normal relative velocity that remains, 0 to 1
     double contact_time = 0; ///< a disc that has collided within this time collides elastically; 0
                              ///< if a length takes its place (contact_guard.hpp); event-driven
                              ///< method only
     // For rough discs:
-    double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity
-                                        ///< where they stick, -1 (smooth) to 1
+    /// Minus the share of the surfaces' relative velocity that remains where they stick, -1
+    /// (smooth) to 1
+    double tangential_restitution = -1;
     double friction =
-        std::numeric_limits<double>::infinity(); ///< Coulomb's: the tangential impulse is at most
-                                                 ///< this times the normal one
+        std::numeric_limits<double>::infinity(); ///< coefficient of Coulomb's friction: the
+                                                 ///< tangential impulse is at most this times the
+                                                 ///< normal one
     double inertia = 0.5; ///< moment of inertia in m r^2; 0.5 for a uniform disc
 
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
 
-/// What a side of the box can be. Each kind has a file in scene/boundaries.
+/// The kinds of sides. Each kind has a file in scene/boundaries.
 enum class BoundaryKind { wall, thermal, moving, oscillating, open, periodic, sheared };
 
-/// The words of scenes, in the order of BoundaryKind.
+/// The words for them in scenes, in the order of BoundaryKind.
 inline constexpr auto boundary_words = std::to_array<std::string_view>(
     {"wall", "thermal", "moving", "oscillating", "open", "periodic", "sheared"});
 
 /// What a wall or an obstacle does along its surface (rubbing.hpp).
 struct Surface {
-    double tangential_restitution = -1; ///< as of rough discs; -1 is smooth
+    double tangential_restitution = -1; ///< as for rough discs; -1 is smooth
     double friction = std::numeric_limits<double>::infinity();
     double velocity = 0; ///< of sides along +x or +y, of obstacles counterclockwise around
                          ///< themselves, of arcs around their centres; thermal sides have one, too
 
-    /// Whether discs feel the surface go by.
+    /// Whether the surface can change spins or tangential velocities.
     bool rubs() const { return tangential_restitution != -1 && friction != 0; }
     friend bool operator==(const Surface&, const Surface&) = default;
 };
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
-    double restitution = 1; ///< for walls, moving ones as well
-    double temperature = 0; ///< for thermal walls: kT, a velocity squared, for masses of 1
-    double speed = 0;       ///< for moving walls, along +x or +y
+    double restitution = 1; ///< of walls, also of moving ones
+    double temperature = 0; ///< of thermal walls: kT, a velocity squared, for masses of 1
+    double speed = 0;       ///< of moving walls, along +x or +y
     // For oscillating walls (oscillation.hpp):
     double amplitude = 0;
     double period = 1;
-    double phase = 0; ///< at the start, as an angle
+    double phase = 0; ///< angle at the start
     Surface surface{};
 
     bool is_plain() const {
@@ -91,22 +93,23 @@ inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "
 /// Uniform gravity: an acceleration.
 struct Gravity {
     double x = 0, y = 0;
-    // Beside these, amplitude sin(2 pi t / period + phase), t since the scene's start (sway.hpp):
+    // A second part, amplitude sin(2 pi t / period + phase), with t since the scene's start
+    // (sway.hpp):
     double amplitude_x = 0, amplitude_y = 0;
     double period = 1;
-    double phase_x = 0, phase_y = 0; ///< as angles
+    double phase_x = 0, phase_y = 0; ///< angles at the start
 
     bool is_steady() const { return x != 0 || y != 0; }
     bool sways() const { return amplitude_x != 0 || amplitude_y != 0; }
     bool is_any() const { return is_steady() || sways(); }
-    /// The largest sizes along x and y.
+    /// The largest magnitudes along x and y.
     double largest_x() const { return std::fabs(x) + std::fabs(amplitude_x); }
     double largest_y() const { return std::fabs(y) + std::fabs(amplitude_y); }
     double largest() const { return std::hypot(largest_x(), largest_y()); }
     friend bool operator==(const Gravity&, const Gravity&) = default;
 };
 
-/// Bodies that stand fixed in the box and reflect discs (obstacles.hpp).
+/// Fixed bodies in the box that reflect discs (obstacles.hpp).
 struct FixedDisc {
     double x = 0, y = 0, radius = 0;
 
@@ -119,8 +122,8 @@ struct Segment {
     friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-/// Part of a circle, without thickness: from one angle on, counterclockwise, to another, in degrees
-/// from the direction of +x. All of it by default.
+/// A part of a circle, without thickness: counterclockwise from one angle to another, in degrees
+/// from the direction of +x. By default the whole circle.
 struct Arc {
     double x = 0, y = 0, radius = 0;
     double from = 0, to = 360;
@@ -129,10 +132,10 @@ struct Arc {
     friend bool operator==(const Arc&, const Arc&) = default;
 };
 
-/// The coordinates of its corners, x0, y0, x1, y1, ..., the last joined with the first.
+/// The coordinates of the corners, x0, y0, x1, y1, ...; the last corner is joined to the first.
 using Polygon = std::vector<double>;
 
-/// What discs move in (container.hpp).
+/// The shape of the region in which discs move (container.hpp).
 enum class BoxShape { rectangle, round, stadium };
 
 struct ObstacleList {
@@ -142,7 +145,8 @@ struct ObstacleList {
     Surface surface{};
     std::vector<Arc> arcs{};
     std::vector<Polygon> polygons{};
-    BoxShape shape = BoxShape::rectangle; ///< other boxes have arcs and segments for walls
+    /// Boxes that are not rectangles have arcs and segments as walls
+    BoxShape shape = BoxShape::rectangle;
 
     bool has_shape() const { return shape != BoxShape::rectangle; }
     bool are_any() const {
@@ -152,18 +156,18 @@ struct ObstacleList {
     friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
 };
 
-/// What keeps discs moving, at syncs (scene/effects/thermostat.cpp); per step.
+/// What keeps discs moving, at syncs (scene/effects/thermostat.cpp). Rates are per step.
 enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
     double strength = 0;    ///< for kicks: xi^2
-    double rate = 0;        ///< at which discs get new velocities, or rate of friction
+    double rate = 0;        ///< rate at which discs get new velocities, or rate of friction
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
 
     bool is_any() const { return kind != ThermostatKind::none; }
-    /// Whether discs exchange momentum, too, with what does not move.
+    /// Whether discs exchange momentum with the bath, as well as energy.
     bool is_bath() const {
         return kind == ThermostatKind::andersen || kind == ThermostatKind::langevin;
     }
@@ -171,32 +175,33 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
-/// Discs that propel themselves (scene/effects/activity.cpp); per step.
+/// Discs that propel themselves (scene/effects/activity.cpp). Rates are per step.
 struct Activity {
-    double speed = 0;                ///< of a free disc whose direction stays
-    double force = 0;                ///< or the force that all discs have, whatever their mass
-    double rotational_diffusion = 0; ///< the mean square of an angle grows by twice this
-    double tumble_rate = 0;          ///< at which discs take any other direction
+    double speed = 0; ///< speed of a free disc whose direction does not change
+    double force = 0; ///< alternatively the same force for all discs, whatever their mass
+    double rotational_diffusion = 0; ///< the mean squared angle grows by twice this per time
+    double tumble_rate = 0;          ///< rate at which a disc takes a new random direction
     std::uint64_t seed = 3210;
 
     bool is_any() const { return speed != 0 || force != 0; }
     friend bool operator==(const Activity&, const Activity&) = default;
 };
 
-/// Moves of the volume at syncs (scene/effects/barostat.cpp).
+/// Changes of the volume at syncs (scene/effects/barostat.cpp).
 struct Barostat {
-    double pressure = 0; ///< P times the mean of the squared diameters over kT; 0 is none
+    double pressure = 0; ///< P times the mean squared diameter over kT; 0 means no barostat
     std::uint64_t seed = 4321;
 
     bool is_any() const { return pressure != 0; }
     friend bool operator==(const Barostat&, const Barostat&) = default;
 };
 
-/// Numbers of effects that act at syncs alone: the file of such an effect declares them by their
-/// keys (`own_key` in scene/key_members.hpp) and reads them, and nothing else has to know them.
+/// Numbers of effects that act at syncs only. The file of such an effect declares its keys
+/// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code knows
+/// them.
 class OwnNumbers {
 public:
-    /// 0 where the scene does not say.
+    /// The value of the key, or 0 if the scene does not set it.
     double of(std::string_view key) const {
         const auto found = numbers_.find(key);
         return found == numbers_.end() ? 0 : found->second;
@@ -212,7 +217,8 @@ private:
     std::map<std::string, double, std::less<>> numbers_;
 };
 
-/// Times in steps in a scene, in micro-steps in a dynamics (per_micro_step in scene/key.hpp).
+/// Times are in steps in a scene, and in micro-steps in a dynamics (per_micro_step in
+/// scene/key.hpp).
 struct Effects {
     ContactEffect contact;
     std::array<Boundary, 4> boundaries;
@@ -221,10 +227,11 @@ struct Effects {
     std::uint64_t thermal_seed = 3210;
     ObstacleList obstacles{};
     std::vector<Species>
-        species{};     ///< in the order of ids; empty if all discs have one radius and mass 1
+        species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
-    double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
-    /// Slower pairs press each other from sync to sync (contact_impulses.hpp); 0 is none.
+    double shear = 0;  ///< rate at which vx grows with y between sheared sides
+    /// Pairs that approach more slowly have lasting contacts from sync to sync
+    /// (contact_impulses.hpp); 0 means none.
     double lasting_speed = 0;
     Thermostat thermostat{};
     Activity activity{};
@@ -232,14 +239,14 @@ struct Effects {
     OwnNumbers own{};
     ExternalField field{};
 
-    /// Of discs in free flight, beside drag: what all fields together give them.
+    /// The acceleration of discs in free flight by all fields together, without drag.
     Gravity acceleration() const { return gravity; }
-    /// Whether nothing changes velocities between collisions and syncs.
+    /// Whether velocities change only in collisions and at syncs.
     bool are_flights_free() const { return !acceleration().is_any() && drag == 0; }
     bool have_spins() const { return contact.kind == ContactKind::rough; }
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
-    /// The reader of scenes makes opposite sides periodic together.
+    /// The reader of scenes ensures that opposite sides are periodic together.
     bool is_periodic_x() const { return boundaries[0].is_periodic(); }
     bool is_periodic_y() const { return boundaries[2].is_periodic(); }
     bool are_sheared() const { return boundaries[2].kind == BoundaryKind::sheared; }
@@ -249,7 +256,7 @@ struct Effects {
         return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0, 0,
                 are_sheared() ? shear * box.y : 0};
     }
-    /// The mean velocity along x of sheared discs at this height; 0 in all other boxes.
+    /// The mean velocity along x of sheared discs at this height; 0 in other boxes.
     double flow_at(double y, const Box& box) const {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
@@ -264,22 +271,22 @@ struct Effects {
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 
-/// The numbers that discs have beside their states under these effects.
+/// The columns of numbers that discs have beside their states under these effects.
 SideColumnSet side_columns_of(const Effects& effects);
 
 /// The part about species of a line for a summary; empty without species. `summary_of`
 /// (scene/effects/effect.hpp) writes the whole line.
 std::string description(const std::vector<Species>& species);
 
-/// Where the walls are at `time` since the scene's start, in a box that was `box` then.
+/// Positions of the walls at `time` since the scene's start, in a box that was `box` then.
 Extent extent_at(const Effects& effects, const Box& box, double time);
-/// The walls' lines; oscillating walls are moved in from theirs by this many amplitudes.
+/// The lines of the walls. Lines of oscillating walls are moved inwards by this many amplitudes.
 Extent extent_of_lines(const Effects& effects, const Box& box, double time,
                        double amplitudes_inwards = 0);
 
 /// The largest speed of oscillating walls; 0 if there are none.
 double largest_wall_speed(const Effects& effects);
-/// Their largest acceleration.
+/// The largest acceleration of oscillating walls; 0 if there are none.
 double largest_wall_pull(const Effects& effects);
 
 } // namespace carrom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two discs as one sees the other: what spaces answer (space.hpp), and what laws ask for (law.hpp).
+// The position and velocity of one disc relative to another. Spaces compute it (space.hpp), and
+// laws use it (law.hpp).
 #pragma once
 
 #include "core/device.hpp"
@@ -17,7 +18,7 @@ template <class Real> struct Encounter {
     Real wx = 0, wy = 0;
 
     CARROM_DEVICE Real square() const { return ex * ex + ey * ey; }
-    /// How fast they come apart, in units of their distance.
+    /// The rate at which their distance grows, in units of the distance.
     CARROM_DEVICE Real rate() const { return (wx * ex + wy * ey) / (ex * ex + ey * ey); }
 };
 

@@ -11,11 +11,11 @@ namespace carrom {
 
 namespace {
 
-/// Solves (c[i - 1] + 4 c[i] + c[i + 1]) / 6 = f[i] round a circle, by the two filters of M. Unser,
-/// A. Aldroubi and M. Eden, IEEE Trans. Signal Process. 41, 821 (1993).
+/// Solves (c[i - 1] + 4 c[i] + c[i + 1]) / 6 = f[i] with periodic indices, by the two filters of M.
+/// Unser, A. Aldroubi and M. Eden, IEEE Trans. Signal Process. 41, 821 (1993).
 std::vector<double> round_coefficients(const std::vector<double>& f) {
     const double pole = std::sqrt(3.0) - 2;
-    constexpr std::size_t far = 40; // pole^40 is below 2^-75
+    constexpr std::size_t far = 40; // because pole^40 is below 2^-75
     const std::size_t n = f.size();
     std::vector<double> c(n);
     double sum = 0;
@@ -30,8 +30,8 @@ std::vector<double> round_coefficients(const std::vector<double>& f) {
     return c;
 }
 
-/// The same on a line whose ends have no curvature, so that c = f there. Elimination without
-/// pivots, because the matrix is dominated by its diagonal.
+/// The same on a line whose ends have no curvature, so that c = f there. The elimination needs no
+/// pivots, because the matrix is diagonally dominant.
 std::vector<double> line_coefficients(const std::vector<double>& f) {
     const std::size_t n = f.size();
     std::vector<double> c = f, factor(n, 0.0);
@@ -48,7 +48,7 @@ std::vector<double> line_coefficients(const std::vector<double>& f) {
 
 } // namespace
 
-/// Of four coefficients from `first` on, for the value and the derivative.
+/// Weights of four coefficients, from index `first` on, for the value and the derivative.
 struct FieldSpline::Weights {
     std::size_t first = 0;
     std::array<double, 4> value{}, slope{};
@@ -128,8 +128,8 @@ FieldPoint FieldSpline::at(double x, double y, const Box& box) const {
     return sum;
 }
 
-/// A derivative is a mean of differences of coefficients, with positive weights. The eigenvalues of
-/// the matrix of second derivatives are below the sum of a row's sizes.
+/// A derivative is a weighted mean of differences of coefficients with positive weights. The
+/// eigenvalues of the matrix of second derivatives are at most the sum of the magnitudes in a row.
 double FieldSpline::largest_curvature(const Box& box) const {
     if (!data_) return 0;
     const double hx = box.x / data_->x.n_intervals(), hy = box.y / data_->y.n_intervals();

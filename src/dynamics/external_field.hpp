@@ -4,10 +4,10 @@
 // It acts at syncs, half a kick before each flight from sync to sync and half a kick after it
 // (scene/effects/field.cpp), so collisions of pairs do not depend on it.
 //
-// Between the points of a grid the potential is the cubic spline through all numbers (C. de Boor,
-// A Practical Guide to Splines (1978)), a product of cubic B-splines along x and y. It has two
-// continuous derivatives, and the force is the exact derivative of it; otherwise energy would be
-// lost or gained with each cell that a disc crosses. Along a periodic axis the spline goes round.
+// Between the points of a grid the potential is the cubic spline through all numbers (C. de Boor, A
+// Practical Guide to Splines (1978)), a product of cubic B-splines along x and y. It has two
+// continuous derivatives, and the force is the exact derivative of it; otherwise a disc would lose
+// or gain energy in each cell that it crosses. Along a periodic axis the spline is periodic.
 // Between walls its second derivative is 0 at both ends, and beyond them it goes on as a line.
 //
 // All is + - * / and sqrt in a fixed order, so the bits are the same on every machine.
@@ -33,7 +33,7 @@ struct FieldPoint {
     double energy = 0, slope_x = 0, slope_y = 0;
 };
 
-/// The numbers of a potential, row after row: rows go along x, and the first one is at y = 0.
+/// The values of a potential, row by row: rows run along x, and the first one is at y = 0.
 struct FieldValues {
     std::size_t columns = 0, rows = 0;
     std::vector<double> numbers{};
@@ -52,9 +52,9 @@ public:
 
     bool is_any() const { return data_ != nullptr; }
     FieldPoint at(double x, double y, const Box& box) const;
-    /// Bounds the second derivatives along any direction, by the coefficients.
+    /// An upper bound of the second derivatives along any direction, from the coefficients.
     double largest_curvature(const Box& box) const;
-    /// The largest number less the smallest.
+    /// The difference between the largest and the smallest value.
     double depth() const;
 
     friend bool operator==(const FieldSpline& a, const FieldSpline& b) {
@@ -67,7 +67,7 @@ private:
         std::size_t n = 0;
         bool goes_round = false;
 
-        /// The intervals from the one end of the box to the other.
+        /// The number of intervals between the two ends of the box.
         double n_intervals() const { return static_cast<double>(goes_round ? n : n - 1); }
         std::size_t n_padded() const { return n + 3; }
 
@@ -75,7 +75,8 @@ private:
     };
     struct Data {
         Line x, y;
-        std::vector<double> coefficients; ///< rows along x, with one before and two after the ends
+        /// Rows along x, with one extra before and two after the ends
+        std::vector<double> coefficients;
         double low = 0, high = 0;
 
         double at(std::size_t column, std::size_t row) const {
@@ -97,28 +98,30 @@ enum class FieldKind { none, trap, sine, grid };
 /// `[effects.field]`; times in steps in a scene, in micro-steps in a dynamics.
 struct ExternalField {
     FieldKind kind = FieldKind::none;
-    double stiffness_x = 0, stiffness_y = 0;  ///< of a trap: force for each length
-    std::optional<double> centre_x, centre_y; ///< otherwise the middle of the box
-    double amplitude = 0;                     ///< energy of a sine, or of a number of 1 on a grid
-    Axis axis = Axis::x;                      ///< along which a sine changes
+    double stiffness_x = 0, stiffness_y = 0; ///< of a trap: force per length
+    /// Centre of a trap or sine; by default the middle of the box
+    std::optional<double> centre_x, centre_y;
+    double amplitude = 0; ///< energy of a sine, or factor of the values on a grid
+    Axis axis = Axis::x;  ///< the axis along which a sine changes
     std::int64_t waves = 1;
     double phase = 0;
-    std::string file;   ///< with the numbers of a grid; relative to the scene
-    FieldValues values; ///< of a grid
-    FieldSpline spline; ///< through them; derived when a scene is read
-    /// The potential of a disc is that of strength 1 times its strength: of each species, or empty
-    /// if all have 1. `ends` are the ends of ids of species; derived, too.
+    std::string file;   ///< file with the values on a grid; relative to the scene
+    FieldValues values; ///< values on a grid
+    FieldSpline spline; ///< spline through the values; made when a scene is read
+    /// The potential of a disc is that of strength 1 times its strength. One strength for each
+    /// species, or empty if all are 1. `ends` are the ends of the species' ids; made when a scene
+    /// is read.
     std::vector<double> strengths;
     std::vector<DiscId> ends;
 
     bool is_any() const { return kind != FieldKind::none; }
     bool acts_along(Axis along) const;
     double strength_of(DiscId id) const;
-    /// For a disc of strength 1.
+    /// The potential for a disc of strength 1.
     FieldPoint at(double x, double y, const Box& box) const;
     /// Bounds the second derivative along any direction, for a disc of strength 1.
     double largest_curvature(const Box& box) const;
-    /// The most that a disc of strength 1 can gain in the box, or about as much.
+    /// About the largest energy that a disc of strength 1 can gain in the box, and not less.
     double depth(const Box& box) const;
     double largest_strength() const;
 

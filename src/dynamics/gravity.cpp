@@ -10,13 +10,13 @@ namespace carrom {
 
 namespace {
 
-/// Bounds 1 - c s at the latest contact that counts.
+/// A lower bound of 1 - c s for contacts.
 constexpr double least_slowing = 0.01;
-/// Newton's rule takes four to twelve.
+/// Newton's rule needs four to twelve.
 constexpr int most_steps = 100;
 
-/// -log(1 - q) - q over q^2, q at most a quarter: with z = q / (2 - q) it is (1 + 2 z (1/3 + z^2/5
-/// + z^4/7 + ...) / (2 - q)) / (2 - q).
+/// (-log(1 - q) - q) / q^2 for q up to 1/4: with z = q / (2 - q) it is (1 + 2 z (1/3 + z^2/5 +
+/// z^4/7 + ...) / (2 - q)) / (2 - q).
 double short_fall(double q) {
     const double part = 1 / (2 - q), z = q * part, square = z * z;
     double sum = 0;
@@ -29,15 +29,15 @@ double short_fall(double q) {
 double dragged_fall(double rate, double clock) {
     const double q = rate * clock;
     if (!(q > 0.25)) return clock * clock * short_fall(q);
-    // Half the time takes the clock to 1 - c s' = sqrt(1 - c s), so F(s) = 2 F(s') +
-    // s'^2, a sum of positive terms.
+    // After half the time the clock has 1 - c s' = sqrt(1 - c s), so F(s) = 2 F(s') + s'^2, a sum
+    // of positive terms.
     const double half = clock / (1 + std::sqrt(1 - q));
     return 2 * dragged_fall(rate, half) + half * half;
 }
 
 double dragged_fall_delay(double distance, double velocity, double pull, double rate) {
-    // F(s) >= s^2 / 2, so the parabola is late if the disc is pulled to the wall, and
-    // early if it is pulled away.
+    // F(s) >= s^2 / 2, so the contact of the parabola is too late if the disc is pulled to the
+    // wall, and too early if it is pulled away.
     double s = fall_delay(distance, velocity, pull);
     if (pull == 0 || s == 0) return s;
     const double latest = (1 - least_slowing) / rate;
@@ -51,7 +51,7 @@ double dragged_fall_delay(double distance, double velocity, double pull, double 
     if (is_pulled_on) {
         if (velocity >= 0 && !(height(turn) > 0)) return turn;
         s = std::min(s, latest);
-        if (height(s) > 0) return s == latest ? never : s; // its height is rounding alone
+        if (height(s) > 0) return s == latest ? never : s; // the height is only a rounding error
     } else if (!(s < turn) || !(height(turn) < 0)) {
         return never;
     }
@@ -71,15 +71,15 @@ double FallingFrame::clock_at(double micro_steps) const {
 
 double FallingFrame::micro_steps_at(double clock) const { return time_of_drag_clock(drag_, clock); }
 
-/// The velocity in the box is (1 - c s) v + g s, and a step of the clock takes ds / (1
-/// - c s). With q = c s the integrals are those of 1 - q for v v, of s for v g and of
-/// s^2 / (1 - q) for g g. Completing the square in v gives the form of FlightIntegral.
+/// The velocity in the box is (1 - c s) v + g s, and the time of a step ds of the clock is ds / (1
+/// - c s). With q = c s the integrands are 1 - q for v v, s for v g, and s^2 / (1 - q) for g g.
+/// Completing the square in v gives the form of FlightIntegral.
 FlightIntegral FallingFrame::flight_integral_at(double time) const {
     if (!(time > 0)) return {};
     const double q = drag_ * time, weight = time * (1 - 0.5 * q);
     if (!gravity_.is_any()) return {weight, 0, 0, 0, 0};
     if (sway_.is_any()) return swaying_flight_integral_at(time);
-    double of_squares = 0; // divided by s^3
+    double of_squares = 0; // integral of the squares, divided by s^3
     if (q < 0x1p-6) {
         for (int k = 10; k >= 3; --k) of_squares = 1.0 / k + q * of_squares;
     } else {
@@ -92,8 +92,8 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
 
 namespace {
 
-/// Nodes and weights of Gauss's rule with eight points from -1 to 1. In the eighth of a period that
-/// a flight lasts its error is below a rounding.
+/// Nodes and weights of Gauss's rule with eight points from -1 to 1. A flight lasts at most an
+/// eighth of a period, for which the error is below a rounding.
 constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.5255324099163290,
                                                0.7966664774136267, 0.9602898564975363},
                                 gauss_weights = {0.3626837833783620, 0.3137066458778873,
@@ -101,8 +101,8 @@ constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.52553240991
 
 } // namespace
 
-/// With the frame's velocity u and its mean over the time, the rest is the integral of the products
-/// of u less its mean, a sum of squares: the matrix is the product of a triangular one with itself.
+/// The rest is the integral of products of u minus its mean, where u is the frame's velocity. This
+/// matrix of squares is the product of a triangular matrix and its transpose.
 FlightIntegral FallingFrame::swaying_flight_integral_at(double time) const {
     const Frame end = moving_at(time);
     const double mean_x = end.x / time, mean_y = end.y / time;

@@ -5,11 +5,11 @@
 // sync it is at rest in the box. In it discs fly straight, and pairs need not know of
 // gravity. A wall rises in it, so a disc meets a wall at the root of a quadratic.
 //
-// With drag of the rate c the frame has its own clock s. A disc under the acceleration g is
-// at x + v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all
-// discs share the fall. The parabola's time bounds a contact from one side, and Newton's rule
-// approaches the contact from there without passing it. This takes no bracket and a handful
-// of steps. All is + - * / and sqrt in a fixed order: the same bits on every machine.
+// With drag of the rate c the frame has its own clock s. A disc under the acceleration g is at x +
+// v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all discs share the
+// fall. The parabola's time bounds a contact from one side, and Newton's rule approaches the
+// contact from there without passing it, in a handful of steps and without a bracket. Only + - * /
+// and sqrt in a fixed order are used, so the bits are the same on every machine.
 //
 // Gravity that changes in time moves the frame in another way (sway.hpp), without drag.
 #pragma once
@@ -27,36 +27,36 @@
 
 namespace carrom {
 
-/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and
-/// falls; infinite if there is none. Touching counts while it falls, not while it
-/// grows. It subtracts no like numbers.
+/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and falls; infinite
+/// if there is none. Touching counts while it falls, not while it grows. No nearly equal numbers
+/// are subtracted.
 inline double fall_delay(double distance, double velocity, double pull) {
     if (velocity < 0) {
         if (!(distance > 0)) return 0;
         if (pull == 0) return distance / -velocity;
         const double square = velocity * velocity - 2 * pull * distance;
         return square > 0 ? 2 * distance / (-velocity + std::sqrt(square))
-                          : never; // pulled away before it gets there
+                          : never; // the pull turns the disc back before it reaches the wall
     }
     if (!(pull < 0)) return never;
-    // It comes back. A disc that rounding has left beyond the wall first comes up to
-    // the wall, or else turns round where it is.
+    // The disc comes back. If rounding has left it beyond the wall, it first comes up to the wall,
+    // or else turns back where it is.
     return (velocity + std::sqrt(std::max(velocity * velocity - 2 * pull * distance, 0.0))) / -pull;
 }
 
-/// F(s) for drag of the rate c, to some ulp; 0 <= c s < 1.
+/// F(s) for drag of the rate c, exact to a few ulp; 0 <= c s < 1.
 double dragged_fall(double rate, double clock);
-/// Its derivative, s / (1 - c s).
+/// The derivative of F, s / (1 - c s).
 inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
 
 /// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts
-/// at which less than a hundredth of a velocity is left do not count, because a sync comes before.
+/// after velocities have fallen to less than a hundredth do not count, because a sync comes before.
 double dragged_fall_delay(double distance, double velocity, double pull, double rate);
 
 /// The frame that falls with the discs, and its clock. Times are on the clock, since the last sync.
 class FallingFrame {
 public:
-    /// `effects` per micro-step.
+    /// `effects` have times in micro-steps.
     explicit FallingFrame(const Effects& effects)
         : gravity_(effects.acceleration()), drag_(effects.drag), sway_(gravity_) {}
 
@@ -70,7 +70,7 @@ public:
     bool slows() const { return drag_ != 0; }
     bool is_any() const { return gravity_.is_any() || drag_ != 0; }
 
-    /// How far a disc that is pulled with `g` has fallen, and its speed of falling per g.
+    /// How far a disc under the acceleration `g` has fallen, and its speed divided by g.
     double fallen(double g, double time) const {
         if (drag_ == 0 || g == 0) return (0.5 * g * time) * time;
         return g * dragged_fall(drag_, time);
@@ -78,14 +78,13 @@ public:
     double falling_time(double time) const {
         return drag_ == 0 ? time : dragged_fall_speed(drag_, time);
     }
-    /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
+    /// exp(-c t) = 1 - c s: the factor from velocities on the clock to velocities in the box.
     double slowing_at(double time) const { return 1 - drag_ * time; }
 
-    /// The integral over flights since the sync. It does not use the C library, so its
-    /// bits are the same on every machine.
+    /// The integral of v_a v_b over flights since the sync (core/flight_integral.hpp). It does not
+    /// use the C library, so its bits are the same on every machine.
     FlightIntegral flight_integral_at(double time) const;
-    /// The weight of flight_integral_at over slowing_at: the factor of impulses in the
-    /// box.
+    /// The weight of flight_integral_at divided by slowing_at: the factor of impulses in the box.
     double pair_weight_at(double time) const {
         return drag_ == 0 ? time : time * (1 - 0.5 * drag_ * time) / slowing_at(time);
     }
@@ -93,21 +92,21 @@ public:
     /// The frame's origin and velocity in the box.
     Frame at(double time) const {
         if (is_any()) return moving_at(time);
-        Frame at_rest; // often asked for, and known at once
+        Frame at_rest; // returned at once, because it is needed often
         at_rest.clock = time;
         return at_rest;
     }
     /// Turns a state advanced to `time` into one in a frame that starts there at rest in the box.
     void restart(DiscState& disc, double time) const { disc = at(time).in_box(disc, time); }
-    /// How far the frame jumps along `axis` at a sync at `time`, at most.
+    /// The largest distance by which the frame jumps along `axis` at a sync at `time`.
     double jump_at(Axis axis, double time) const {
         return std::fabs(fallen(along(axis, gravity_.largest_x(), gravity_.largest_y()), time));
     }
-    /// The frame's speed at most, in its own clock.
+    /// The largest speed of the frame, in its own clock.
     double speed_gained_at(double time) const {
         return (gravity_.largest_x() + gravity_.largest_y()) * falling_time(time);
     }
-    /// The part of gravity that changes.
+    /// The part of gravity that changes in time.
     const Sway& sway() const { return sway_; }
 
 private:

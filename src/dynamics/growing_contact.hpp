@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When two discs touch that fly freely and grow (docs/understanding/effects.md, section 15).
 //
-// All radii grow as 1 + g t. Divide lengths by that and let the clock show u = t / (1 + g t). Then
+// All radii grow as 1 + g t. In lengths divided by 1 + g t, and with the clock u = t / (1 + g t),
 // discs keep their size, and d + w t becomes d + (w - g d) u: they still fly straight. So the
-// predicate is that of constant sizes (pair_contact.hpp), with w - g d for w. Each component of it
-// is rounded once, by a fused multiply-add. The cross product is that of d and w, whatever g is: so
-// that rounding does not count at a graze. No bit depends on the order of the pair and the names of
-// the axes. Without growth the bits are those of contact_delay.
+// predicate is that of constant sizes (pair_contact.hpp), with w - g d in place of w. Each
+// component of it is rounded once, by a fused multiply-add. The cross product is taken of d and w
+// for any g, so that this rounding does not affect a graze. No bit depends on the order of the pair
+// and the names of the axes. Without growth the bits are those of contact_delay.
 #pragma once
 
 #include "dynamics/pair_contact.hpp"
@@ -25,7 +25,7 @@ template <class Real>
     const Real clock = contact_delay(dx, dy, vx, vy, wx, wy, sigma, deepest_overlap);
     if (clock < 0) return none;
     const Real rest = std::fma(-growth, clock, Real{1});
-    return rest > 0 ? clock / rest : none; // the clock never comes to 1 / g
+    return rest > 0 ? clock / rest : none; // the clock approaches 1 / g but never reaches it
 }
 
 } // namespace carrom

@@ -16,8 +16,8 @@ double friction_of(const Surface& surface) { return surface.rubs() ? surface.fri
 
 } // namespace
 
-/// Numbers of the cells from `low` to `high` along one axis. Around a periodic box each cell is
-/// named once.
+/// Numbers of the cells from `low` to `high` along one axis. In a periodic box each cell occurs
+/// once.
 class CellLine {
 public:
     CellLine(double length, double width, double most, bool is_periodic)
@@ -63,7 +63,7 @@ struct LastingContactFinder::Search {
     std::span<const double> radii;
     double widest_gap, largest_radius;
     CellLine columns, rows;
-    std::vector<std::uint32_t> starts, sorted; ///< discs in the order of their cells
+    std::vector<std::uint32_t> starts, sorted; ///< sorted: discs in the order of their cells
     std::vector<LastingContact> found;
 
     Search(const Box& box, const Effects& effects, std::span<const HeapDisc> all,
@@ -76,7 +76,8 @@ struct LastingContactFinder::Search {
     }
 
     double width() const { return 2 * largest_radius + widest_gap; }
-    /// Along one axis, so that a thin gas in a large box has no more cells than some per disc.
+    /// Cells along one axis, limited so that a dilute gas in a large box has only a few cells per
+    /// disc.
     double most_cells() const {
         return std::ceil(4 * std::sqrt(static_cast<double>(discs.size()))) + 1;
     }
@@ -102,7 +103,7 @@ struct LastingContactFinder::Search {
             });
         });
     }
-    /// Where (dx, dy) points from the centre of disc i to a body of this radius.
+    /// (dx, dy) points from the centre of disc i to a body of this radius.
     void add(LastingContact contact, double dx, double dy, double radius) {
         const double square = dx * dx + dy * dy, touching = radii[contact.a] + radius,
                      reach = touching + widest_gap;
@@ -155,7 +156,8 @@ void LastingContactFinder::add_pairs(Search& search) const {
     }
 }
 
-/// Walls that heat or move hold nothing. Discs in a box of another shape do not meet its sides.
+/// Thermal and moving walls have no lasting contacts. In a box of another shape discs do not reach
+/// the sides.
 void LastingContactFinder::add_walls(Search& search) const {
     if (effects_.obstacles.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
@@ -200,7 +202,7 @@ void LastingContactFinder::add_obstacles(Search& search) const {
     const std::size_t n_turning = Container(obstacles.shape, box_).segments().size();
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Segment& line = lines[k];
-        // The wall of a box turns as its arcs do.
+        // The wall of a box slides in the direction of its arcs.
         contact.velocity = obstacles.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,
@@ -215,7 +217,7 @@ void LastingContactFinder::add_obstacles(Search& search) const {
     for (const Arc& arc : all_arcs(obstacles, box_)) add_arc(search, arc, contact);
 }
 
-/// The inner face of an arc that turns counterclockwise passes by clockwise, as seen from there.
+/// If an arc turns counterclockwise, its inner face moves clockwise as seen from a disc inside.
 void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,

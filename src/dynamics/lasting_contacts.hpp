@@ -2,7 +2,8 @@
 // The pairs, and the discs at walls and obstacles, that are so close at a sync that they may press
 // each other until the next one. They are found with cells as wide as the largest contact.
 //
-// A contact that is left out costs time, not truth: the discs meet as others do.
+// A contact that is left out costs time but causes no error, because its discs collide as others
+// do.
 #pragma once
 
 #include <cstdint>
@@ -23,27 +24,28 @@ struct HeapDisc {
     friend bool operator==(const HeapDisc&, const HeapDisc&) = default;
 };
 
-/// Between disc `a` and disc `b`, which is `fixed_body` for walls and obstacles. The normal (nx,
-/// ny) points from a to b, and the tangent is (-ny, nx).
+/// A contact between disc `a` and disc `b`, which is `fixed_body` for walls and obstacles. The
+/// normal (nx, ny) points from a to b, and the tangent is (-ny, nx).
 struct LastingContact {
     static constexpr std::uint32_t fixed_body = 0xffffffff;
 
-    std::uint32_t a = 0, b = fixed_body; ///< places in the list of discs
-    std::int64_t body = -1; ///< of fixed bodies: the side of the box, or four more than the number
-                            ///< of the obstacle, segments after discs, then arcs
+    std::uint32_t a = 0, b = fixed_body; ///< indices in the list of discs
+    /// Number of the fixed body: the side of the box, or 4 plus the number of the obstacle, where
+    /// segments follow discs, and arcs follow segments
+    std::int64_t body = -1;
     double nx = 0, ny = 0;
-    double gap = 0;      ///< between the surfaces
-    double distance = 0; ///< between the centres of a pair
-    double friction = 0; ///< Coulomb's
-    double velocity = 0; ///< of the fixed body's surface, along the tangent
+    double gap = 0;      ///< distance between the surfaces
+    double distance = 0; ///< distance between the centres of a pair
+    double friction = 0; ///< coefficient of Coulomb's friction
+    double velocity = 0; ///< velocity of the fixed body's surface along the tangent
 };
 
 class LastingContactFinder {
 public:
     LastingContactFinder(const Box& box, const Effects& effects);
 
-    /// The contacts whose gap is less than `widest_gap`, in an order that depends on the discs and
-    /// their order alone. `radii` is along `discs`.
+    /// The contacts whose gap is less than `widest_gap`, in an order that depends only on the discs
+    /// and their order. `radii` runs along `discs`.
     std::vector<LastingContact> find(std::span<const HeapDisc> discs, std::span<const double> radii,
                                      double widest_gap) const;
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a meeting does to the velocities and spins of two discs that touch. One part of a dynamics
+// How a collision changes the velocities and spins of two discs. One part of a dynamics
 // (dynamics.hpp); a law is plain data.
 //
 //   elastic       the relative velocity along the line of centres is reversed
-//   restitution   the share `restitution` of it is left: 1 gives the elastic bits
-//   rough         discs with spin: normal and tangential restitution and Coulomb's friction (Walton
+//   restitution   only the share `restitution` of it is left; 1 gives the bits of elastic
+//   collisions rough         discs with spin: normal and tangential restitution and Coulomb's
+//   friction (Walton
 //                 and Braun, J. Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442 (1995)). Where
 //                 the surfaces stick their relative velocity along them is multiplied by minus
 //                 `tangential_restitution`; where that takes more than `friction` times the normal
@@ -13,7 +14,7 @@
 // Which law is asked at run time: a collision takes some 2,900 instructions with all that follows
 // from it, so a branch in it costs nothing.
 //
-// A law is told the time `since` the last collision of either disc: then its guard
+// A law gets the time `since` the last collision of either disc, by which its guard
 // (contact_guard.hpp) may make the contact elastic. The time-stepped method has no guard, because a
 // disc collides once in a micro-step at most there, so it passes `never`.
 #pragma once
@@ -31,14 +32,14 @@
 
 namespace carrom {
 
-/// The spins of two discs that meet; null where discs do not turn.
+/// The spins of two colliding discs; null where discs do not turn.
 struct Spins {
     double *p = nullptr, *q = nullptr;
 };
 
 class Law {
 public:
-    /// `effects` per micro-step; for discs of at most `radius`.
+    /// `effects` have times in micro-steps; no disc is larger than `radius`.
     Law(const Effects& effects, double radius)
         : kind_(effects.contact.kind), normal_((1 + effects.contact.restitution) / 2),
           tangential_((1 + effects.contact.tangential_restitution) / 2 *
@@ -51,7 +52,7 @@ public:
     CARROM_DEVICE bool has_spin() const { return kind_ == ContactKind::rough; }
     CARROM_DEVICE bool is_elastic() const { return kind_ == ContactKind::elastic; }
 
-    /// Gives new velocities and spins to discs whose surfaces meet like that.
+    /// Gives new velocities and spins to two discs whose surfaces meet in this encounter.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE Loss meet(DiscState& p, DiscState& q,
                                                    const Encounter<Real>& met,
@@ -74,13 +75,13 @@ public:
     }
 
 private:
-    /// The normal impulse in units of that of an elastic contact, (1 + e) / 2, for discs that
-    /// approach at this speed.
+    /// The normal impulse of discs that approach at this speed, relative to an elastic contact: (1
+    /// + e) / 2.
     CARROM_DEVICE double normal_at(double /*speed*/) const { return normal_; }
 
-    /// `impulse` is in units of that of an elastic contact of equal masses, of which p and q take
-    /// their shares: 2 m' / (m + m') for each disc's velocity, m' being the other's mass.
-    /// Multiplying by 1 changes no bit.
+    /// `impulse` is in units of that of an elastic contact of equal masses, The velocity of each
+    /// disc changes by 2 m' / (m + m') of it, where m' is the mass of the other disc. For equal
+    /// masses this is a factor of 1, which changes no bit.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE static void push_apart(DiscState& p, DiscState& q,
                                                                 const Encounter<Real>& met,
@@ -108,9 +109,9 @@ private:
                            is_guarded);
     }
 
-    /// Also adds an impulse s along the surfaces, which acts on both spins alike, in units of
-    /// the distance of centres, like k. With s = 0 the bits are those of meet_smooth. Spins are
-    /// angles per micro-step, counterclockwise.
+    /// As meet_smooth, with an additional impulse s along the surfaces, which changes both spins by
+    /// the same amount. Like k it is in units of the distance between centres. With s = 0 the bits
+    /// are those of meet_smooth. Spins are angles per micro-step, counterclockwise.
     CARROM_DEVICE Loss meet_rough(DiscState& p, DiscState& q, const Encounter<double>& met,
                                   const SizeAndMass& p_has, const SizeAndMass& q_has, double since,
                                   const Spins& spins) const {
@@ -139,7 +140,7 @@ private:
     }
 
     /// The energy that restitution takes, for a reduced mass of 1 and a distance of 1: half of the
-    /// squared rate of approach, times 1 - e^2.
+    /// squared approach speed times 1 - e^2.
     CARROM_DEVICE static double normal_loss(double normal, double k) {
         return 2 * normal * (1 - normal) * k * k;
     }

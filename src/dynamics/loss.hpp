@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy that restitution takes in one collision, or spares (contact_guard.hpp).
+// The energy that restitution takes in one collision, or that a guard keeps it from taking
+// (contact_guard.hpp).
 #pragma once
 
 namespace carrom {
 
-/// Mass times squared velocity, in the unit of stored states. Friction of walls is no part of it.
+/// Energies as mass times squared velocity, in the unit of stored states. The loss by friction at
+/// walls is not included.
 struct Loss {
     double taken = 0;
-    double spared = 0; ///< what a guarded collision would have taken; 0 for contacts at rest
+    /// The energy that a guarded collision would have taken; 0 for contacts at rest
+    double spared = 0;
 };
 
 } // namespace carrom

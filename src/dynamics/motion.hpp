@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How discs fly, meet each other and stop at walls at rest: a space, bodies, a law and an
-// arithmetic, with the text that uses them. It is the part of a dynamics (dynamics.hpp) that is
-// plain data, so that kernels of a GPU get a copy of it and run the same text.
+// How discs fly, collide with each other and stop at walls at rest: a space, bodies, a law and an
+// arithmetic, with the functions that use them. It is the part of a dynamics (dynamics.hpp) that is
+// plain data, so kernels of a GPU get a copy of it and run the same functions.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +22,16 @@ public:
     using Arithmetic = typename Surroundings::Arithmetic;
     using Real = typename Arithmetic::Real;
 
-    // What can happen in a scene. Kernels compile no code for what cannot.
+    // What can happen in a scene. Kernels contain no code for events that cannot happen.
     static constexpr bool have_effects = Surroundings::have_effects,
                           is_periodic = InSpace::is_periodic,
                           has_moving_images = InSpace::has_moving_images,
                           has_species = OfBodies::have_species,
-                          may_lose_discs = have_effects && !is_periodic, // through open sides
-        is_for_study = Arithmetic::is_for_study;
+                          // Whether discs can leave through open sides
+        may_lose_discs = have_effects && !is_periodic, is_for_study = Arithmetic::is_for_study;
 
-    /// `effects` per micro-step; `radius` is the largest one, of discs of these `species`.
+    /// `effects` have times in micro-steps; `radius` is the largest radius of the discs of these
+    /// `species`.
     Motion(const Box& box, double radius, const Effects& effects, ContactFormula formula,
            SpeciesView species)
         : arithmetic_(box, radius, formula), box_(Arithmetic::rounded(box)),
@@ -39,20 +40,20 @@ public:
           tolerance_(Arithmetic::tolerance(box_, 2 * radius_)), space_(box_, effects),
           bodies_(radius_, effects, species), law_(effects, radius_) {}
 
-    /// From now on radii and masses are looked up there.
+    /// From now on radii and masses are read from this table.
     void look_up_species_in(SpeciesView species) { bodies_.look_up_in(species); }
 
     // Questions about the scene.
 
     CARROM_DEVICE bool has_pairs() const { return !have_effects || law_.has_pairs(); }
     CARROM_DEVICE bool has_spin() const { return have_effects && law_.has_spin(); }
-    /// Collisions of pairs keep the kinetic energy.
+    /// Whether collisions of pairs conserve the kinetic energy.
     CARROM_DEVICE bool has_elastic_pairs() const {
         return !have_effects || (law_.is_elastic() && !OfBodies::grow);
     }
     bool parts_overlaps() const { return arithmetic_.parts_overlaps(); }
 
-    // Sizes, of radii that have not grown. The radius is the largest one.
+    // Sizes, for radii that have not grown. The radius is the largest one.
 
     CARROM_DEVICE const Box& box() const { return box_; }
     CARROM_DEVICE double radius() const { return radius_; }
@@ -60,12 +61,13 @@ public:
     CARROM_DEVICE double tolerance() const { return tolerance_; }
     /// The largest gap between discs in a contact.
     CARROM_DEVICE double slack() const { return space_.slack() + arithmetic_.slack(); }
-    /// The largest distance of centres in a contact.
+    /// The largest distance between centres in a contact.
     CARROM_DEVICE double search_diameter() const { return diameter() + 2 * slack(); }
     double growth_at(double time) const { return bodies_.growth_at(time); }
     CARROM_DEVICE double mass_of(const DiscState& disc) const { return bodies_.of(disc).mass; }
 
-    // Speeds that searches allow for: the disc's own, and that of its image in the box at a time.
+    // Speeds that searches allow for: the disc's own speed, and the speed of its image in the box
+    // at a time.
 
     CARROM_DEVICE double squared_speed(const DiscState& disc) const {
         return space_.squared_speed(disc);
@@ -110,8 +112,8 @@ public:
             base, bodies_.delay(arithmetic_, a, b, met, base, static_cast<Real>(deepest_overlap))};
         return arithmetic_.counts(p, q, found) ? found : PairContact<Real>{};
     }
-    /// Carries out the contact at `time`; `p` has the lower id, and the last collision of either
-    /// disc was `since` before.
+    /// Carries out the contact at `time`. `p` has the lower id, and `since` is the time since the
+    /// last collision of either disc.
     [[gnu::always_inline]] CARROM_DEVICE Loss collide(DiscState& p, DiscState& q, double time,
                                                       double since, const Spins& spins = {}) const {
         advance(p, time);
@@ -128,12 +130,12 @@ public:
                                                    double time) {
         return std::min(since_collision(p, time), since_collision(q, time));
     }
-    /// From p to q, which are both at the place of their collision.
+    /// From p to q, whose states are both at their collision.
     Separation separation(const DiscState& p, const DiscState& q) const {
         const Encounter<double> met = space_.see(p, q, q.x - p.x, q.y - p.y, p.tau);
         return {met.ex, met.ey};
     }
-    /// From p to q, which are both at `time`, or fly there.
+    /// From p to q, whose states are at `time` or earlier.
     CARROM_DEVICE Separation separation_at(const DiscState& p, const DiscState& q,
                                            double time) const {
         const Encounter<double> met = space_.see(p, q, q.x_at(time) - p.x_at(time),
@@ -141,7 +143,7 @@ public:
         return {met.ex, met.ey};
     }
 
-    // Walls at rest, as the time-stepped method meets them.
+    // Walls at rest, as the time-stepped method treats them.
 
     CARROM_DEVICE bool is_periodic_along(Axis axis) const { return space_.is_periodic_along(axis); }
     CARROM_DEVICE RestingWalls<Real> resting_walls(Axis axis, const DiscState& disc) const {

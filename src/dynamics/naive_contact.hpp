@@ -2,8 +2,8 @@
 // The school formula for the time of contact, which the course program uses. The
 // accuracy study compares it with the stable one (pair_contact.hpp).
 //
-// It takes B^2 - 4 A C and -B - sqrt(...) as they stand. Both are differences of like numbers when
-// a pair is far apart or grazes. In single precision it misses a fifth of the hits at a thousand
+// It computes B^2 - 4 A C and -B - sqrt(...) directly. Both subtract nearly equal numbers when a
+// pair is far apart or grazes. In single precision it misses a fifth of the hits at a thousand
 // diameters (docs/understanding/accuracy.md). It would miss seven tenths if a discriminant that
 // rounds to 0 were no contact. A pair that overlaps, even by a rounding, has its root in the past:
 // it passes through.
@@ -15,9 +15,10 @@
 
 namespace carrom {
 
-/// The time until the points come within `sigma`; negative if they never do, and if they
-/// overlap already. With `contracted`, products are fused with the sums they go into, like a
-/// compiler does with -ffp-contract=fast. It is written out, so that all compilers do the same.
+/// The time until the points come within `sigma`; negative if they never do, and if they overlap
+/// already. With `contracted`, products and sums are fused as by a compiler with
+/// -ffp-contract=fast. The fused operations are written out, so that all compilers give the same
+/// result.
 template <class Real>
 CARROM_DEVICE Real naive_contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
                                        bool contracted) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time of an event that does not come.
+// The time of an event that never happens.
 #pragma once
 
 #include <limits>

@@ -12,16 +12,16 @@ namespace carrom {
 
 namespace {
 
-/// A disc in the box may touch this many images of a body: its own one and eight around.
+/// A disc in the box may touch this many images of a body: the body itself and eight around it.
 constexpr std::uint32_t n_images = 9;
 
-/// A disc leaves the inner face of an arc at this slope at least. Along the face it would meet it
-/// at all times. That changes energies by less than their rounding over a thousand collisions.
+/// The least slope at which a disc leaves the inner face of an arc, because along the face it would
+/// meet it all the time. It changes energies by less than the rounding of a thousand collisions.
 constexpr double least_slope = 1e-6;
 
-/// The first time at which a distance that begins with `rate` and is pulled at comes
-/// down to 0. On the body's own `side` a distance that is not above 0 counts from
-/// where it turns round; from elsewhere it has to come up first.
+/// The first time at which a distance with the initial `rate` and a constant acceleration falls to
+/// 0. If the distance is not positive, on the body's own `side` the time at which it turns back
+/// counts; on the other side it must become positive first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -46,7 +46,7 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
       rows_of_bodies_(rows_of(effects.obstacles, box)) {
     add_bodies(effects.obstacles);
     const auto n = static_cast<double>(bodies_.size());
-    // Nearly square cells: as many as for a square box, with more of them along the longer side.
+    // Nearly square cells, as many as in a square box, with more of them along the longer side.
     const double stretch = std::sqrt(box.x / box.y);
     const auto cells = [n](double length, double factor, double period) {
         const double number = std::floor(std::clamp(std::sqrt(2 * n), 4.0, 4096.0) * factor);
@@ -55,7 +55,7 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
     };
     columns_ = cells(box.x, stretch, periods_.x);
     rows_ = cells(box.y, 1 / stretch, periods_.y);
-    // Far above the rounding of places and times.
+    // Much larger than the rounding of positions and times.
     margin_ = 1e-6 * std::max(columns_.width, rows_.width) + 1e-9 * box.longest();
     sort_into_cells();
 }
@@ -68,8 +68,7 @@ void Obstacles::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// The surface of a free end does not slide, because an arc turns around its centre. Ends in the
-/// wall of a box are met from inside.
+/// Free ends do not slide, because arcs turn around centres. Discs meet ends in walls from inside.
 void Obstacles::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
@@ -119,7 +118,7 @@ Obstacles::Cells Obstacles::cells_of(const Extent& extent) const {
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
-/// The places of the centres of discs that touch the body's image.
+/// The positions of centres of discs that touch the body's image.
 Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const {
     const double reach = body.radius + radius, x = body.x + shift.x, y = body.y + shift.y;
     const double x_end = x + body.length * body.ux, y_end = y + body.length * body.uy;
@@ -127,8 +126,8 @@ Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const 
             std::max(y, y_end) + reach};
 }
 
-/// False for cells that an oblique line or an arc's circle does not touch. Cells at the border also
-/// stand for the places beyond.
+/// Returns false for cells that an oblique line or an arc's circle does not touch. Cells at the
+/// border also contain the positions beyond.
 bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
@@ -184,9 +183,9 @@ template <class What> void Obstacles::visit_cells(const Cells& cells, const What
     }
 }
 
-/// The body's number; in a periodic box a number for each of nine images. The image
-/// follows from the box that holds the centre (x, y) of the touching disc, the way that it has
-/// fallen included, so the number is a function of the disc's state, wherever that is stored.
+/// The body's number; in a periodic box a number for each of nine images. The image follows from
+/// the box that contains the centre (x, y) of the touching disc, with the path that it has fallen,
+/// so the number is a function of the disc's state, in whichever box that is stored.
 std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -194,7 +193,7 @@ std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     return image.body * n_images + static_cast<std::uint32_t>(3 * (dx + 1) + (dy + 1));
 }
 
-/// The image of a code, for a disc whose centre is at (x, y) now.
+/// The image that belongs to a code, for a disc whose centre is at (x, y) now.
 Obstacles::Entry Obstacles::image_of(std::uint32_t code, double x, double y) const {
     if (!periods_.are_any()) return {code, 0, 0};
     const auto image = static_cast<int>(code % n_images);
@@ -208,7 +207,7 @@ Obstacles::Entry Obstacles::image_of(std::uint32_t code, double x, double y) con
             static_cast<std::int16_t>(boxes_y)};
 }
 
-/// `dx`, `dy` are from the line's beginning, `wx`, `wy` in the box.
+/// `dx`, `dy` are relative to the line's beginning; `wx`, `wy` are velocities in the box.
 double Obstacles::line_delay(const Body& line, double radius, double dx, double dy, double wx,
                              double wy) const {
     const auto [gx, gy] = gravity_;
@@ -246,7 +245,8 @@ double Obstacles::contact_time(const DiscState& disc, const Body& body, double r
     return delay < 0 ? never : disc.tau + delay;
 }
 
-/// The part of the box that a flight covers. A parabola is within an eighth of its pull.
+/// The part of the box that a flight covers. A parabola deviates from its chord by at most an
+/// eighth of its acceleration times the squared time.
 Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const {
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
@@ -256,7 +256,7 @@ Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const
             std::max(y0, y1) + y_bend};
 }
 
-/// The number of parts of a flight in which it goes no further than about a cell.
+/// The number of parts of a flight in each of which the disc moves by at most about a cell.
 double Obstacles::slices_of(const DiscState& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
         return std::max(std::fabs(v + gravity_[axis] * begin), std::fabs(v + gravity_[axis] * end));
@@ -333,7 +333,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
-    // Like at walls, a disc that is pulled back stays away for a contact at least.
+    // As at walls, a disc that is pulled back leaves fast enough to stay away for a contact.
     double pull = -(nx * gravity_[0] + ny * gravity_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
@@ -357,7 +357,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     return loss;
 }
 
-/// Negative infinity where an arc is in another direction: its ends are bodies of their own.
+/// Negative infinity if an arc is in another direction, because its ends are bodies of their own.
 double Obstacles::overlap_of(const Body& body, double x, double y, double radius) const {
     if (body.is_arc) {
         const double dx = x - body.x, dy = y - body.y, distance = std::sqrt(dx * dx + dy * dy);
@@ -382,7 +382,7 @@ Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
         deepest = {overlap, image.body};
     });
     if (container_.is_rectangle()) return deepest;
-    // A disc is also in the wall wherever it is outside.
+    // Outside of the container a disc overlaps the wall everywhere.
     const double overlap = container_.outside(x, y) + radius;
     return overlap > most ? Overlap{overlap, first_bodies_.back()} : deepest;
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that stand fixed in a box: discs, straight segments, and arcs of circles, both with a disc
-// of radius 0 at either end. A disc that comes to one is reflected from it, as from a wall. A box
-// of another shape than a rectangle has arcs and segments for its walls (container.hpp).
+// Fixed bodies in a box: discs, straight segments, and arcs of circles; segments and arcs have a
+// disc of radius 0 at either end. A disc that meets one is reflected, as by a wall. A box that is
+// not a rectangle has arcs and segments as walls (container.hpp).
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
-// predicate of pairs; a quartic under gravity: falling_contact.hpp), a segment if it is r from
-// its line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function
-// of the stored state alone. A grid of cells holds the bodies for good; a flight searches the cells
-// on its way, up to its first contact. In a periodic box the grid repeats itself, and a body is
-// also in the cells that its images reach into. A stored state may be many boxes away: bodies are
-// shifted to it by whole box lengths.
+// predicate of pairs; a quartic under gravity: falling_contact.hpp), a segment if it is r from its
+// line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function of
+// the stored state alone. A grid of cells, built once, holds the bodies. A flight searches the
+// cells along its path, up to its first contact. In a periodic box the grid repeats itself, and a
+// body is also in the cells that its images cover. A stored state may be many boxes away: bodies
+// are shifted to it by whole box lengths.
 #pragma once
 
 #include <array>
@@ -35,72 +35,75 @@ struct ObstacleContact {
     static constexpr std::uint32_t no_body = 0xffffffff;
 
     double time = std::numeric_limits<double>::infinity();
-    std::uint32_t body = no_body; ///< a number for each body, or for each of its
-                                  ///< nearest images; see Obstacles::code_of
+    /// Number of the body, or of one of its nearest images; see Obstacles::code_of
+    std::uint32_t body = no_body;
 
     bool exists() const { return body != no_body; }
 };
 
-/// The times that count, since the last sync.
+/// The range of times in which contacts count, since the last sync.
 struct ContactTimes {
     double from = 0, to = 0;
-    bool hold_from = true; ///< whether `from` itself counts
+    bool hold_from = true; ///< whether a contact at `from` itself counts
     std::uint32_t except =
-        ObstacleContact::no_body; ///< does not count at the disc's own time: it has just been left
+        ObstacleContact::no_body; ///< the body that the disc has just left; contacts with it at
+                                  ///< the disc's own time do not count
 };
 
 /// A place where a disc touches an obstacle.
 struct ObstacleTouch {
-    std::uint32_t row = 0; ///< of `rows_of` (container.hpp)
-    double nx = 0, ny = 0; ///< away from the body
-    double x = 0, y = 0;   ///< the place, from the row's centre
+    std::uint32_t row = 0; ///< index in `rows_of` (container.hpp)
+    double nx = 0, ny = 0; ///< normal that points away from the body
+    double x = 0, y = 0;   ///< position relative to the row's centre
 };
 
 class Obstacles {
 public:
-    /// For discs of at most `largest_radius`; `effects` are per micro-step.
+    /// `effects` have times in micro-steps; no disc is larger than `largest_radius`.
     Obstacles(const Box& box, double largest_radius, const Effects& effects);
 
-    /// The first body that a disc of that radius meets at such a time; the one of the
-    /// lower number if it meets two at once.
+    /// The first body that a disc of that radius meets within these times. If it meets two at once,
+    /// the lower number counts.
     ObstacleContact first_contact(const DiscState& disc, double radius,
                                   const ContactTimes& times) const;
 
-    /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at
-    /// `time`, its own now; its last collision was `since` before. Returns the loss for a mass
+    /// Reflects a disc that has met the body with the contact's number `code` at `time`, which is
+    /// the disc's own time now; its last collision was `since` before. Returns the loss for a mass
     /// of 1.
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since,
                  const Turning& turning) const;
 
-    /// Where a disc that has come to the body of `code` at `time`, its own now, touches it.
+    /// Where a disc that has met the body `code` at `time`, its own time now, touches it.
     ObstacleTouch touch(const DiscState& disc, std::uint32_t code, double time,
                         double radius) const;
 
     struct Overlap {
         double depth = 0;
-        std::uint32_t body = ObstacleContact::no_body; ///< whatever the image
+        std::uint32_t body = ObstacleContact::no_body; ///< the same for all images of a body
     };
-    /// The body that a disc of that radius at (x, y) in the box overlaps deepest, by more than
-    /// `least`, or `no_body`.
+    /// The body that a disc of that radius at (x, y) in the box overlaps most deeply, by more than
+    /// `least`; otherwise `no_body`.
     Overlap deepest_overlap(double x, double y, double radius, double least) const;
-    /// "fixed disc 3" or "segment 1", by their rows in the scene's lists, or "the round wall".
+    /// Name for messages, such as "fixed disc 3", "segment 1" (by rows of the scene's lists) or
+    /// "the round wall".
     std::string name_of(std::uint32_t body) const;
 
 private:
     struct Body {
-        double x, y;                       ///< its centre, or one end of a line
+        double x, y;                       ///< the centre of a disc, or one end of a line
         double radius;                     ///< 0 for a line
         double ux = 0, uy = 0, length = 0; ///< for a line: direction and length
-        double slides = 1; ///< the velocity of its surface over the scene's, counterclockwise
+        /// Velocity of its surface relative to the scene's key, counterclockwise
+        double slides = 1;
         bool is_arc = false;
-        ArcSpan span{}; ///< for an arc
+        ArcSpan span{}; ///< directions that an arc covers
         bool is_line() const { return length > 0; }
     };
-    /// Numbers go on beyond a periodic side.
+    /// Numbers of cells along both axes. They continue beyond a periodic side.
     struct Cells {
         std::int64_t first_column, last_column, first_row, last_row;
     };
-    /// A body, or an image of one, this many boxes from the cell's box.
+    /// A body, or an image of it that is displaced by this many boxes.
     struct Entry {
         std::uint32_t body;
         std::int16_t x, y;
@@ -126,8 +129,8 @@ private:
     double line_delay(const Body& line, double radius, double dx, double dy, double wx,
                       double wy) const;
     struct Normal {
-        double x, y;    ///< away from the body
-        bool is_hollow; ///< the inner face of an arc
+        double x, y;    ///< normal that points away from the body
+        bool is_hollow; ///< whether the disc is at the inner face of an arc
     };
     static Normal normal_of(const Body& body, double dx, double dy);
     Extent extent_of(const Body& body, double radius, Shift shift) const;
@@ -153,10 +156,10 @@ private:
     std::size_t n_fixed_discs_;
     Container container_;
     Periods periods_;
-    double largest_radius_;    ///< a disc's
-    std::vector<Body> bodies_; ///< fixed discs, then a line or an arc and its two ends for each
-                               ///< segment, edge and arc
-    std::vector<std::uint32_t> first_bodies_; ///< of rows behind those of fixed discs
+    double largest_radius_; ///< of a disc
+    /// Fixed discs, then for each segment, edge and arc its line and its two ends
+    std::vector<Body> bodies_;
+    std::vector<std::uint32_t> first_bodies_; ///< first body of each row behind the fixed discs
     std::vector<ObstacleRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;

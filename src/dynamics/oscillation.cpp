@@ -14,12 +14,13 @@ namespace {
 
 /// A disc comes within the wall's reach at most twice; the other visits allow for rounding.
 constexpr int most_visits = 8;
-/// A search begins this many periods before a disc comes within reach, and ends as many after.
+/// A search begins and ends this many periods outside of the time in which the disc is within
+/// reach.
 constexpr double margin = 1.0 / 16;
-/// In periods; far beyond any sync.
+/// In periods; much longer than any time between syncs.
 constexpr double latest = 0x1p40;
 
-/// The turns from -1/4 to 1/4 with this sine, by halving.
+/// The turns from -1/4 to 1/4 with this sine, by bisection.
 double turns_of_sine(double sine) {
     double low = -0.25, high = 0.25;
     for (;;) {
@@ -45,7 +46,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double gravity, doub
     rate_ = two_pi / period_;
     phase_ = whole_turns_off(side.phase / two_pi);
     turns_ = phase_;
-    // Here the wall's acceleration is that of falling discs.
+    // At this sine the wall's acceleration equals that of falling discs.
     const double sine = -gravity / (amplitude_ * rate_ * rate_);
     const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
     first_bend_ = whole_turns_off(bend);
@@ -67,7 +68,7 @@ double Oscillation::pressure_at(double time, double later) const {
     return std::max(sign_ * at(time).acceleration, sign_ * at(later).acceleration) - pull_;
 }
 
-/// The flight of one disc, s after `time`.
+/// The flight of one disc, at the time s after `time`.
 struct Oscillation::Flight {
     const Oscillation& wall;
     double distance, rate, from_wall, time;
@@ -85,7 +86,7 @@ struct Oscillation::Flight {
         const auto [slope, bend] = rate_at(s);
         return slope < 0 || (slope == 0 && bend < 0);
     }
-    /// The next time at which the disc is within the wall's reach, deeper than the slack.
+    /// The next time at which the disc is within the wall's reach by more than the slack.
     double entry_after(double s) const {
         const double left = from_line_at(s) - wall.amplitude_ + wall.slack_;
         return left > 0 ? s + fall_delay(left, rate + wall.pull_ * s, wall.pull_) : s;
@@ -95,13 +96,13 @@ private:
     double from_line_at(double s) const {
         return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
     }
-    /// At s = 0 it is exactly the number that a rebound has left.
+    /// At s = 0 this is exactly the number that a rebound has left.
     double slope_at(double s, const WallMotion& then) const {
         return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
     }
 };
 
-/// The first time after `time` at which the rate of distances has an extremum.
+/// The first time after `time` at which the rate of the distance has an extremum.
 double Oscillation::bend_after(double time) const {
     for (double turn = std::floor(turns_ + time / period_) - 1;; turn += 1) {
         for (const double bend : {first_bend_, second_bend_}) {
@@ -111,8 +112,8 @@ double Oscillation::bend_after(double time) const {
     }
 }
 
-/// Searches the times from `begin` to `end` at least. Between two bends the rate changes
-/// sign at most once, so the distance falls in one piece of that, or not at all.
+/// Searches at least the times from `begin` to `end`. Between two bends the rate changes its sign
+/// at most once, so the distance falls in one interval between them, or not at all.
 double Oscillation::first_contact(const Flight& flight, double begin, double end) const {
     const auto distance = [&flight](double s) { return flight.distance_at(s); };
     const auto rate = [&flight](double s) { return flight.rate_at(s); };

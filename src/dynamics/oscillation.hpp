@@ -3,11 +3,12 @@
 // phase), along +x or +y, with t the time since the scene's start. It is infinitely
 // heavy, so nothing changes its motion.
 //
-// In the falling frame its distance to a disc is a parabola less a sine. The rate of this is
-// monotone between the times at which wall and disc have the same acceleration, which are known
-// beforehand, two to a period. So a bracket finds each extremum, and another one the first root:
-// no contact is missed, however fast or slow the wall is. A disc that is within the wall's
-// highest place for a whole period meets it, so the search covers a period, or two, or none.
+// In the falling frame its distance to a disc is a parabola minus a sine. Its derivative is
+// monotone between the times at which wall and disc have the same acceleration. These times are
+// known, and there are two in a period. So one bracket finds each extremum, and another finds the
+// first root: no contact is missed, however fast or slow the wall is. A disc that stays within the
+// amplitude of the line for a whole period meets the wall, so the search covers at most two
+// periods.
 //
 // It uses only + - * / and sqrt in a fixed order, so the bits are the same on every machine.
 #pragma once
@@ -16,7 +17,7 @@
 
 namespace carrom {
 
-/// Along +x or +y, relative to the wall's line.
+/// Position, velocity and acceleration along +x or +y, relative to the wall's line.
 struct WallMotion {
     double place = 0, velocity = 0, acceleration = 0;
 };
@@ -27,10 +28,10 @@ WallMotion oscillation_at(const Boundary& side, double time);
 /// The oscillation of one side in the falling frame.
 class Oscillation {
 public:
-    /// No oscillation.
+    /// A wall that does not oscillate.
     Oscillation() = default;
-    /// `side` is per micro-step, `sign` is 1 if the inside is in the positive
-    /// direction, else -1. `gravity` is along the axis, `slack` the rounding of places.
+    /// `side` has times in micro-steps, `sign` is 1 if the inside is in the positive direction,
+    /// else -1. `gravity` is along the axis, `slack` the rounding of places.
     Oscillation(const Boundary& side, double sign, double gravity, double slack);
 
     bool is_any() const { return amplitude_ > 0; }
@@ -40,14 +41,14 @@ public:
     /// From now on times count from `time` since the scene's start.
     void begin_interval(double time);
     WallMotion at(double time) const;
-    /// The pull that presses a disc at the wall against it: the larger value now and
-    /// at `later`. It is negative if the wall draws back faster than discs fall.
+    /// The acceleration of a disc towards the wall at which it is: the larger of its values now and
+    /// at `later`. It is negative if the wall moves away faster than discs fall.
     double pressure_at(double time, double later) const;
 
-    /// The time after `time` until the disc first is at the wall or beyond, and comes
-    /// nearer. `distance` and its `rate` are from the line at `time`, towards the
-    /// inside. `from_wall` is the rate relative to the wall itself; its sign decides
-    /// at `time`. Contacts less deep than the slack may be missed.
+    /// The time after `time` until the disc first is at the wall or beyond, and approaches it.
+    /// `distance` is measured from the line towards the inside, at `time`, and `rate` is its
+    /// derivative. `from_wall` is the rate relative to the wall itself; its sign decides at `time`.
+    /// Contacts less deep than the slack may be missed.
     double contact_delay(double distance, double rate, double from_wall, double time) const;
 
 private:
@@ -56,10 +57,11 @@ private:
     double first_contact(const Flight& flight, double begin, double end) const;
     double bend_after(double time) const;
 
-    double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: 2 pi / period
-    double phase_ = 0, turns_ = 0;                 ///< in turns, at the start and at the last sync
-    double sign_ = 1, pull_ = 0, slack_ = 0;       ///< pull: gravity towards the inside
-    double first_bend_ = 0, second_bend_ = 0;      ///< turns, within one: see the top
+    double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: angular frequency 2 pi / period
+    double phase_ = 0, turns_ = 0;           ///< phase in turns, at the start and at the last sync
+    double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: gravity towards the inside
+    /// In turns, the times of equal acceleration within one turn (see the top)
+    double first_bend_ = 0, second_bend_ = 0;
 };
 
 } // namespace carrom

@@ -3,10 +3,11 @@
 // (docs/understanding/method.md, section 4).
 //
 // The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
-// made exact by fused multiply-adds, and the root as C / (-b + sqrt(disc)): no subtraction of like
-// numbers (Lagrange's identity; Kahan 2004). This form of X treats x and y alike, so transposed
-// scenes give transposed bits. One square root for most misses, two more and a division for a hit.
-// No division before b < 0, so equal velocities need no case of their own.
+// made exact by fused multiply-adds, and the root as C / (-b + sqrt(disc)), so no nearly equal
+// numbers are subtracted (Lagrange's identity; Kahan 2004). This form of X treats x and y alike, so
+// transposed scenes give transposed bits. One square root for most misses, two more and a division
+// for a hit. Nothing is divided before b < 0 is known, so equal velocities need no case of their
+// own.
 #pragma once
 
 #include <algorithm>
@@ -65,8 +66,8 @@ template <class Real>
     return contact_delay(dx, dy, wx, wy, wx, wy, sigma, deepest_overlap);
 }
 
-/// The contact of discs `p` and `q` (in any order) from their stored states alone, so
-/// the bits do not depend on who asks, and when. Inlined like contact_delay.
+/// The contact of discs `p` and `q` (in any order) from their stored states alone, so the bits do
+/// not depend on where and when it is computed. Inlined like contact_delay.
 template <class Real, class AnyDisc>
 [[gnu::always_inline]] CARROM_DEVICE inline PairContact<Real> pair_contact(const AnyDisc& p,
                                                                            const AnyDisc& q,

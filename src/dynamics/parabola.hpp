@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance of a point on a parabola from a point at rest, and roots in brackets. What
-// falling_contact.cpp and arc_contact.cpp share.
+// The distance of a point on a parabola from a point at rest, and roots in brackets.
+// falling_contact.cpp and arc_contact.cpp share them.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Newton's rule takes some ten steps. Halving alone takes few more to bring a bracket
-/// to its last bit.
+/// Newton's rule takes some ten steps. Bisection alone needs only a few more to shrink a bracket to
+/// its last bit.
 inline constexpr int most_newton_steps = 100;
 
 struct ValueAndRate {
@@ -42,12 +42,12 @@ struct Parabola {
         const double distance = std::sqrt(x * x + y * y);
         return {distance - reach, (x * vx + y * vy) / distance};
     }
-    /// Half the rate of the squared distance.
+    /// Half the derivative of the squared distance.
     ValueAndRate rate(double s) const {
         const auto [x, y, vx, vy] = at(s);
         return {x * vx + y * vy, (vx * vx + vy * vy) + (x * gx + y * gy)};
     }
-    /// The times at which the rate turns round, ascending; both infinite if it never does.
+    /// The times at which this derivative has its extrema, ascending; both infinite if it has none.
     std::array<double, 2> bends() const {
         const double a = 1.5 * (gx * gx + gy * gy), b = 3 * (wx * gx + wy * gy),
                      c = (wx * wx + wy * wy) + (dx * gx + dy * gy);

@@ -2,9 +2,9 @@
 // Elastic walls at rest, for one coordinate of a disc's centre. `Real` is double, or
 // float for the accuracy study.
 //
-// The time-stepped method decides a micro-step m by where the disc would be at its end. Only the
-// wall ahead counts. A slow disc that ends within the band bounces at t = 1 without touching: so
-// rounding cannot keep it at a wall for ever.
+// In the time-stepped method the position of the disc at the end of micro-step m decides whether it
+// bounces. Only the wall ahead counts. A slow disc that ends within the band bounces at t = 1
+// without touching, because otherwise rounding might keep it at a wall for ever.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ template <class Real> class RestingWalls {
 public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
-    /// Walls at 0 and `length`, for the centres of discs of that radius.
+    /// `radius` is that of the discs; `band` is the width within which a slow disc bounces.
     CARROM_DEVICE RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sines of angles, and roots in brackets, by + - * / in a fixed order: the same bits on every
-// machine, which those of other libraries need not have.
+// Sines of angles, and roots in brackets, computed by + - * / in a fixed order. So they have the same
+// bits on every machine, which other libraries do not ensure.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace carrom {
 
 inline constexpr double two_pi = 2 * std::numbers::pi;
 
-/// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The terms behind are below 2^-63 for
+/// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The next terms are below 2^-63 for
 /// angles up to pi / 4.
 inline constexpr std::array<double, 8> sine_terms = {
     -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
@@ -33,16 +33,15 @@ struct SineAndCosine {
 /// Sine and cosine of 2 pi `turns`, which is below 2^50, each to 2^-52.
 SineAndCosine sine_of_turns(double turns);
 
-/// Of a number of turns, the part from 0 to 1.
+/// The fractional part, from 0 to 1, of a number of turns.
 inline double whole_turns_off(double turns) { return turns - std::floor(turns); }
 
 struct ValueAndSlope {
     double value, slope;
 };
 
-/// The root of a function with different signs at the ends, to a rounding of `origin`
-/// and itself. Uses Newton's rule, and halving if that leaves the bracket or its steps
-/// do not get shorter by half.
+/// The root of a function with different signs at the ends, to a rounding of `origin` and itself.
+/// Uses Newton's rule, and bisection if that leaves the bracket or its steps do not halve.
 template <class Function>
 double root_in_bracket(double low, double high, bool rises, double origin,
                        const Function& function) {

@@ -2,14 +2,14 @@
 // The space that discs fly in: which image of another disc a disc meets, where that image is and
 // how fast. One part of a dynamics (dynamics.hpp); a space is plain data.
 //
-//   WalledSpace     what is stored is what there is
+//   WalledSpace     discs have no images
 //   PeriodicSpace   the box repeats itself at rest, along one axis or both (core/image.hpp)
 //   ShearedSpace    the rows of boxes above and below move along x (A. W. Lees and S. F. Edwards,
 //                   J. Phys. C 5, 1921 (1972)), so that the gas flows with vx = rate (y - const)
 //                   without any wall
 //
 // The separation of two discs is that of their stored places and a whole number of box lengths,
-// added in one fixed association, so that all ranks find the same bits. Under shear the image has a
+// added in one fixed order, so that all ranks find the same bits. Under shear the image has a
 // velocity of its own, too. A disc that leaves through the seam keeps its stored state until the
 // next sync, which brings it back with the velocity of the image in the box. Price: images near the
 // seam are faster than discs in the box by rate times the box's height, and searches have to allow
@@ -34,22 +34,23 @@ template <class S>
 concept Space = std::is_trivially_copyable_v<S> &&
                 requires(S changing, const S space, const DiscState& p, DiscState& q,
                          std::int64_t n, double d, Axis axis) {
-                    { S::is_periodic } -> std::convertible_to<bool>;       // discs have images
+                    { S::is_periodic } -> std::convertible_to<bool>; // whether discs have images
                     { S::has_moving_images } -> std::convertible_to<bool>; // which have velocities
-                    changing.begin_interval(n); // times now count from micro-step n
-                    // q as p sees it; d, d is the difference of stored places at the time d.
+                    changing.begin_interval(n); // from now on times count from micro-step n
+                    // The position of q relative to p; d, d is the difference of stored positions
+                    // at the time d.
                     { space.see(p, p, d, d, d) } -> std::same_as<Encounter<double>>;
                     { space.is_periodic_along(axis) } -> std::same_as<bool>;
                     { space.has_sides() } -> std::same_as<bool>;
-                    // Rounding of places far from the box.
+                    // The rounding error of positions far from the box.
                     { space.slack() } -> std::convertible_to<double>;
-                    // Speeds that searches allow for: the disc's own, or that of its image in the
-                    // box at a time.
+                    // Speeds that searches allow for: the disc's own speed, or the speed of its
+                    // image in the box at a time.
                     { space.squared_speed(p) } -> std::same_as<double>;
                     { space.squared_speed_at(p, d) } -> std::same_as<double>;
                     requires !S::is_periodic || requires {
                         { space.periods() } -> std::same_as<const Periods&>;
-                        space.wrap(q); // into the box, after a sync
+                        space.wrap(q); // brings the disc into the box, after a sync
                     };
                 };
 
@@ -77,12 +78,12 @@ public:
     }
 };
 
-/// An axis has walls or is periodic.
+/// Each axis has walls or is periodic.
 class PeriodicSpace {
 public:
     static constexpr bool is_periodic = true, has_moving_images = false;
 
-    /// `effects` per micro-step.
+    /// `effects` have times in micro-steps.
     PeriodicSpace(const Box& box, const Effects& effects)
         : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
 
@@ -114,7 +115,7 @@ class ShearedSpace {
 public:
     static constexpr bool is_periodic = true, has_moving_images = true;
 
-    /// `effects` per micro-step.
+    /// `effects` have times in micro-steps.
     ShearedSpace(const Box& box, const Effects& effects)
         : periods_(effects.periods(box)), slack_(0x1p-36 * box.longest()) {}
 

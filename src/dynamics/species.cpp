@@ -5,17 +5,17 @@ namespace carrom {
 
 namespace {
 
-/// More species than this are not searched one by one.
+/// If there are more species than this, a table replaces the comparisons.
 constexpr std::size_t few_species = 8;
 
-/// So many species can be numbered with 16 bits.
+/// The largest number of species that 16 bits can number.
 constexpr std::size_t most_numbers = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
 
 } // namespace
 
 void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_discs) {
     const bool has_numbers = species.size() <= most_numbers;
-    // A list that grows takes up to twice what it needs.
+    // Reserved at once, because a growing list takes up to twice the memory.
     sizes.reserve(has_numbers ? species.size() : n_discs);
     if (has_numbers) species_of_id.reserve(n_discs);
     for (const Species& one : species) {
@@ -40,7 +40,8 @@ std::shared_ptr<const SpeciesTable::Table> SpeciesTable::table_of(std::span<cons
     table->ranges.push_back(
         {std::numeric_limits<DiscId>::max(),
          species.empty() ? SizeAndMass{radius, 1} : table->ranges.back().values});
-    if (!species.empty()) table->ranges.erase(table->ranges.end() - 2); // the last one has no end
+    // The last range needs no end
+    if (!species.empty()) table->ranges.erase(table->ranges.end() - 2);
     if (species.size() > few_species) table->spread(species, end);
     return table;
 }

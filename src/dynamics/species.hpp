@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Species: the radius and the mass of each disc, which a run never changes.
 //
-// Species come in the order of ids, so a disc's species follows from its id: no array,
-// no byte in messages and checkpoints. Few species are found by comparisons. Many have a
-// table by id on every rank: up to 65,536 species take 2 bytes a disc, which name the
-// species, and more take 16, because radius and mass stand there themselves.
+// Species come in the order of ids, so a disc's species follows from its id: it needs no array, and
+// no bytes in messages and checkpoints. Few species are found by comparisons. Many have a table by
+// id on every rank: up to 65,536 species take 2 bytes a disc, which name the species, and more take
+// 16, because radius and mass stand there themselves.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// A number of equal discs. Their ids follow those of the species before.
+/// A number of equal discs. Their ids follow the ids of the species before.
 struct Species {
     std::uint64_t count = 0;
     double radius = 0;
@@ -32,7 +32,7 @@ struct SizeAndMass {
     double mass = 1;
 };
 
-/// Looks up radius and mass in a table that something else owns; plain data.
+/// Looks up radius and mass in a table that another object owns; plain data.
 class SpeciesView {
 public:
     struct Range {
@@ -40,7 +40,8 @@ public:
         SizeAndMass values;
     };
 
-    /// `sizes` is null if there are few species; `species_of_id` if it has each disc's values.
+    /// `sizes` is null if there are few species; `species_of_id` is null if `sizes` has each disc's
+    /// values.
     SpeciesView(const Range* ranges, const SizeAndMass* sizes, const std::uint16_t* species_of_id)
         : ranges_(ranges), sizes_(sizes), species_of_id_(species_of_id) {}
 
@@ -57,7 +58,7 @@ private:
     const std::uint16_t* species_of_id_;
 };
 
-/// Copies share their memory. A run makes one table: its dynamics has it, and all others get a copy
+/// Copies share their memory. A run makes one table for its dynamics, and all others get a copy
 /// (Engine::species_table).
 class SpeciesTable {
 public:
@@ -66,8 +67,8 @@ public:
 
     const SizeAndMass& of(DiscId id) const { return view_.of(id); }
     SpeciesView view() const { return view_; }
-    /// A view of copies of the table. `copy(numbers, n)` makes one of each part, which must stay,
-    /// and returns where it is.
+    /// A view of copies of the table. `copy(numbers, n)` copies one part to memory that must stay,
+    /// and returns its address.
     template <class Copy> SpeciesView copied_by(const Copy& copy) const {
         const SpeciesView::Range* ranges = copy(table_->ranges.data(), table_->ranges.size());
         if (table_->sizes.empty()) return {ranges, nullptr, nullptr};
@@ -79,7 +80,7 @@ public:
 private:
     struct Table {
         std::vector<SpeciesView::Range> ranges;
-        std::vector<SizeAndMass> sizes;           ///< of each species, or of each disc; or empty
+        std::vector<SizeAndMass> sizes;           ///< of each species or of each disc; may be empty
         std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
 
         void spread(std::span<const Species> species, DiscId n_discs);

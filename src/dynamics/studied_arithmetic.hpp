@@ -3,13 +3,13 @@
 // precision, the naive contact formula, or both. It takes the place of StableArithmetic in the
 // plain dynamics where a scene asks for it.
 //
-// `Number` is the precision of states and of computation. A float's state is stored in doubles of
-// the same value, so the rest of the program need not know. The formula is chosen when the program
-// runs.
+// `Number` is the precision of states and of computation. A state of floats is stored as doubles of
+// the same values, so the rest of the program does not depend on the precision. The formula is
+// chosen when the program runs.
 //
-// Such arithmetic finds contacts where discs do not touch, and misses some. The search goes only
-// where discs touch, within a margin, and how far depends on ranks and threads. So a contact counts
-// only within a fixed margin, `slack`: then all distributions find the same.
+// Such arithmetic finds contacts where discs do not touch, and misses some. The search covers only
+// pairs that can touch, plus a margin that depends on ranks and threads. So a contact counts only
+// within a fixed margin, `slack`; then all numbers of ranks and threads find the same contacts.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +42,8 @@ public:
     using Real = Number;
     using State = RoundedState<Number>;
     static constexpr bool is_for_study = true;
-    /// If discs have no room, rounding moves them on in time now and then, so an
-    /// endless cascade is not at a single time.
+    /// If discs have no room to move, rounding now and then advances their times, so a collision
+    /// cascade is not confined to a single time.
     static constexpr double cascade_interval = 0x1p-3;
     static constexpr double time_rounding = is_single ? 0x1p-21 : 0x1p-50;
 
@@ -82,7 +82,8 @@ public:
         return naive_contact_delay(met.ex, met.ey, met.wx, met.wy, sigma,
                                    formula_ == ContactFormula::naive_contracted);
     }
-    /// Whether the discs, advanced to that time in double precision, are within the margin.
+    /// Whether the discs, advanced to that time in double precision, are within `slack` of
+    /// touching.
     CARROM_DEVICE bool counts(const DiscState& p, const DiscState& q,
                               const PairContact<Real>& found) const {
         const double time = static_cast<double>(found.base) + static_cast<double>(found.delay);
@@ -91,7 +92,7 @@ public:
     }
 
 private:
-    /// How far from touching, in diameters, a formula that loses digits finds contacts. At a
+    /// The largest error, in diameters, of a contact found by a formula that loses digits. At a
     /// distance of d diameters rounding u moves B^2 - 4 A C by some u (2 d v)^2. So a grazing
     /// contact moves along the flight by the root of that over 2 v, and its distance by the square.
     /// Where that is half a diameter and more the contact counts as lost.
@@ -102,7 +103,7 @@ private:
 
     ContactFormula formula_;
     double place_rounding_, slack_;
-    double farthest_; ///< that centres are apart in a contact
+    double farthest_; ///< the largest distance between centres in a contact
 };
 
 } // namespace carrom

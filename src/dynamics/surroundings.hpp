@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs meet besides each other, and the frame in which they fly straight: values that stand
+// What discs meet besides each other, and the frame in which they fly straight. These values stand
 // beside space, bodies and law in a dynamics (dynamics.hpp).
 //
 //   PlainSurroundings        four elastic walls at rest, in the box's own frame
 //   SurroundingsOfEffects    sides of any kind (boundaries.hpp), obstacles (obstacles.hpp), a frame
 //                            that falls (gravity.hpp)
 //
-// Sides answer the event-driven method. What walls do within a micro-step of the time-stepped one
-// is in time_stepped/step_walls.hpp.
+// These functions of sides are for the event-driven method. Walls within a micro-step of the
+// time-stepped method are in time_stepped/step_walls.hpp.
 #pragma once
 
 #include "dynamics/arithmetic.hpp"

@@ -11,10 +11,10 @@ namespace carrom {
 
 namespace {
 
-/// In periods, after a sync: a sync comes before.
+/// In periods after a sync. The next sync comes before.
 constexpr double longest_arc = 0.125 * (1 + 0x1p-10);
 
-/// Of a small angle x: its sine, 1 - cos x and x - sin x, each to some roundings of itself.
+/// For a small angle x: its sine, 1 - cos x and x - sin x, each accurate to a few roundings.
 struct Turn {
     explicit Turn(double x) {
         const double square = x * x;
@@ -26,11 +26,11 @@ struct Turn {
     double sine, versine, lag;
 };
 
-/// A disc's flight against a wall, s after the disc's time.
+/// A disc's flight relative to a wall, at the time s after the disc's time.
 struct SwayingFlight {
     double distance, speed, pull;
-    double sine, cosine; ///< of the sway, in units of acceleration
-    double rate;         ///< 2 pi / period
+    double sine, cosine; ///< of the changing part of gravity, in units of acceleration
+    double rate;         ///< angular frequency, 2 pi / period
 
     ValueAndSlope distance_at(double s) const {
         const Turn arc(rate * s);
@@ -45,7 +45,7 @@ struct SwayingFlight {
         const Turn arc(rate * s);
         return {pull_of(arc), rate * bend_of(arc)};
     }
-    /// The derivative of the pull over the rate.
+    /// The derivative of the acceleration, divided by the angular frequency.
     ValueAndSlope bend_at(double s) const {
         const Turn arc(rate * s);
         return {bend_of(arc), rate * (pull - pull_of(arc))};
@@ -65,7 +65,7 @@ private:
     double bend_of(const Turn& arc) const { return cosine * (1 - arc.versine) - sine * arc.sine; }
 };
 
-/// Times between which something is monotone: a beginning, at most three roots, and an end.
+/// Times between which a function is monotone: a beginning, at most three roots, and an end.
 class Cuts {
 public:
     Cuts(double begin, double end) : end_(end) { add(begin); }
@@ -81,7 +81,7 @@ private:
     double end_;
 };
 
-/// The pieces in which a function is monotone whose derivative, `slope`, is monotone in `pieces`.
+/// The pieces in which a function is monotone. Its derivative, `slope`, is monotone in `pieces`.
 template <class Function>
 Cuts cut_at_roots(const Cuts& pieces, double end, double origin, const Function& slope) {
     Cuts cuts(pieces.begin(0), end);

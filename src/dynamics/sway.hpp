@@ -3,15 +3,16 @@
 // t the time since the scene's start. Both axes have one period, so that the field may swing along
 // a line, or turn.
 //
-// All discs fall alike in it, so it moves the falling frame (gravity.hpp) and nothing else: pairs
-// do not know of it. In the frame a wall is on a parabola and a sine, and a disc meets it at
+// All discs fall alike in it, so it only moves the falling frame (gravity.hpp), and contacts of
+// pairs do not depend on it. In the frame a wall is on a parabola and a sine, and a disc meets it
+// at
 //
 //     d + r s + g s^2 / 2 + (S (1 - cos w s) + C (w s - sin w s)) / w^2 = 0,    w = 2 pi / P,
 //
 // where S and C are A times the sine and the cosine of the phase at the disc's time. The third
 // derivative has at most one root in an eighth of a period, so brackets find all roots of the
-// second, then of the first one, and no contact is missed. Nothing subtracts like numbers, however
-// long a period is.
+// second, then of the first one, and no contact is missed. No nearly equal numbers are subtracted,
+// however long a period is.
 //
 // Everything holds up to an eighth of a period after a sync, so the reader of scenes lets syncs
 // follow each other at least as often (scene/effects/gravity.cpp).
@@ -24,7 +25,7 @@ namespace carrom {
 
 struct Gravity;
 
-/// What the changing part does to a frame that was at rest, along one axis.
+/// The motion along one axis that the changing part gives to a frame that was at rest.
 struct Swayed {
     double way = 0, speed = 0, acceleration = 0;
 };
@@ -36,17 +37,17 @@ public:
 
     bool is_any() const { return rate_ != 0; }
     bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
-    /// From now on times count from `time` since the scene's start.
+    /// From now on `time` is the scene's time of the last sync, from which other times count.
     void begin_interval(double time);
-    /// Since the sync; `time` is at most an eighth of a period, or a little later.
+    /// The motion since the sync; `time` is at most about an eighth of a period.
     Swayed at(std::size_t axis, double time) const;
-    /// Where a wall is met: `distance`, its `rate` and the `pull` of constant gravity are towards
-    /// the inside, in the direction `sign`, at `time`. Like fall_delay; infinite if that is later
-    /// than an eighth of a period after the sync.
+    /// The time until a disc meets a wall: `distance`, its `rate` and the `pull` of constant
+    /// gravity are towards the inside, in the direction `sign`, at `time`. Like fall_delay;
+    /// infinite if that is later than an eighth of a period after the sync.
     double contact_delay(std::size_t axis, double sign, double distance, double rate, double pull,
                          double time) const;
 
-    /// From any time since the scene's start to another one.
+    /// The motion between two times since the scene's start.
     static std::array<Swayed, 2> between(const Gravity& gravity, double from, double to);
 
 private:
@@ -59,7 +60,7 @@ private:
 
     double rate_ = 0, period_ = 1; ///< rate: 2 pi / period
     std::array<double, 2> amplitudes_{};
-    std::array<double, 2> turns_{}; ///< at the scene's start
+    std::array<double, 2> turns_{}; ///< phases in turns at the scene's start
     std::array<Phase, 2> at_sync_{};
 };
 

@@ -26,50 +26,50 @@
 
 namespace carrom {
 
-/// What a side of the box, or an obstacle, gives to discs at a sync.
+/// The impulse and energy that a side of the box, or an obstacle, gives to discs at a sync.
 struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
-    std::size_t side = 0;              ///< from `n_sides` on the rows of obstacles
-    double normal = 0;                 ///< away from the side
-    double along = 0;                  ///< in the direction of its axis
-    double energy = 0;                 ///< of the discs' motion
-    double ix = 0, iy = 0, torque = 0; ///< see WallEvent; of obstacles
+    std::size_t side = 0;              ///< numbers from `n_sides` on are rows of obstacles
+    double normal = 0;                 ///< impulse away from the side
+    double along = 0;                  ///< impulse along the side, in the direction of its axis
+    double energy = 0;                 ///< change of the discs' kinetic energy
+    double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; for obstacles
 };
 
-/// What a disc gives to another one at a sync.
+/// The impulse that one disc gives another one at a sync.
 struct PairImpulse {
     DiscId p = 0, q = 0;       ///< p is the lower id
     double x = 0, y = 0;       ///< centre of p
-    double dx = 0, dy = 0;     ///< from there to the centre of q
+    double dx = 0, dy = 0;     ///< vector from there to the centre of q
     double ix = 0, iy = 0;     ///< impulse that p gets; q gets the opposite
     double p_vx = 0, p_vy = 0; ///< means of the velocities before and after the sync
     double q_vx = 0, q_vy = 0;
 };
 
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
-/// they are taken about the flow, so that an effect acts as in a gas at rest.
+/// velocities are relative to the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
     const SpeciesTable& species;       ///< the radius and the mass of each disc
-    std::span<DiscState> discs = {};   ///< some may have departed: effects leave those alone
+    std::span<DiscState> discs = {};   ///< some may have departed; effects do not change those
     std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
     std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
     std::int64_t n_syncs = 0;          ///< since the scene's start, this one included
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
-    /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.
+    /// Calls `part` for pieces of the discs, on several threads at once. `part` must not throw.
     std::function<void(const Part& part)> in_parts = {};
     /// Adds up in place over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
-    /// **Collective.**
+    /// The largest of the numbers of all ranks, on every rank. **Collective.**
     std::function<double(double)> largest_over_ranks = {};
     /// The bytes of all ranks, one rank after the other, on every rank. **Collective.**
     std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
-    /// Adds what a side of the box gives to discs, per micro-step. It is called on one rank for
-    /// all, and is empty while nobody measures walls.
+    /// Records the impulse of a side of the box, per micro-step. One rank calls it for all. It is
+    /// empty unless walls are measured.
     std::function<void(const WallImpulse&)> note_wall = {};
-    /// Adds what a pair's discs give each other, per micro-step. It is called on one rank for all,
-    /// and is empty while nobody measures stress or follows pairs.
+    /// Records the impulse between two discs, per micro-step. One rank calls it for all. It is
+    /// empty unless stress is measured or pairs are followed.
     std::function<void(const PairImpulse&)> note_pair = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
@@ -90,15 +90,15 @@ template <class Term> void SyncDiscs::add_up(std::vector<ExactSum>& sums, const 
     add_over_ranks(sums);
 }
 
-/// One factor for the radii of all discs, which an effect changes at syncs. Places and velocities
-/// stay as they are. All functions give the same on all ranks.
+/// One factor for the radii of all discs, which an effect changes at syncs. Positions and
+/// velocities do not change. All functions return the same on all ranks.
 class SizeChange {
 public:
     virtual ~SizeChange() = default;
 
-    /// The present factor of all radii of the scene.
+    /// The present factor of all radii.
     virtual double size() const = 0;
-    /// The largest factor that the change at this sync can come to.
+    /// The largest factor to which this sync can change it.
     virtual double largest_at(std::int64_t n_syncs) const = 0;
     /// Changes the factor. `room` is the largest one at which no two discs overlap, or exceeds
     /// `largest_at`.
@@ -112,19 +112,20 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Changes velocities, spins and directions of discs, and nothing else of them. **Collective.**
+    /// Changes velocities, spins and directions of discs, and no other numbers. **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
-    /// Of an effect that changes radii; null for all others. At most one effect has it.
+    /// The change of radii, for an effect that has one; null for all others. At most one effect has
+    /// it.
     virtual SizeChange* sizes() { return nullptr; }
 
     /// Whether `begin` does anything.
     virtual bool begins() const { return false; }
-    /// Like `act`, right before the flights that go on from a sync or from the scene's start. What
+    /// Like `act`, immediately before the flights that follow a sync or the scene's start. What
     /// outputs show at a sync is the state between `act` and `begin`. **Collective.**
     virtual void begin(const SyncDiscs& /*at*/) {}
 
-    /// What the effect needs at the next sync beside the states of discs, equal on all ranks. A
-    /// checkpoint has it, and a restart gives it back.
+    /// The numbers that the effect needs at the next sync besides the states of discs, equal on all
+    /// ranks. A checkpoint stores them, and a restart gives them back.
     virtual std::vector<std::int64_t> kept() const { return {}; }
     virtual void go_on(std::span<const std::int64_t> /*kept*/) {}
 };

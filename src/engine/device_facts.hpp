@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What messages and reports say of a GPU.
+// Facts about a GPU for messages and reports.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace carrom {
 
 struct DeviceFacts {
     std::string name;
-    std::uint64_t bytes = 0, free_bytes = 0; ///< of its memory
+    std::uint64_t bytes = 0, free_bytes = 0; ///< size of its memory
 };
 
 } // namespace carrom

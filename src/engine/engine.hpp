@@ -27,15 +27,15 @@
 
 namespace carrom {
 
-/// A rank's discs at `time` as every window begins with them: own discs in their
-/// domain, the halo behind them, all sorted into cells.
+/// A rank's discs at `time`, as at the beginning of a window: own discs in their domain, the halo
+/// behind them, all sorted into cells.
 struct LocalView {
     Population population;
-    const CellGrid* grid = nullptr; ///< partners within a diameter are within its reach
+    const CellGrid* grid = nullptr; ///< its reach covers pairs within a diameter
     const Domains* domains = nullptr;
     double time = 0;   ///< since the last sync
     Frame frame;       ///< the coordinates are in this frame
-    Periods periods{}; ///< if the box is periodic; discs are where their images are
+    Periods periods{}; ///< of a periodic box; positions are those of the discs' images
     double size = 1;   ///< see Engine::size
 };
 
@@ -48,18 +48,19 @@ public:
 
     /// See DiscSystem::advance_towards. **Collective.**
     virtual void advance_towards(std::int64_t last_step) = 0;
-    /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows.
+    /// Fills in the totals that only the engine knows: overlaps, rejected candidates, windows.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Redistributes the discs as they are now, to inspect pairs within a diameter, or
-    /// within `reach` if that is more. Good until the next step. **Collective.**
+    /// Redistributes the discs as they are now, to inspect pairs within a diameter, or within
+    /// `reach` if that is more. Valid until the next step. **Collective.**
     virtual LocalView local_view(double reach = 0) = 0;
     /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
 
     /// The GPU that steps the discs; its name is empty if there is none.
     virtual DeviceFacts device() const { return {}; }
-    /// What a disc takes beyond one of an even gas, because discs crowd. The same on all ranks.
+    /// Extra bytes a disc where discs are clustered, compared with a homogeneous gas. The same on
+    /// all ranks.
     virtual double bytes_for_crowds() const { return 0; }
     /// **Collective.**
     virtual RollbackCounts rollback_counts() const { return {}; }
@@ -67,25 +68,28 @@ public:
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const DiscState> own() const = 0;
     virtual std::span<const DiscState> departed()
-        const = 0; ///< the discs of this rank that have left the box, which own() does not have
-    virtual SideSpans side_columns() const { return {}; }     ///< along `own()`
-    virtual SideSpans departed_columns() const { return {}; } ///< along `departed()`
+        const = 0; ///< the discs of this rank that have left the box; own() does not contain them
+    virtual SideSpans side_columns() const { return {}; } ///< numbers of the discs in `own()`
+    /// Numbers of the discs in `departed()`.
+    virtual SideSpans departed_columns() const { return {}; }
     virtual const SpeciesTable& species_table() const = 0;
     /// The factor by which an effect at syncs has changed all radii of the table.
     virtual double size() const { return 1; }
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< the frame of the own discs at `clock()`
-    virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too
+    /// Number of discs on all ranks, departed ones included
+    virtual std::uint64_t n_discs() const = 0;
     /// See SyncAction::energy_given.
     virtual double energy_given() const { return 0; }
     virtual std::vector<std::int64_t> kept_by_effects() const { return {}; } ///< in StoredState
     virtual PhaseSeconds phase_seconds() const = 0;
-    virtual int most_ranks_across() const = 0; ///< that share a strip, the same on all ranks
+    /// Largest number of ranks that share a strip; the same on all ranks
+    virtual int most_ranks_across() const = 0;
 
-    /// See DiscSystem::log_to. Engines append what they carry out while `log_` is not null.
+    /// See DiscSystem::log_to. Engines append the collisions that they carry out while `log_` is
+    /// not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
-    /// They are given this rank's collisions of pairs, or with the box's sides, in no particular
-    /// order.
+    /// They get this rank's collisions of pairs, or with the box's sides, in no particular order.
     Followers<PairEvent>& followers_of_pairs() { return pair_followers_; }
     Followers<WallEvent>& followers_of_walls() { return wall_followers_; }
     /// From now on the energy that moving images give own discs is added to `work`, as long as
@@ -104,17 +108,17 @@ public:
     }
     /// Sums the energy that collisions take, with `bound` exceeding each sum; before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
-    /// The integrals over flights that no sum has yet.
+    /// Integrals over flights that are not in the sums yet.
     virtual FlightIntegral flight_integral() const { return {}; }
-    /// From now on the box lengths by which syncs in a periodic box bring own discs back are
-    /// appended to `crossings`, until it is forgotten.
+    /// From now on a sync in a periodic box appends to `crossings` by how many box lengths it
+    /// brings own discs back, until `forget_crossings_in`.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);
     }
 
 protected:
-    /// Notes the flight from (x, y) to where the disc is now. Threads may call it at once.
+    /// Records the flight from (x, y) to the disc's present position. Threads may call it at once.
     void note_crossing(const DiscState& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
         return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();
@@ -126,7 +130,8 @@ protected:
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
     std::function<void()> before_effects_;
-    /// Partial sums begin as copies of it. In its units all terms are 0 until sums are asked for.
+    /// Partial sums begin as copies of it. Its unit is so large that all terms are 0 until a
+    /// measurement needs sums.
     StressSums no_stress_{0x1p900};
     LossSums losses_{0x1p900}, no_losses_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The base of both methods. It keeps discs, clock and communicator, goes from sync to
-// sync, brings discs to their ranks, and reports totals. A method adds its windows.
+// The base of both methods. It keeps discs, clock and communicator, runs from sync to sync, sends
+// discs to their ranks, and reports totals. A method adds its windows.
 //
 //   advance_towards   until the stop or the next sync:
 //     advance_to        the method's windows
@@ -56,7 +56,7 @@ public:
     int most_ranks_across() const final { return discs_.domains().largest_group(); }
 
 protected:
-    /// Takes over the state. The method distributes it when its own members are ready.
+    /// Takes over the state. The method distributes the discs when its own members are ready.
     EngineBase(const SceneParameters& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
 
@@ -68,10 +68,10 @@ protected:
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
-    /// Effects have changed velocities since then, before flights. No own disc is faster than
-    /// `largest_speed`. **Collective.**
+    /// Called when effects have changed velocities after finish_sync and before flights. No own
+    /// disc is faster than `largest_speed`. **Collective.**
     virtual void take_speed(double largest_speed) = 0;
-    /// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
+    /// Advances all own discs to `time_`, sets `time_` to 0, and returns the largest speed.
     virtual double restart_states();
     /// Brings `discs_` up to date, in engines that keep their states elsewhere.
     virtual void bring_states() const {}
@@ -80,22 +80,22 @@ protected:
 
     /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
     void distribute();
-    /// What cells cover: all that the rank sees, or the part of it where its discs are. Where they
-    /// crowd, cells of all that it sees would hold hundreds of discs each.
+    /// What cells cover: the whole region that the rank uses, or only the part of it where its
+    /// discs are. If discs are clustered, cells of the whole region would hold hundreds of discs
+    /// each.
     enum class Covered { domain, discs };
     /// Redistributes discs, halo and cells as they are now, for partners within a diameter or
     /// `least_reach`. No state changes. **Collective.**
     void redistribute_now(double least_reach = 0, Covered covered = Covered::discs);
-    /// Takes departed discs out of the arrays, where they stay until then. **Collective.**
+    /// Removes departed discs from the arrays of own discs. **Collective.**
     void set_departed_aside();
 
-    /// Ends the run if discs have become so fast that they fly through a periodic box more often
-    /// than their images can be counted. `speed` is the largest one, equal on all ranks.
-    /// **Collective.**
+    /// Ends the run if discs are so fast that they cross a periodic box more often than their
+    /// images can be counted. `speed` is the largest one, equal on all ranks. **Collective.**
     void refuse_long_flights(double speed) const;
 
-    /// At a sync: counts the flights since the last one as gathered. True if all that have gathered
-    /// are to be added to the sums of stress now.
+    /// At a sync: records the flights since the last one. Returns true if all recorded flights must
+    /// be added to the sums of stress now.
     bool begin_flights();
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
@@ -106,10 +106,10 @@ protected:
     }
 
     Population population() const { return discs_.population(); }
-    /// The present walls in the coordinates of states.
+    /// Positions of the walls now, in the coordinates of states.
     Extent extent() const;
     std::int64_t last_sync() const { return n_micro_done_ / sync_every_ * sync_every_; }
-    /// The largest distance between a disc's place and its exact place, by rounding.
+    /// The largest rounding error of a disc's position.
     double place_margin() const {
         return 64 * 0x1p-53 * dynamics_.box().longest() + dynamics_.slack();
     }
@@ -117,16 +117,18 @@ protected:
     Communicator communicator_;
     Tuning tuning_;
     Dynamics dynamics_;
-    std::int64_t micro_steps_, sync_every_; ///< micro-steps of a step, and between syncs
+    /// Micro-steps of a step, and micro-steps between syncs
+    std::int64_t micro_steps_, sync_every_;
     StripDiscs discs_;
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
-    double time_ = 0;               ///< on the clock, since the last sync
-    double flown_before_ = 0;       ///< how long flights had gathered stress at the last sync
-    double redistributed_time_ = 0; ///< when discs last migrated
-    double largest_speed_ = 0;      ///< no own disc is faster
-    double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
-    RankWork rank_work_;      ///< since ranks were last compared
+    double time_ = 0; ///< on the clock, since the last sync
+    /// Time of flights that were recorded for the stress before the last sync
+    double flown_before_ = 0;
+    double redistributed_time_ = 0; ///< time of the last migration
+    double largest_speed_ = 0;      ///< bound of the speed of own discs
+    double travel_speed_ = 0; ///< bound of the speed since the last migration; equal on all ranks
+    RankWork rank_work_;      ///< work since ranks were last compared
     PhaseClock phases_;
 
 private:
@@ -142,7 +144,8 @@ private:
 
     SpeciesTable species_;
     SyncAction sync_action_;
-    std::int64_t flight_length_; ///< micro-steps from one addition of whole flights to the next
+    /// Micro-steps between two additions of whole flights to the stress
+    std::int64_t flight_length_;
     std::int64_t last_micro_step_, n_syncs_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whoever wants to know of collisions as they happen, for example a measurement. Engines note
-// events only where somebody follows them, so that other runs pay nothing.
+// Passes collisions to measurements and others that need them as they happen. Engines record events
+// only if somebody follows them, so that other runs pay nothing.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// What is taken must not depend on the order of the events, because threads and ranks find them in
+/// The result must not depend on the order of the events, because threads and ranks find them in
 /// any order.
 template <class Event> class EventFollower {
 public:
@@ -22,8 +22,8 @@ public:
     virtual void take(std::span<const Event> events) = 0;
 };
 
-/// Events that wait for their followers. Room is kept and written over, because clearing it for
-/// each event first, as a vector does, would take a third of the work of noting it.
+/// Events that wait for their followers. Memory is kept and overwritten, because clearing it for
+/// each event first, as a vector does, would take a third of the time of recording it.
 template <class Event> class NotedEvents {
 public:
     bool has_room() const { return n_ < n_rooms_; }
@@ -31,19 +31,19 @@ public:
         n_rooms_ = 2 * n_rooms_ + 16;
         room_.resize(n_rooms_);
     }
-    /// The room of one more event, which must be there. It holds old values, so all of it must be
-    /// written.
+    /// Memory for one more event; `has_room` must hold. It contains old values, so all of it must
+    /// be written.
     Event& add() { return room_[n_++]; }
     void clear() { n_ = 0; }
     std::span<const Event> all() const { return std::span(room_).first(n_); }
 
 private:
     std::vector<Event> room_;
-    std::size_t n_ = 0, n_rooms_ = 0; ///< to ask the vector for its size takes a division
+    std::size_t n_ = 0, n_rooms_ = 0; ///< kept because computing the vector's size takes a division
 };
 
-/// The followers of events of one kind. They are given events soon after these have happened, so
-/// that memory does not grow with their number.
+/// The followers of events of one kind. They get events soon after these have happened, so that
+/// memory does not grow with their number.
 template <class Event> class Followers {
 public:
     void add(EventFollower<Event>& follower) { all_.push_back(&follower); }
@@ -53,7 +53,7 @@ public:
     void give(std::span<const Event> events) const {
         for (EventFollower<Event>* follower : all_) follower->take(events);
     }
-    /// Room for an event that waits for `hand_over`, for engines that find events one by one. All
+    /// Memory for an event that waits for `hand_over`, for engines that find events one by one. All
     /// of it must be written.
     Event& note() {
         if (!noted_.has_room()) noted_.grow();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far discs fly from sync to sync in a box with periodic sides. Images are counted in 15 bits
-// (core/image.hpp), so a scene in which they fly further is an error at its start, and ends where
-// discs become too fast later.
+// (core/image.hpp), so a scene in which discs fly further is an error at its start, and a run ends
+// if discs later become too fast.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 
 namespace carrom {
 
-/// How many boxes away from home a disc may be after `time` without a wrap, if it is no faster than
-/// `speed`, and than `up` along y. The rows of boxes that it comes to may move, too.
+/// Most box lengths that a disc can travel in `time` without a wrap, for speeds up to `speed`, and
+/// up to `up` along y. Rows of boxes may move.
 inline double most_lengths(const Periods& periods, double speed, double up, double time) {
     const double rows = periods.y == 0 ? 0 : up * time / periods.y;
     const double along_x = speed + (rows + 1) * std::fabs(periods.speed);
     return std::max(rows, periods.x == 0 ? 0 : along_x * time / periods.x);
 }
 
-/// The largest speed along y of some discs.
+/// The largest speed along y of these discs.
 inline double fastest_up(std::span<const DiscState> discs) {
     double fastest = 0;
     for (const DiscState& disc : discs) fastest = std::max(fastest, std::fabs(disc.vy));

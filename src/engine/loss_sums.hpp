@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy that collisions have taken, and what guarded ones would have taken: sums that do not
-// depend on the order of collisions.
+// The energy that collisions have taken, and the energy that guarded collisions would have taken,
+// in sums that do not depend on the order of collisions.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 namespace carrom {
 
 struct LossSums {
-    /// `bound` exceeds each sum; mass times squared length per squared micro-step, the same on all
-    /// ranks.
+    /// `bound` exceeds each sum; its unit is mass times squared length per squared micro-step, and
+    /// it is the same on all ranks.
     explicit LossSums(double bound) : taken(bound), spared(bound) {}
 
-    /// `slowing` is that of the dynamics' clock at the time of the collision.
+    /// `slowing` is the slowing factor of the dynamics' clock at the time of the collision.
     void add(const Loss& loss, double slowing) {
         if (loss.taken != 0) taken.add(loss.taken * slowing * slowing);
         if (loss.spared == 0) return;
@@ -33,7 +33,7 @@ struct LossSums {
     }
 
     ExactSum taken, spared;
-    std::uint64_t n_guarded = 0; ///< collisions, those of contacts at rest aside
+    std::uint64_t n_guarded = 0; ///< number of guarded collisions, without contacts at rest
 };
 
 /// Fills in the losses of all ranks. **Collective.**

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Visits the pairs of discs that a grid has near each other, each pair once.
+// Visits all pairs of discs in neighbouring cells of a grid, each pair once.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// Visits the pairs whose first disc is an own one in that column, and whose second is in
-/// no lower column, or in the halo. The owners of halo discs treat pairs of two halo discs.
+/// Visits the pairs whose first disc is an own disc in that column. The second is in the same or a
+/// higher column, or in the halo. Pairs of two halo discs are left to other ranks.
 template <class Visit>
 void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
     const GridGeometry& geometry = grid.geometry();
@@ -35,8 +35,8 @@ void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
     }
 }
 
-/// Calls `visit(a, b)` once for each two discs in cells within the grid's reach of
-/// each other, if at least one is an own disc.
+/// Calls `visit(a, b)` once for each pair of discs in cells within the grid's reach, if at least
+/// one is an own disc.
 template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& visit) {
     for (int column = 0; column < grid.geometry().n_columns; ++column)
         visit_near_pairs_of(grid, column, visit);

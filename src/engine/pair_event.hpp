@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision of two discs with all that sums over events need: where it was, what impulse passed
-// between the discs, and how fast they were afterwards. Engines note it only where a measurement
-// follows pairs.
+// A collision of two discs with the data that sums over events need: its position, the impulse, and
+// the velocities afterwards. Engines record it only if a measurement follows pairs.
 //
-// Lasting contacts give such events at syncs, of what discs give each other until the next one.
-// Everything is as the box sees it at the time of the collision, so gravity and drag are in it.
-// Places are not brought back into a periodic box.
+// Lasting contacts give such events at syncs, with the impulses until the next one. Everything is
+// as the box sees it at the time of the collision, so gravity and drag are in it. Places are not
+// brought back into a periodic box.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +18,14 @@ namespace carrom {
 
 /// Lengths are the scene's; velocities and impulses are per step.
 struct PairEvent {
-    DiscId p = 0, q = 0;         ///< p is the lower id
-    std::int64_t micro_step = 0; ///< that `time` counts from, since the scene's start
-    double time = 0;             ///< in micro-steps
-    double x = 0, y = 0;         ///< centre of p
-    double dx = 0, dy = 0;       ///< from there to the centre of q
-    double ix = 0, iy = 0;       ///< impulse that p got; q got the opposite
-    double p_vx = 0, p_vy = 0;   ///< velocities after the collision
+    DiscId p = 0, q = 0; ///< p is the lower id
+    /// The micro-step, since the scene's start, from which `time` counts
+    std::int64_t micro_step = 0;
+    double time = 0;           ///< in micro-steps
+    double x = 0, y = 0;       ///< centre of p
+    double dx = 0, dy = 0;     ///< vector from there to the centre of q
+    double ix = 0, iy = 0;     ///< impulse on p; q gets the opposite
+    double p_vx = 0, p_vy = 0; ///< velocities after the collision
     double q_vx = 0, q_vy = 0;
 
     /// Time in steps since step `origin`.
@@ -35,11 +35,11 @@ struct PairEvent {
     }
 };
 
-/// Each pair is an event of the rank that owns its first disc.
+/// Each pair is an event on the rank that owns its first disc.
 using PairFollower = EventFollower<PairEvent>;
 
-/// Turns an event in the dynamics' own frame and clock into one in the box. Apart, because most
-/// dynamics need none of it.
+/// Turns an event in the dynamics' own frame and clock into one in the box. A function of its own,
+/// because most dynamics do not need it.
 template <class Dynamics>
 [[gnu::noinline]] void show_in_box(PairEvent& event, const Dynamics& dynamics, double time,
                                    double unit) {
@@ -54,7 +54,8 @@ template <class Dynamics>
 
 /// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
 /// is the first disc at that time, before or after the collision, and `to` is the separation then.
-/// `unit` turns stored velocities into those per step. Filled in its place, which saves a copy.
+/// `unit` converts stored velocities to velocities per step. Writes into `event` directly, which
+/// saves a copy.
 template <class Dynamics>
 [[gnu::always_inline]] inline void note_in(PairEvent& event, const Dynamics& dynamics,
                                            const DiscState& place, const Separation& to,

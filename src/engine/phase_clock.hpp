@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures where the wall time of a rank goes. A `PhaseClock::Scope` bills the time of
-// its life to one phase. Scopes nest, and the outer one is not billed for the inner.
-// Price: two readings of the clock per scope, so loops over discs have none inside.
+// Measures where the wall time of a rank goes. A `PhaseClock::Scope` adds the time of its life to
+// one phase. Scopes nest, and the time of an inner one is not added to the outer one. Price: two
+// readings of the clock per scope, so no loop over discs should have a scope inside.
 #pragma once
 
 #include <array>

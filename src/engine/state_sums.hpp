@@ -25,8 +25,8 @@ void measure_collisions(std::span<const DiscState> own, const SideSpans& columns
 void measure_departures(std::span<const DiscState> own, const Box& box,
                         const Communicator& communicator, Totals& totals);
 
-/// Fills in energy and momentum. `velocity_unit` turns stored velocities into
-/// velocities per step. `species_table` is null if all masses are 1. **Collective.**
+/// Fills in energy and momentum. `velocity_unit` converts stored velocities to velocities per step.
+/// `species_table` is null if all masses are 1. **Collective.**
 void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals);
 
@@ -35,16 +35,16 @@ void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_
 std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
                                         const Extent& box, double time, DiscStates& kept);
 
-/// What energies of discs depend on beside the discs.
+/// The arguments of discs' energies, besides the discs.
 struct EnergySetting {
     const Effects& effects;
     const Box& box;
-    double velocity_unit = 1; ///< turns stored velocities into those in the effects' unit of time
+    double velocity_unit = 1; ///< converts stored velocities to the effects' unit of time
     double sync_interval = 0; ///< in micro-steps
 };
 
-/// Fills in energies beside that of motion. `shown` are discs as the box sees them; `spins` run
-/// along them, or there are none. **Collective.**
+/// Fills in all energies except the kinetic one. `shown` are discs as the box sees them; `spins`
+/// run along them, or are empty. **Collective.**
 void measure_other_energies(std::span<const OtherEnergy> energies, std::span<const DiscState> shown,
                             std::span<const double> spins, const SpeciesTable& species_table,
                             const EnergySetting& setting, const Communicator& communicator,
@@ -81,8 +81,8 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
                       const Touching& touching, const Communicator& communicator, int n_threads,
                       Totals& totals);
 
-/// The largest factor for all radii of the scene at which no two discs of the population overlap,
-/// at time 0 and less a share of 2^-40 for rounding. Pairs beyond the grid's reach are not seen;
+/// The largest factor for all radii of the scene at which no two discs of the population overlap at
+/// time 0, reduced by a share of 2^-40 for rounding. Pairs beyond the grid's reach are ignored;
 /// without any pair it is infinite. **Collective.**
 double largest_size(const Population& population, const CellGrid& grid, const Touching& touching,
                     const Communicator& communicator, int n_threads);

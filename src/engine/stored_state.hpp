@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state that a run begins from or goes on from.
+// The state from which a run starts or restarts.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct StoredState {
     DiscStates discs;
     std::int64_t micro_steps_done = 0;
     SideColumns columns{}; ///< along the discs; missing numbers are 0
-    /// What effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.
+    /// Values that effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.
     std::vector<std::int64_t> kept_by_effects{};
 };
 

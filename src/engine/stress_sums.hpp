@@ -26,12 +26,12 @@
 
 namespace carrom {
 
-/// Flights are added to sums when they have gathered for so many micro-steps, or at the first sync
-/// after that.
+/// Flights are added to sums after this many micro-steps, or at the first sync after that.
 constexpr std::int64_t longest_flight = 1024;
 
 struct StressSums {
-    /// `bound` exceeds each sum; mass times length squared per micro-step, the same on all ranks.
+    /// `bound` exceeds each sum; its unit is mass times length squared per micro-step, the same on
+    /// all ranks.
     explicit StressSums(double bound) : xx(bound), xy(bound), yy(bound), energy(bound) {}
 
     std::array<ExactSum*, 4> parts() { return {&xx, &xy, &yy, &energy}; }
@@ -43,16 +43,17 @@ struct StressSums {
     StressSums& operator+=(const StressSums& other);
     StressSums& operator-=(const StressSums& other);
 
-    /// Adds the integral that a disc of this mass has gathered at its present velocity. That is
-    /// all of its flight where it leaves the box.
+    /// Adds the integral of the flight of a disc of this mass at its present velocity. Called when
+    /// the disc leaves the box.
     void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
     ExactSum energy; ///< the integral of the sum of m v^2
 };
 
-// Terms are rounded to whole units. A number of less than 2^51 units that is added to `unit_shift`
-// leaves its nearest integer in the last bits. The bits of such sums can be added up as integers.
+// Terms are rounded to whole units. If a number of less than 2^51 units is added to `unit_shift`,
+// the last bits of the sum are its nearest integer. So the bits of such sums can be added as
+// integers.
 constexpr double unit_shift = 0x1.8p52;
 constexpr double most_rounded_units = 0x1p51;
 
@@ -60,7 +61,7 @@ CARROM_DEVICE inline std::uint64_t bits_of(double number) {
     return std::bit_cast<std::uint64_t>(number);
 }
 
-/// Subtracts a term from a sum: an ExactSum, or one that a GPU adds to.
+/// Subtracts a term from a sum, which is an ExactSum or one that a GPU adds to.
 template <class Sum> CARROM_DEVICE void subtract_rounded(Sum& sum, double term) {
     const double units = term * sum.scale();
     if (std::fabs(units) < most_rounded_units)
@@ -69,8 +70,8 @@ template <class Sum> CARROM_DEVICE void subtract_rounded(Sum& sum, double term) 
         sum.add(-term);
 }
 
-/// Adds to the sums that a disc has got the impulse (ix, iy) from another one at the separation
-/// `to`. The sum counts the mean of xy and yx, because rough discs make them differ.
+/// Adds a collision: a disc gets the impulse (ix, iy) from another one at the separation `to`. The
+/// mean of xy and yx is added, because they differ for rough discs.
 template <class Sums>
 CARROM_DEVICE void add_impulse(Sums& sums, double ix, double iy, const Separation& to) {
     subtract_rounded(sums.xx, ix * to.x);
@@ -78,8 +79,8 @@ CARROM_DEVICE void add_impulse(Sums& sums, double ix, double iy, const Separatio
     subtract_rounded(sums.yy, iy * to.y);
 }
 
-/// Does what StressSums::add_flight does, but not for the energy. `terms` are StressTerms or the
-/// like.
+/// Does the same as StressSums::add_flight, without the energy. `terms` are StressTerms or a type
+/// with the same functions.
 template <class Terms, class Sums>
 CARROM_DEVICE void add_flight_to(Terms& terms, Sums& sums, double mass, const DiscState& disc,
                                  const FlightIntegral& integral) {
@@ -91,11 +92,11 @@ CARROM_DEVICE void add_flight_to(Terms& terms, Sums& sums, double mass, const Di
     if (integral.more_y != 0) terms.add(0, -mass * integral.more_y, {0, integral.more_y}, sums);
 }
 
-/// Terms that wait to be added to sums, because adding many at a time takes a third of the work.
+/// Terms that are kept and added to sums many at a time, which takes a third of the work.
 class StressTerms {
 public:
-    /// Notes that a disc has got the impulse (ix, iy) from another one at the
-    /// separation `to`. `add_to` at the latest adds the term to `sum`.
+    /// Records a collision: a disc gets the impulse (ix, iy) from another one at the separation
+    /// `to`. The term is added to `sum` by `add_to` at the latest.
     void add(double ix, double iy, const Separation& to, StressSums& sum) {
         ix_[n_] = ix;
         iy_[n_] = iy;
@@ -103,12 +104,12 @@ public:
         y_[n_] = to.y;
         if (++n_ == most) add_to(sum);
     }
-    /// Does what StressSums::add_flight does, but not for the energy.
+    /// Does the same as StressSums::add_flight, without the energy.
     void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral,
                     StressSums& sum) {
         add_flight_to(*this, sum, mass, disc, integral);
     }
-    /// Adds the terms that are left, and forgets them.
+    /// Adds the terms that have not been added yet.
     void add_to(StressSums& sum);
 
 private:
@@ -120,21 +121,21 @@ private:
     std::size_t n_ = 0;
 };
 
-/// A collision of a pair, noted before it happens. The integral of m v_a v_b changes
-/// by the weight of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse
-/// that p gets and u the sum of the relative velocities before and after. This has the
-/// form of impulse times distance for another distance, so both parts are one term.
+/// The stress of a collision of a pair. It is constructed before the collision. The integral of m
+/// v_a v_b changes by the weight of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse
+/// that p gets and u the sum of the relative velocities before and after. This has the form of
+/// impulse times distance for another distance, so both parts are one term.
 template <class Dynamics> class PairStress {
 public:
     CARROM_DEVICE PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
         if constexpr (Dynamics::has_species) wx_ = q.vx - p.vx, wy_ = q.vy - p.vy;
     }
 
-    double vx() const { return vx_; } ///< p's velocity before
+    double vx() const { return vx_; } ///< velocity of p before the collision
     double vy() const { return vy_; }
 
-    /// Called after it, at `time`, with the separation from p to q. Flights have gathered stress
-    /// for `flown` before the last sync. Returns p's impulse along x.
+    /// Call it after the collision at `time`, with the separation from p to q. `flown` is the time
+    /// of flights before the last sync that are not in the sums yet. Returns p's impulse along x.
     template <class Terms, class Sums>
     [[gnu::always_inline]] CARROM_DEVICE double add_to(Terms& terms, Sums& sum,
                                                        const Dynamics& dynamics, const DiscState& p,
@@ -160,16 +161,16 @@ private:
     using Relative = std::conditional_t<Dynamics::has_species, double, Nothing>;
 
     double vx_, vy_;
-    [[no_unique_address]] Relative wx_, wy_; ///< the relative velocity before it
+    [[no_unique_address]] Relative wx_, wy_; ///< relative velocity before the collision
 };
 
-/// A collision of one disc with a wall or an obstacle, noted before it happens: as that of a pair
-/// whose other disc does not move.
+/// The stress of a collision of one disc with a wall or an obstacle. It is constructed before the
+/// collision, and counts as a pair whose other disc does not move.
 template <class Dynamics> class WallStress {
 public:
     CARROM_DEVICE explicit WallStress(const DiscState& disc) : vx_(disc.vx), vy_(disc.vy) {}
 
-    /// After it, as PairStress::add_to.
+    /// Call it after the collision, like PairStress::add_to.
     template <class Terms, class Sums>
     [[gnu::always_inline]] CARROM_DEVICE void add_to(Terms& terms, Sums& sum,
                                                      const Dynamics& dynamics,
@@ -190,7 +191,7 @@ public:
                      uy = integral.weight * (disc.vy + vy_ + 2 * integral.shift_y);
         terms.add(ix, iy, {ux, uy}, sum);
         const double lost = -(ix * ux + iy * uy);
-        if (lost != 0) sum.energy.add(lost); // a mirror at rest takes exactly none
+        if (lost != 0) sum.energy.add(lost); // a mirror at rest takes no energy
     }
 
 private:

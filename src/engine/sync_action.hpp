@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets effects act at a sync on the discs of a rank.
+// Applies the effects of a sync to the discs of a rank.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace carrom {
 
-/// Receive the impulses that effects give at a sync.
+/// Where the impulses that effects give at a sync are recorded.
 struct SyncNotes {
     const Followers<WallEvent>* walls = nullptr;
     const Followers<PairEvent>* pairs = nullptr;
-    StressSums* stress = nullptr; ///< null if nobody asks
-    std::int64_t micro_step = 0;  ///< of the sync
+    StressSums* stress = nullptr; ///< null if no measurement needs it
+    std::int64_t micro_step = 0;  ///< micro-step of the sync
 };
 
 class SyncAction {
@@ -28,26 +28,26 @@ public:
                const Communicator& communicator, int n_threads);
 
     bool has_effects() const { return !effects_.empty(); }
-    /// Of the effect that changes radii; null if none does.
+    /// The change of radii by an effect; null if no effect changes radii.
     SizeChange* sizes() const {
         for (const auto& effect : effects_)
             if (SizeChange* const its = effect->sizes()) return its;
         return nullptr;
     }
-    /// Called when the halo is forgotten and all states have been brought to the time of the sync.
-    /// Adds to `energy_given()` and to what `notes` names. **Collective.**
+    /// Call it when the halo has been dropped and all states are at the time of the sync. Adds to
+    /// `energy_given()` and to the sums in `notes`. **Collective.**
     void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);
-    /// Whether some effect acts before flights, too.
+    /// Whether an effect also acts before flights.
     bool begins() const;
-    /// Called before the flights after a sync, or from the scene's start on; all states are at that
+    /// Call it before the flights that follow a sync or the scene's start; all states are at that
     /// time. Adds to `energy_given()`. **Collective.**
     void begin(StripDiscs& discs, std::int64_t n_syncs);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
     /// included, per micro-step. For checks: its last bits depend on the machine shape.
     double energy_given() const { return energy_given_; }
 
-    /// What effects keep, one after the other, each after the count of its numbers; empty if none
-    /// keeps any.
+    /// The values that effects keep: for each effect the number of its values, then the values.
+    /// Empty if no effect keeps any.
     std::vector<std::int64_t> kept() const;
     void go_on(std::span<const std::int64_t> kept);
 
@@ -58,7 +58,7 @@ private:
     PairEvent event_of(const PairImpulse& pair, std::int64_t micro_step) const;
     std::vector<std::byte> gathered(std::span<const std::byte> mine) const;
     double energy_of(const SyncDiscs& at) const;
-    /// Adds the flow of sheared discs, so many times, to velocities and spins.
+    /// Adds the flow of sheared discs, times a factor, to velocities and spins.
     void add_flow(const SyncDiscs& at, double times) const;
 
     SyncEffects effects_;

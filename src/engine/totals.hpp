@@ -14,16 +14,17 @@ namespace carrom {
 /// Counts of windows and blocks of the event-driven method. They depend on the machine
 /// shape, and are zero in the time-stepped method.
 struct RollbackCounts {
-    std::uint64_t windows = 0, windows_redone = 0; ///< redone: some block on some rank was repeated
+    /// windows_redone: windows in which some block on some rank was repeated
+    std::uint64_t windows = 0, windows_redone = 0;
     std::uint64_t blocks = 0,
-                  blocks_redone = 0; ///< block runs on all ranks, first ones and repetitions
-    /// Collisions of pairs at the time of an earlier one of one of the two discs, to within
-    /// rounding, on all ranks, since the engine began: the order of ids or a rounding decides about
-    /// what follows. The same for any machine shape.
+                  blocks_redone = 0; ///< first runs and repetitions of blocks, on all ranks
+    /// Collisions of pairs at the same time, within rounding, as an earlier collision of one of the
+    /// two discs. In these cases the order of ids or a rounding decides what follows. Counted on
+    /// all ranks since the engine began. The same for any machine shape.
     std::uint64_t simultaneous = 0;
 };
 
-/// Seconds this rank has spent, by phase, in the order they are reported.
+/// The seconds that this rank has spent in each phase, in the order in which they are reported.
 using PhaseSeconds = std::vector<std::pair<std::string, double>>;
 
 } // namespace carrom

@@ -7,20 +7,21 @@
 
 namespace carrom {
 
-/// Unset choices are made from the scene as it runs.
+/// Settings that are not given are chosen during the run.
 struct Tuning {
     int threads = 1;
-    std::uint64_t discs_per_thread = 2000; ///< a rank with fewer uses fewer threads
+    std::uint64_t discs_per_thread = 2000; ///< with fewer discs a rank uses fewer threads
     std::optional<double>
-        window; ///< micro-steps per window; below 1 the micro-step is cut into parts
-    std::optional<double> cell_width; ///< in units of the window's reach
-    std::optional<double>
-        usual_speed; ///< in units of the largest speed; cells allow for it if a micro-step is cut
-    std::optional<int> ranks_across;  ///< ranks that share a strip and cut it across
-    std::int64_t rebalance_every = 1; ///< in syncs; 0 never moves the first cuts
+        window; ///< micro-steps per window; below 1 a micro-step is divided into parts
+    std::optional<double> cell_width;  ///< width of cells relative to the window's reach
+    std::optional<double> usual_speed; ///< relative to the largest speed; cells allow for this
+                                       ///< speed if a micro-step is divided
+    std::optional<int> ranks_across;   ///< ranks that share a strip and cut it across
+    /// Syncs between two changes of the cuts; 0 never changes the first cuts
+    std::int64_t rebalance_every = 1;
     double rebalance_above =
-        1.05; ///< the largest over mean load that is tolerated; 0 moves the cuts every time
-    bool ends_jams = true; ///< false for steps that are known to have no jam of growing discs
+        1.05; ///< tolerated ratio of the largest to the mean load; 0 changes the cuts every time
+    bool ends_jams = true; ///< false for repeated steps that are known to end without a jam
 };
 
 } // namespace carrom

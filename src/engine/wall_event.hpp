@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision of a disc with a side of the box, or with an obstacle: what that has given to the
-// disc. Engines note it only where a measurement follows walls. Lasting contacts give such events
-// at syncs, one for all discs that press a side or an obstacle.
+// A collision of a disc with a side of the box, or with an obstacle, and what the disc gained by
+// it. Engines record it only if a measurement follows walls. Lasting contacts give such events at
+// syncs, one for all discs that press a side or an obstacle.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +14,26 @@
 
 namespace carrom {
 
-/// Impulses and energies are as the box sees them, per step; sides are in the order of
+/// Impulses and energies are per step and as the box sees them; sides are in the order of
 /// `side_names`.
 struct WallEvent {
     std::uint8_t side = 0;
-    double normal = 0;       ///< impulse across the side and away from it
-    double along = 0;        ///< impulse along it, in the direction of the axis
-    double energy = 0;       ///< kinetic energy of the disc's motion that the side has added
-    bool is_lasting = false; ///< forces from sync to sync, and no collision
-    // Of an obstacle, which has no side:
+    double normal = 0; ///< impulse on the disc across the side, positive away from it
+    double along = 0;  ///< impulse on the disc along the side, in the direction of the axis
+    double energy = 0; ///< kinetic energy of the disc's motion that the side has added
+    /// The impulse of a lasting contact until the next sync, not of a collision
+    bool is_lasting = false;
+    // For an obstacle, which has no side:
     std::uint32_t obstacle = no_obstacle; ///< its row (rows_of in dynamics/container.hpp)
-    double ix = 0, iy = 0;                ///< impulse that the disc has got
-    double torque = 0; ///< angular momentum that the obstacle has got, about its centre
+    double ix = 0, iy = 0;                ///< impulse on the disc
+    double torque = 0; ///< angular momentum that the obstacle gains, about its centre
 
     static constexpr std::uint32_t no_obstacle = 0xffffffff;
     bool is_at_side() const { return obstacle == no_obstacle; }
 };
 using WallFollower = EventFollower<WallEvent>;
 
-/// The collision with an obstacle; see `wall_event` for the arguments.
+/// The event of a collision with an obstacle; see `wall_event` for the arguments.
 inline WallEvent obstacle_event(const Frame& frame, const ObstacleTouch& touch, double mass,
                                 const DiscState& after, double dx, double dy, double unit) {
     const double per_step = frame.slowing * unit, gained_x = dx * per_step,
@@ -49,9 +50,9 @@ inline WallEvent obstacle_event(const Frame& frame, const ObstacleTouch& touch, 
     return event;
 }
 
-/// `after` is the disc's stored state and (dx, dy) is the change of its stored velocity.
-/// Axis 0 means left and right. A disc in a corner meets two sides at once, and each of them has
-/// the part that is normal to it: `is_corner`.
+/// `after` is the disc's stored state and (dx, dy) is the change of its stored velocity. `axis` 0
+/// means left and right. If `is_corner`, the disc meets two sides at once, and each side gets the
+/// part that is normal to it.
 inline WallEvent wall_event(const Frame& frame, std::size_t axis, double mass,
                             const DiscState& after, double dx, double dy, double unit,
                             bool is_corner) {

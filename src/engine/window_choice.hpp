@@ -16,31 +16,33 @@
 
 namespace carrom {
 
-/// The distribution of speeds. If few discs are much faster than the rest, cells need
-/// not allow for these.
+/// The distribution of speeds. Cells need not allow for a few discs that are much faster than the
+/// rest.
 struct SpeedSpread {
     static constexpr std::size_t n_parts = 16;
     using Counts = std::array<std::uint64_t, n_parts>;
 
-    double largest = 0;                        ///< the largest speed when discs were counted
-    std::array<double, n_parts> share_above{}; ///< the share of discs faster than k parts of that
+    double largest = 0; ///< the largest speed when discs were counted
+    /// The share of discs faster than k / n_parts of the largest speed
+    std::array<double, n_parts> share_above{};
 
     SpeedSpread() = default;
-    /// `counts[k]`: discs of all ranks whose speeds are between k and k + 1 parts of the largest.
+    /// `counts[k]`: discs of all ranks whose speeds are between k and k + 1 times 1 / n_parts of
+    /// the largest.
     SpeedSpread(const Counts& counts, double largest_speed);
     double speed_of(std::size_t part) const {
         return largest * static_cast<double>(part) / n_parts;
     }
-    double mean() const; ///< to within half a part
+    double mean() const; ///< exact to half of 1 / n_parts
 };
 
-/// What the choice depends on: lengths in the scene's unit, speed in lengths per micro-step.
+/// The arguments of the choice: lengths in the scene's unit, speeds in lengths per micro-step.
 struct WindowNeeds {
     Box box;
     double radius = 0;
     double n_discs = 0;
     double largest_speed = 0;
-    double hits_per_micro_step = 0; ///< collisions of a disc, as far as is known
+    double hits_per_micro_step = 0; ///< collisions of a disc, or the best estimate
     double discs_per_rank = 0;
     const SpeedSpread* spread = nullptr; ///< null if it is not known
 };
@@ -48,23 +50,23 @@ struct WindowNeeds {
 /// Estimates the collisions of a disc in a micro-step from the mean speed in a thin gas.
 double guess_of_hits(const WindowNeeds& needs);
 
-/// The largest distance at a window's anchor of two discs that meet in a window of
-/// this duration. The second form is for discs that are not faster than `speed`.
+/// The largest distance, at a window's anchor, between two discs that collide in a window of this
+/// duration. The second form is for discs whose speed is at most `speed`.
 double reach_of(const WindowNeeds& needs, double duration);
 double reach_of(const WindowNeeds& needs, double duration, double speed);
 
-/// How many micro-steps the next window has, 1 .. n_left; or how many parts the next
-/// micro-step is cut into.
+/// The number of micro-steps of the next window, 1 .. n_left, or the number of parts into which the
+/// next micro-step is divided.
 struct WindowChoice {
     int n_micro = 1;
     int n_parts = 1;
     double usual_speed =
-        0; ///< cells allow for it; the few discs that are faster have to search around themselves
+        0; ///< the speed that cells allow for; the few discs that are faster search on their own
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 
-/// The longest window in a box with periodic sides: two discs must not go round the
-/// box, because they would have to be searched for in many images.
+/// The longest window in a box with periodic sides. Discs must not cross the whole box in it,
+/// because then many images would have to be searched.
 inline double longest_in_period(const Periods& periods, double speed) {
     return periods.are_any() ? periods.shortest() / (2 * speed)
                              : std::numeric_limits<double>::infinity();

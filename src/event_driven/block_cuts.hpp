@@ -47,8 +47,8 @@ struct CellWork {
 /// Sums the work of the cells in any rectangle by four reads.
 class CellSums {
 public:
-    /// `discs_before(column, row)` is the number of discs of a column before `row`, or more by the
-    /// same number for all rows. The work of all `cells` adds up to less than 2^32. Defined in
+    /// `discs_before(column, row)` is the number of discs of a column before `row`, plus any number
+    /// that is the same for all rows. The work of all `cells` adds up to less than 2^32. Defined in
     /// cell_sums_fill.hpp.
     template <class DiscsBefore>
     void fill(const CellBlock& cells, int n_threads, const CellWork& work,
@@ -65,12 +65,13 @@ private:
     }
 
     CellBlock cells_;
-    RawVector<std::uint32_t> sums_; ///< by cell: the work of all cells left of it and below it
+    /// For each cell the work of all cells to the left of it and below it
+    RawVector<std::uint32_t> sums_;
 };
 
 struct CutNeeds {
     std::size_t n_blocks = 1;
-    int halo = 1;    ///< cells that a block sees around its own
+    int halo = 1;    ///< width of a block's halo, in cells
     CellBlock frame; ///< all cells that hold discs, also those of other ranks and images
 };
 
@@ -93,16 +94,17 @@ private:
     /// A rectangle that is a block, or is cut in two.
     struct Node {
         bool is_block = true, is_cut_by_column = false;
-        int cut = 0;                      ///< where the upper part begins
-        std::size_t lower = 0, upper = 0; ///< nodes; `lower` is the block's number if it is one
+        int cut = 0; ///< where the upper part of a divided rectangle begins
+        /// Index of the nodes of both parts; for a block `lower` is its number
+        std::size_t lower = 0, upper = 0;
     };
     struct Cut {
         bool is_by_column = false;
         int at = 0;
-        std::size_t middle = 0; ///< the lower part is meant for the blocks before this one
+        std::size_t middle = 0; ///< the lower part is for the blocks before this one
     };
-    /// Decides where to cut a rectangle that is meant for the blocks [first, end). Returns false to
-    /// make it a block.
+    /// Decides where to cut a rectangle that is for the blocks [first, end). Returns false to make
+    /// it one block.
     using Decision =
         std::function<bool(const CellBlock& part, std::size_t first, std::size_t end, Cut& cut)>;
 
@@ -111,10 +113,10 @@ private:
                     const Decision& decide);
 
     std::vector<CellBlock> blocks_;
-    std::vector<std::size_t> numbers_; ///< by block: the first of the blocks that it is meant for
-    std::vector<Node> nodes_;          ///< the first one is all cells
-    std::vector<double> work_;         ///< of the blocks cut by work
-    std::vector<double> shares_; ///< own work of the blocks cut by work, compared with each other
+    std::vector<std::size_t> numbers_; ///< for each node the first of the blocks that it is for
+    std::vector<Node> nodes_;          ///< the first node is all cells
+    std::vector<double> work_;         ///< work of the blocks cut by work
+    std::vector<double> shares_; ///< work of the blocks without their halos, relative to each other
 };
 
 } // namespace carrom

@@ -58,7 +58,7 @@ struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
     /// No disc is faster than this at the start. The run is void if a disc gets further from its
-    /// place at the start than this speed would take it.
+    /// initial position than this speed allows.
     double speed_bound = 0;
 
     double duration() const { return end - begin; }
@@ -69,19 +69,19 @@ struct BlockWindow {
 /// `n_reach` cells must cover it.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
-/// The unit of sums, and what flights before the last sync have added to them.
+/// Empty sums in the engine's unit, and the time of flights before the last sync.
 struct BlockSums {
     StressSums no_stress{0x1p900}; ///< sums of zero in the engine's unit
     LossSums no_losses{0x1p900};   ///< sums of zero in the engine's unit
     double flown_before = 0; ///< time over which the stress of flights was summed, at the last sync
 };
 
-/// What is to be noted of the collisions of own discs.
+/// Which collisions of own discs are recorded, and how.
 struct BlockNotes {
     bool log = false;           ///< collisions with walls go to BlockOutcome::log
-    bool pairs_in_log = true;   ///< and so do those of pairs
+    bool pairs_in_log = true;   ///< collisions of pairs go to BlockOutcome::log, too
     bool pairs = false;         ///< collisions of pairs go to BlockOutcome::pairs
-    std::int64_t last_sync = 0; ///< a micro-step, for BlockOutcome::pairs
+    std::int64_t last_sync = 0; ///< micro-step of the last sync, for BlockOutcome::pairs
     double velocity_unit = 1;   ///< unit of the velocities in BlockOutcome::pairs
 };
 
@@ -91,10 +91,10 @@ struct BlockGround {
     std::size_t n_own = 0;
     const SideColumns* columns = nullptr; ///< rows in the order of `discs`
     const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
-    CellBlock own_cells; ///< an own disc that rounding puts outside belongs to the nearest cell
+    CellBlock own_cells; ///< an own disc that rounding puts outside counts in the nearest cell
     BlockWindow window;
-    /// There is only one run, of the whole box. Then histories are not compared, and the grid is
-    /// not built.
+    /// Whether there is a single run of the whole box. Then histories are not compared, and no grid
+    /// is built.
     bool is_alone = false;
     BoxCells box_cells{};                ///< for runs of the whole box
     Extent extent{};                     ///< the box, for runs of the whole box
@@ -133,8 +133,9 @@ struct LoggedEvent {
     ObstacleTouch touch{};             ///< of an obstacle
 };
 
-/// The state of a disc at the end of a window. It leaves out what a window does not change, and so
-/// takes three quarters of a state's memory, because many are kept until the window is validated.
+/// The state of a disc at the end of a window. It leaves out the members that a window does not
+/// change, which saves a quarter of the memory. Many new states are kept until the window is
+/// validated.
 class NewState {
 public:
     NewState() = default;
@@ -158,7 +159,7 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t low_bits = 0x7fffffff; ///< of a counter
+    static constexpr std::uint64_t low_bits = 0x7fffffff; ///< the bits of a counter that are kept
 
     double x_, y_, vx_, vy_, tau_;
     std::uint32_t wall_collisions_ : 31;
@@ -170,24 +171,24 @@ static_assert(sizeof(NewState) == 48);
 
 struct BlockOutcome {
     std::vector<LocalIndex> hit;  ///< own discs that have collided
-    std::vector<NewState> states; ///< the new states of the discs in `hit`
-    SideColumns columns;          ///< their new values
+    std::vector<NewState> states; ///< the new states of the discs in `hit`, in the same order
+    SideColumns columns;          ///< their new values in the side columns
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
-    std::uint64_t n_events = 0;       ///< number of events whose first disc is own
+    std::uint64_t n_events = 0;       ///< number of events whose first disc is an own disc
     std::uint64_t n_simultaneous = 0; ///< see RollbackCounts
     std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
-    StressSums stress{1};        ///< sums over these events
-    LossSums losses{1};          ///< sums over these events
-    double work = 0;             ///< done by moving images in these events
-    double too_fast = 0;         ///< the largest speed of an own disc that got too far, or 0
-    double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
-                            ///< has met, or 0
+    StressSums stress{1};        ///< sums over the events of own discs
+    LossSums losses{1};          ///< sums over the events of own discs
+    double work = 0;             ///< work of moving images in the events of own discs
+    double too_fast = 0;         ///< the largest speed of an own disc that moved too far, or 0
+    /// The largest speed of a disc from beyond the ring that collided with an own disc, or 0
+    double far_partner = 0;
     double largest_speed_at_end = 0;
-    double largest_speed = 0;                     ///< no own disc was faster at any time of the run
-    bool is_cascade = false;                      ///< the run was given up in a collision cascade
+    double largest_speed = 0; ///< a bound of the speed of own discs at any time of the run
+    bool is_cascade = false;  ///< the run was given up in a collision cascade
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
 };
@@ -205,8 +206,8 @@ public:
     void run(const BlockGround& ground, const CellBlock& block, int halo,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Runs all discs of the box, which the rank must have. Each disc is there once, and its images
-    /// are ghosts. The result is always right, because nothing is missing.
+    /// Runs all discs of the box, which must all be on this rank. Each disc occurs once, and its
+    /// images are ghosts. The result is always right, because no disc is missing.
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The working data of a block run: copies of the discs of a block and its halo, their
-// events so far, and those to come.
+// The working data of a block run: copies of the discs of a block and its halo, their events so
+// far, and their predicted events.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct EventHistory {
     std::uint32_t generation = 0;   ///< generation of the last collision
     std::uint32_t partner = nobody; ///< partner in the last collision
 
-    /// Adds a collision: its time, the other's id and the velocities after it. The
-    /// place follows from these and the state before.
+    /// Adds a collision: its time, the partner's id and the velocities after it. The position
+    /// follows from these and the state before.
     void add(double time, const DiscState& disc, std::uint64_t partner_id, const double* spin,
              SpeedClass speed) {
         const auto mixed = [](double value, std::uint64_t factor) {
@@ -45,12 +45,13 @@ struct EventHistory {
 };
 static_assert(sizeof(EventHistory) == 16);
 
-/// The box in which the partners of a flight can have been at the window's start, in cells.
+/// The bounding box, in cells, of the positions at the window's start of all possible partners of a
+/// flight.
 struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
 
-/// The cells that a flight box covers, the last ones included.
+/// The cells that a flight box covers. The last ones are included.
 struct CellsOfBox {
     int left = 0, right = 0, bottom = 0, top = 0;
 };
@@ -58,19 +59,19 @@ struct CellsOfBox {
 /// The cells of a level of sizes.
 struct LevelCells {
     BoxCells cells;
-    double smallest_radius = 0, largest_radius = 0; ///< at the window's end
-    std::size_t first_start = 0;                    ///< in `cell_starts`
+    double smallest_radius = 0, largest_radius = 0; ///< radii at the window's end
+    std::size_t first_start = 0;                    ///< index in `cell_starts`
     std::uint32_t end_slot = 0;
-    float columns_per_unit = 1, rows_per_unit = 1; ///< the unit is that of lanes
-    float left = 0, bottom = 0;                    ///< where cells begin, in units of lanes
-    float farthest = 0; ///< see Scratch; without the radius of the disc that searches
+    float columns_per_unit = 1, rows_per_unit = 1; ///< cells per unit of the lanes
+    float left = 0, bottom = 0;                    ///< corner of the cells, in units of the lanes
+    float farthest = 0; ///< as Scratch::farthest, without the radius of the disc that searches
 
     int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
     int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
 };
 
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
-    /// Discs have several radii, and lie in levels of cells. Not if images move.
+    /// Whether discs have several radii and lie in levels of cells. False if images move.
     static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
 
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
@@ -101,7 +102,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         if constexpr (Dynamics::has_moving_images)
             vx[ghost.slot] += static_cast<float>(ghost.image.y * periods().speed * cells_per_speed);
     }
-    /// The squared speed of the disc's fastest image near by, in cells per window.
+    /// The squared speed of the fastest nearby image of the disc, in cells per window.
     float lane_speed_squared(std::uint32_t slot) const {
         if constexpr (Dynamics::has_moving_images) {
             const auto [along, across] = turned(axis, vx[slot], vy[slot]);
@@ -125,8 +126,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                                             windows_per_time);
         return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
     }
-    /// No branches on signs, which are anything: a flight ends where it began or on either side of
-    /// it.
+    /// Written without branches on signs, which are unpredictable: a flight ends at, before or
+    /// behind its start.
     FlightBox box_of(const Flight& flight, float half_side) const {
         const float half = (1 - flight.now) / 2;
         const float dx = flight.vx * half, dy = flight.vy * half;
@@ -136,8 +137,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
     /// Lists the runs of slots in the cells that the flight box covers.
     void find_runs(const FlightBox& box);
-    /// Fills `runs` with the slots of these cells, and makes room for all of them in the lists of
-    /// partners. The starts of a column's cells follow those of the column before.
+    /// Fills `runs` with the slots of these cells, and resizes the lists of partners so that all of
+    /// them fit. The starts of a column's cells follow those of the column before.
     [[gnu::always_inline]] void list_runs(const std::uint32_t* starts, std::size_t column_length,
                                           const CellsOfBox& covered) {
         starts += static_cast<std::size_t>(covered.left) * column_length;
@@ -162,9 +163,9 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
             predict_pairs(flight_of(slot));
     }
     void predict_pairs(const Flight& flight);
-    /// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the
-    /// seam neither disc may come first. So all partners of each disc are searched for, and a pair
-    /// may be found twice.
+    /// If rows of images slide, the two ghosts of a pair need not lie in opposite cells, so for a
+    /// pair across the seam neither disc may come first in the order of cells. So all partners of
+    /// each disc are searched, and a pair may be found twice.
     void predict_pairs_of_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
             if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
@@ -197,7 +198,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         while (slot >= levels[level].end_slot) ++level;
         return level;
     }
-    /// Before it has grown.
+    /// The radius before growth.
     double first_radius_of(const DiscState& disc) const {
         if constexpr (has_sizes)
             return dynamics.species_table().of(disc.id).radius;
@@ -228,7 +229,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
     /// Whether the two discs collided with each other at this time and with no other disc since.
-    /// They may have been other images than now.
+    /// Their images may have been different ones.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
@@ -274,7 +275,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                         last_row - cells.first_row);
     }
 
-    /// Whether the disc's owner reports its events: it is own or in the ring.
+    /// Whether the disc's owner reports its events, because the disc is own or in the ring.
     bool is_compared(std::uint32_t slot) const {
         if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
@@ -292,11 +293,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         outcome->cascade_time = event.time;
     }
 
-    /// Must be called after the collision, while the second disc is at the place of the event's
-    /// image.
+    /// Call it after the collision, while the second disc is at the position of the event's image.
     [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before,
                                      const Separation& to) {
-        if (!outcome->pairs.has_room()) [[unlikely]] // apart, so that no register is saved for it
+        if (!outcome->pairs.has_room()) [[unlikely]] // a function of its own, so that the loop
+                                                     // saves no register for it
             return note_pair_in_more_room(event, before, to);
         const DiscState &p = discs[event.p], &q = discs[event.q];
         note_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
@@ -325,53 +326,58 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    bool is_whole = false; ///< true if every disc is there once
+    bool is_whole = false; ///< true if every disc occurs once
     CellBlock cells;       ///< own cells and the halo
     CellBlock ring;        ///< own cells and those within one reach of them
-    CellBlock firsts;      ///< cells of a pair's first disc, from the corner of `cells`
+    CellBlock firsts; ///< cells of the first discs of pairs, counted from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the grid's axis, which is x in lanes, corners and walls in cells
+    Axis axis = Axis::x; ///< the grid's axis; lanes, corners and walls use it as x, in cells
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
     float rows_per_cell = 1; ///< rows may be higher than columns are wide
     float touching_squared = 0,
-          farthest = 0; ///< farthest: half width of a flight box beyond its flight, in cells
+          /// Farthest: half width of a flight box on each side of its flight, in cells
+        farthest = 0;
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
-          y_inner_high = 0;                 ///< no wall is near between these, in cells
-    std::size_t cell_rows = 0;              ///< entries of `cell_starts` for a column
-    std::vector<std::uint32_t> cell_starts; ///< by column and row, with an end for each column
+          y_inner_high = 0;    ///< no wall is near a disc between these bounds, in cells
+    std::size_t cell_rows = 0; ///< number of entries of `cell_starts` for each column
+    std::vector<std::uint32_t> cell_starts; ///< by column and row, plus an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
     DiscStates discs;
     SideColumns columns = side_columns_of(dynamics);
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::size_t n_hit = 0; ///< own discs that have collided
-    BoxLayout layout;      ///< for a run of the whole box
+    BoxLayout layout;      ///< only for a run of the whole box
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
-    std::vector<SlotRange> runs; ///< has room for all columns; only the first n_runs count
+    std::vector<SlotRange> runs; ///< large enough for all columns; only the first n_runs are valid
     std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners,
-        others_partners; ///< partners of one disc, and of the one that it has met
+        others_partners; ///< partners of one disc, and of the disc that it collided with
     std::vector<std::uint32_t> later,
-        later_ends; ///< partners of a column's discs, and where each disc's end
+        /// Partners of the discs of a column, and for each disc the end of its partners
+        later_ends;
     CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;
-    StressTerms stress_terms;       ///< terms that wait to be added to the outcome's sums
+    StressTerms stress_terms;       ///< terms that have not been added to the outcome's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;            ///< see BlockOutcome
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
-    double classes_per_squared = 1; ///< classes of speeds for each unit of the squared speed
-    // These are for discs of several sizes.
+    double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
+    // Members for discs of several sizes.
     std::vector<LevelCells> levels;                 ///< smallest discs first
-    std::vector<std::vector<LocalIndex>> in_levels; ///< what is listed, by level
-    std::vector<std::vector<std::uint32_t>> orders; ///< by slot of a block: places in those lists
-    std::vector<float> radii;                       ///< by slot, in cells
-    std::vector<float> margins;           ///< added to sums of radii, by levels of both discs
-    std::vector<std::uint8_t> is_of_ring; ///< by slot: its owner reports what happens to it
+    std::vector<std::vector<LocalIndex>> in_levels; ///< the listed discs of each level
+    /// For each slot of a level, the disc's index in its list
+    std::vector<std::vector<std::uint32_t>> orders;
+    std::vector<float> radii; ///< radius of the disc in each slot, in cells
+    /// Margins that are added to sums of radii, by the levels of both discs
+    std::vector<float> margins;
+    /// For each slot, whether the disc's owner reports its events
+    std::vector<std::uint8_t> is_of_ring;
 };
 
 } // namespace carrom

@@ -14,31 +14,32 @@
 
 namespace carrom {
 
-/// What the choice depends on: lengths in the scene's unit, times in micro-steps.
+/// The arguments of the choice: lengths in the scene's unit, times in micro-steps.
 struct BlockNeeds {
     Box box;
-    double radius = 0; ///< the largest
+    double radius = 0; ///< radius of the largest disc
     double n_discs = 0;
     double speed_bound = 0;
-    double collision_rate = 0; ///< per disc and time
+    double collision_rate = 0; ///< collisions per disc and time
     double time = 0;           ///< since the last sync
     std::optional<int> halo;   ///< halo of a block's first run, in reaches, if a test has set it
-    bool is_one_block = false; ///< all discs in one block, whatever their number
+    bool is_one_block = false; ///< one block with all discs, whatever their number
     int more_halo = 0;         ///< reaches that Caution adds to the halo
-    bool goes_round_x = false, goes_round_y = false; ///< the halo does not end with the box, but
-                                                     ///< goes on with images of the discs
-    double crowding = 1;  ///< how many times denser it is around a disc than in the mean of the box
-    double n_threads = 0; ///< of all ranks together; 0 if each rank has one thread
-    double rounds = 0;    ///< of blocks that run again, for each window, as of late
-    double equivalent_radius = 0; ///< radius of equal discs that have as many others near them
+    /// The halo does not end at the sides of the box, because it contains images of discs
+    bool goes_round_x = false, goes_round_y = false;
+    /// Density around a disc relative to the mean of the box, averaged over discs
+    double crowding = 1;
+    double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
+    double rounds = 0;    ///< recent mean number of rounds of repeated block runs in a window
+    double equivalent_radius = 0; ///< radius of equal discs that would have as many neighbours
 };
 
 struct BlockChoice {
     double duration = 0; ///< length of the window in micro-steps
     double reach = 0;
-    int halo = 3;          ///< in reaches
+    int halo = 3;          ///< halo depth in reaches
     double block_side = 0; ///< the engine rounds it to whole cells
-    double own_discs = 1;  ///< of a block, not those of its halo
+    double own_discs = 1;  ///< number of own discs of a block, without its halo
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.
@@ -50,12 +51,12 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
 /// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:
-    /// A window has passed. All times are shares of that of its first runs.
+    /// Statistics of a window; times are relative to its first block runs.
     struct Passed {
         double hits = 0;             ///< collisions per disc
         double repeated = 0;         ///< block runs that were repeated, over the number of blocks
-        double waited = 0;           ///< the time that others waited for the rank that repeats most
-        double price_of_reach = 0.1; ///< what one more reach of halo costs
+        double waited = 0;           ///< time that ranks waited for the rank that repeats most
+        double price_of_reach = 0.1; ///< time of one more reach of halo
     };
     void learn(const Passed& window);
     int more_halo() const { return more_halo_; }
@@ -64,8 +65,8 @@ public:
 
 private:
     int more_halo_ = 0, n_calm_ = 0;
-    /// Means of what repeated runs cost, and of what others waited for them. Older windows count
-    /// less and less.
+    /// Means of the cost of repeated runs, and of the time that others waited for them. Older
+    /// windows count less.
     double lately_ = 0, waited_lately_ = 0;
     double most_hits_ = std::numeric_limits<double>::infinity();
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole box cut into cells, for a run that has all discs of the box. Each disc has one slot.
-// Cells beyond periodic sides hold ghosts. A ghost is a slot where an image of a disc is found. It
-// has a flight of its own, so that the filter can test it, but its state is the disc's.
+// Cells beyond periodic sides hold ghosts. A ghost is a slot for an image of a disc. It has a
+// flight of its own, so that the filter can test it, but its state is the disc's.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct BoxCells {
     double x_low = 0, y_low = 0, width = 1, height = 1;
     int n_columns = 1, n_rows = 1;
     int n_reach_columns = 1, n_reach_rows = 1; ///< partners are at most this many cells away
-    int n_beside = 0, n_above = 0;             ///< columns and rows beyond each side
+    int n_beside = 0, n_above = 0;             ///< number of columns and rows beyond each side
 };
 
 /// Cuts the box into cells that are at least `least_width` wide and high, or into one cell along an
@@ -50,8 +50,8 @@ public:
     void lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
-    /// These three lay discs in levels, one after the other, each with its own cells. This forgets
-    /// the last layout.
+    /// The next three functions lay discs in levels, one after the other, each with its own cells.
+    /// `clear` drops the last layout.
     void clear();
     /// Returns the indices of the own discs, and of one copy of each other disc.
     const std::vector<LocalIndex>& list_once(std::span<const DiscState> discs, std::size_t n_own);
@@ -82,8 +82,8 @@ public:
 
 private:
     struct Line {
-        int away = 0; ///< distance of the line from the box, in box lengths
-        int home = 0; ///< the line of cells in the box whose images lie there
+        int away = 0; ///< distance of the line of cells from the box, in box lengths
+        int home = 0; ///< the line of cells in the box that it repeats
     };
 
     void sort(std::span<const DiscState> discs, std::span<const LocalIndex> listed,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sees that a block's collisions follow each other so closely that the run would never end.
+// Detects collisions of a block that follow each other so closely that the run would never end.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@ namespace carrom {
 
 class CascadeWatch {
 public:
-    /// Counts a collision. True if there have been too many of them in too short a time: a cascade
-    /// within `interval` micro-steps, or a rush. In a rush time goes on, but at that rate no
-    /// micro-step would end, as for a disc in a slot that is a rounding wider than itself.
+    /// Counts a collision. Returns true if there were too many of them in too short a time: a
+    /// cascade within `interval` micro-steps, or a rush. In a rush time goes on, but at that rate
+    /// no micro-step would end, as for a disc in a slot that is a rounding wider than itself.
     bool add(double time, double interval, std::uint64_t n_discs) {
         if (time > cascade_begin_ + interval) {
             cascade_begin_ = time;

@@ -34,35 +34,37 @@ namespace carrom {
 
 /// Settings that tests vary. Only the validation affects the bits.
 struct BlockTuning {
-    std::optional<int> halo;          ///< halo of a block's first run, in reaches
-    std::optional<double> block_side; ///< in reaches
-    double speed_allowance = 1.08;    ///< bound over the largest speed at a window's start
-    bool is_validated = true;         ///< false gives wrong results
-    bool parts_sizes = false;         ///< each octave of radii has a level of cells
-    std::optional<bool> cuts_by_work; ///< unset: with several threads, and where discs crowd
-    bool notes_work = false;          ///< `take_work()` has something to return
+    std::optional<int> halo;          ///< relative to the reach
+    std::optional<double> block_side; ///< relative to the reach
+    /// Bound of speeds, relative to the largest speed at a window's start
+    double speed_allowance = 1.08;
+    bool is_validated = true; ///< false gives wrong results
+    bool parts_sizes = false; ///< whether each octave of radii has a level of cells of its own
+    /// Unset: true for several threads, and if discs are clustered
+    std::optional<bool> cuts_by_work;
+    bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
 
-/// What a disc that a run sees costs, in collisions, which count as this many units.
+/// Units of work for a disc of a run, beside its collisions; a collision counts as this many units.
 inline constexpr double work_of_disc = 0.14;
 inline constexpr std::uint64_t work_unit = 100;
 
-/// What the run of a block has done, for studies of how threads share a window.
+/// The work of one block run, for studies of how threads share a window.
 struct BlockWork {
     std::uint64_t n_carried = 0; ///< collisions carried out, those of the halo included
-    std::uint64_t n_seen = 0;    ///< discs, those of the halo included
+    std::uint64_t n_seen = 0;    ///< number of discs, those of the halo included
     bool is_repeated = false;    ///< the block had run before in this window
 };
 
-/// What a rank has seen in windows so far, for studies of how ranks share a box.
+/// Sums over a rank's windows so far, for studies of how ranks share a box.
 struct HaloCounts {
     std::uint64_t n_windows = 0, n_own = 0, n_halo = 0; ///< sums over windows
-    std::uint64_t n_neighbours = 0;                     ///< sum over windows
+    std::uint64_t n_neighbours = 0; ///< sum over windows of the number of neighbours
 };
 
 template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
 public:
-    /// Overlapping discs are an error. **Collective.**
+    /// Throws InputError if discs overlap. **Collective.**
     EventDrivenEngine(const SceneParameters& scene, StoredState state,
                       const Communicator& communicator, const Tuning& tuning,
                       const BlockTuning& block_tuning = {});
@@ -71,8 +73,8 @@ public:
     RollbackCounts rollback_counts() const override;
     double bytes_for_crowds() const override;
 
-    /// What the runs of this rank's blocks have done since the last call, round by round: a window
-    /// has one round, and another one for each rollback.
+    /// The work of this rank's block runs since the last call, round by round. A window has one
+    /// round, and another one for each rollback.
     std::vector<std::vector<BlockWork>> take_work() { return std::exchange(rounds_, {}); }
     const HaloCounts& halo_counts() const { return halo_counts_; }
 
@@ -85,22 +87,22 @@ private:
 
     struct Block {
         CellBlock cells;
-        int halo = 0;               ///< in reaches
+        int halo = 0;               ///< depth of the halo, in reaches
         std::uint8_t is_marked = 0; ///< the block has to run
-        bool has_run = false;       ///< it has run before in this window
-        bool saw_all = false;       ///< its last run had the whole box
+        bool has_run = false;       ///< the block has already run in this window
+        bool saw_all = false;       ///< its last run covered the whole box
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };
-    /// What validation finds in a window, over all ranks.
+    /// Results of the validation of a window, summed over all ranks.
     struct FoundInWindow {
-        std::uint64_t ranks_too_fast = 0; ///< with a disc that was faster than the bound
-        std::uint64_t marked_blocks = 0;  ///< which have to run again
-        std::uint64_t cascades = 0;       ///< blocks that were given up in one
-        std::uint64_t ranks_to_stop = 0;  ///< that have been asked to
-        std::uint64_t ranks_jammed = 0;   ///< whose growing discs have become too fast
+        std::uint64_t ranks_too_fast = 0; ///< ranks with a disc that was faster than the bound
+        std::uint64_t marked_blocks = 0;  ///< blocks that have to run again
+        std::uint64_t cascades = 0;       ///< blocks whose run was given up in a cascade
+        std::uint64_t ranks_to_stop = 0;  ///< ranks that were requested to stop
+        std::uint64_t ranks_jammed = 0;   ///< ranks whose growing discs have become too fast
         std::uint64_t events = 0;
-        std::uint64_t crowding = 0; ///< in units of 1 / `crowding_unit`
+        std::uint64_t crowding = 0; ///< sum of the crowding, in units of 1 / `crowding_unit`
     };
 
     void advance_to(std::int64_t target) override;
@@ -149,39 +151,41 @@ private:
 
     /// At least two, because the last own row of cells may end beyond the domain.
     int first_halo_depth() const { return std::max(2, choice_.halo); }
-    /// The halo for which there are cells, so that halos can grow to it without other cells.
+    /// The depth of the halo for which there are cells. Halos can grow up to it without new cells.
     int laid_depth() const { return std::max(common_depth_, 2 * choice_.halo); }
     double reach() const { return block_reach(window_, contact_distance(), dynamics_.box()); }
-    /// The largest distance at which two discs meet in the window.
+    /// The largest distance between centres in a contact in this window.
     double contact_distance() const {
         return dynamics_.search_diameter() * dynamics_.growth_at(window_.end);
     }
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< the frame's motion since the last migration, in directions of cuts
+    double jumped_ = 0; ///< motion of the frame since the last migration, across the cuts
     WindowPolicy policy_;
     double first_packing_ = 0;
-    JamWatch jam_watch_;     ///< of growing discs
-    double first_speed_ = 0; ///< speed of growing discs when this interval or the engine began
-    /// How many times denser it is in the cell of an own disc than in the mean of the box, summed
-    /// over own discs. Even gases have less than 1 for each, because discs keep others away.
+    JamWatch jam_watch_; ///< detects a jam of growing discs
+    /// Speed of growing discs at the start of this interval or of the engine
+    double first_speed_ = 0;
+    /// The density in the cell of an own disc relative to the mean of the box, summed over own
+    /// discs. In a homogeneous gas it is below 1 for each disc, because discs exclude each other.
     double crowding_ = 0;
-    double mean_crowding_ = 1; ///< over all discs, or 1 if it is near 1; equal on all ranks
-    /// What validation has found in the last window, and the largest speed at its end.
+    double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is near 1; equal on all ranks
+    /// Results of the validation of the last window, and the largest speed at its end.
     JointReduction<FoundInWindow> reduced_;
-    static constexpr double crowding_unit = 1024; ///< sums of whole numbers have no order
+    /// Whole numbers, because their sums do not depend on the order
+    static constexpr double crowding_unit = 1024;
     bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
-    RollbackCounts counts_;         ///< its counts of blocks are of this rank alone
+    RollbackCounts counts_;         ///< counts of blocks are those of this rank
 
     BlockChoice choice_;
     BlockWindow window_;
-    bool is_alone_ = false; ///< one run of the whole box serves, on one rank and with few discs
+    bool is_alone_ = false; ///< a single run of the whole box is used, for few discs on one rank
     BoxCells box_cells_;    ///< cells for runs of the whole box
-    int common_depth_ = 0;  ///< reaches that the halos of all ranks cover
-    int halo_depth_ = 0;    ///< reaches that the rank's halo covers
+    int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have
+    int halo_depth_ = 0;    ///< depth in reaches that this rank's halo has
     CellBlock own_cells_{0, 1, 0, 1};
-    BlockCuts cuts_; ///< of the own cells into blocks
+    BlockCuts cuts_; ///< cuts of the own cells into blocks
     std::vector<Block> blocks_;
     std::vector<std::vector<BlockWork>> rounds_;
     HaloCounts halo_counts_;

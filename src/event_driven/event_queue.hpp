@@ -2,10 +2,10 @@
 // Predicted collisions of one block run in their total order: time, generation, id of P, wall
 // before pair, id of Q.
 //
-// Predictions are not removed when they become void. A prediction whose discs have
-// collided since has other versions than these, which only grow, and is skipped. Void
-// predictions pile up if discs without room collide millions of times in a window, so
-// they are swept out whenever there are twice as many events as there were good ones.
+// Predictions are not removed when they become void. A prediction stores the versions of its discs,
+// which grow with each collision. If they differ from the present ones, the prediction is skipped.
+// Discs without room can collide millions of times in a window, so void predictions are removed
+// whenever there are twice as many events as valid ones at the last sweep.
 #pragma once
 
 #include <algorithm>
@@ -31,10 +31,11 @@ inline bool is_obstacle(std::uint32_t partner) {
 struct Event {
     double time = 0;
     std::uint32_t generation = 0;
-    std::uint32_t p = 0, q = x_wall;       ///< slots; p has the lower id
-    std::int16_t image_x = 0, image_y = 0; ///< q's image: box lengths from where its slot has q
-    std::uint32_t versions = 0;            ///< sum of the versions of the states that predict it
-    std::uint32_t next = 0;                ///< the next entry of its bucket in the queue
+    std::uint32_t p = 0, q = x_wall; ///< slots; p has the lower id
+    /// Displacement of q's image, in box lengths, from the position in its slot
+    std::int16_t image_x = 0, image_y = 0;
+    std::uint32_t versions = 0; ///< sum of the versions of the predicting states
+    std::uint32_t next = 0;     ///< the next entry of its bucket in the queue
 
     bool has_image() const { return image_x != 0 || image_y != 0; }
     Image image() const { return {image_x, image_y}; }
@@ -67,17 +68,18 @@ private:
     std::span<const DiscState> discs_;
 };
 
-/// The reverse order, for heaps with the first event on top.
+/// The reverse order, for heaps that have the first event on top.
 inline auto after(const EventOrder& before) {
     return [&before](const Event& a, const Event& b) { return before(b, a); };
 }
 
-/// Buckets of equal length in time, with about one event each, so nearly all of a
-/// queue's work is to append to a list. The bucket that is being emptied is a heap, so
-/// that thousands of events at one time cost only the logarithm.
+/// Buckets of equal length in time, with about one event each, so nearly all of a queue's work is
+/// to append to a list. The bucket that is being emptied is a heap, so even thousands of events at
+/// one time cost only the logarithm of their number each.
 class EventQueue {
 public:
-    /// Forgets all events. New ones lie in [begin, end], about `n_expected` of them at a time.
+    /// Removes all events. New ones lie in [begin, end], with about `n_expected` of them in the
+    /// queue at any time.
     void restart(double begin, double end, std::size_t n_expected) {
         pool_.clear();
         first_free_ = none;
@@ -105,8 +107,8 @@ public:
         heads_[bucket] = entry;
     }
 
-    /// Takes out the first event for which `is_current(event)` holds and forgets those
-    /// before it; false if there is none.
+    /// Removes and returns the first event for which `is_current(event)` holds, and removes those
+    /// before it. Returns false if there is none.
     template <class IsCurrent>
     bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
         if (has_outgrown()) [[unlikely]]
@@ -139,7 +141,7 @@ private:
         return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
     }
 
-    /// Forgets all events that are not current. It checks each event, but at least as many events
+    /// Removes all events that are not current. It checks each event, but at least as many events
     /// were pushed since the last sweep, so it does not change the order of the total cost.
     template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
         std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
@@ -178,12 +180,12 @@ private:
     }
 
     double begin_ = 0, buckets_per_time_ = 1;
-    std::size_t current_ = 0; ///< the bucket in `now_`
+    std::size_t current_ = 0; ///< number of the bucket in `now_`
     std::vector<Event> now_;
     std::vector<std::uint32_t> heads_;
     std::vector<Event> pool_;
     std::uint32_t first_free_ = none;
-    /// A sweep is due if `now_` or `pool_` is larger than these.
+    /// The sizes of `now_` and `pool_` beyond which a sweep is due.
     std::size_t most_now_ = least_to_sweep, most_waiting_ = least_to_sweep;
 };
 

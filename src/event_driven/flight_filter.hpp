@@ -36,7 +36,8 @@ struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
     int n_columns = 0, n_rows = 0;
-    int n_reach_columns = 1, n_reach_rows = 1; ///< a disc's partners can be in these
+    /// The partners of a disc are at most this many columns and rows away
+    int n_reach_columns = 1, n_reach_rows = 1;
 };
 
 /// The rows first .. end - 1 of a column of cells.
@@ -64,8 +65,8 @@ template <class SomeLanes> struct FlightFilters {
                          const Flight& q, float p_touching, float q_touching, std::uint32_t* p_out,
                          std::uint32_t* q_out);
 
-    /// Finds every pair that might touch in the window, of a disc in `rows` of a column and a disc
-    /// that comes after it. That one is later in the same column or in a column to the right,
+    /// Finds every pair that might touch in the window, between a disc in `rows` of a column and a
+    /// later disc. The later disc follows in the same column, or is in a column to the right,
     /// within the table's reach. Appends the second discs of the pairs to `partners`, whose size
     /// never shrinks. Appends to `ends`, for each disc of the rows, where its partners end in that
     /// list.
@@ -74,7 +75,7 @@ template <class SomeLanes> struct FlightFilters {
                    std::vector<std::uint32_t>& ends);
 };
 
-/// Those for the instruction set of this processor.
+/// The filters for the instruction set of this processor.
 template <class SomeLanes> const FlightFilters<SomeLanes>& flight_filters();
 template <> const FlightFilters<FlightLanes>& flight_filters();
 template <> const FlightFilters<SizedLanes>& flight_filters();

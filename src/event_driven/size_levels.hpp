@@ -16,7 +16,7 @@
 namespace carrom {
 
 struct SizeLevel {
-    double smallest_radius = 0, largest_radius = 0; ///< before discs grow
+    double smallest_radius = 0, largest_radius = 0; ///< radii before growth
     double n_discs = 0;
     double sum_of_radii = 0;
 };
@@ -26,8 +26,8 @@ struct SizeLevel {
 std::vector<SizeLevel> choose_size_levels(std::span<const Species> species, double radius,
                                           double n_discs, double area, bool is_each_octave = false);
 
-/// The radius of equal discs that would try as many partners as these discs try in the mean. The
-/// length of windows is chosen for it.
+/// The radius of equal discs that would have as many possible partners as these discs have on
+/// average. The length of windows is chosen for it.
 double equivalent_radius(std::span<const SizeLevel> levels);
 
 /// The level of a disc of this radius.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses each window of a run from what the windows before it have shown: how often discs collide,
-// how many block runs had to be repeated, and how fast discs have become. It is arithmetic on
-// numbers that all ranks know. It affects the run's time, not its bits.
+// Chooses each window of a run from the windows before it: how often discs collide, how many block
+// runs had to be repeated, and how fast discs have become. It is arithmetic on numbers that all
+// ranks know. It affects the run's time, not its bits.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,11 @@ namespace carrom {
 
 /// What does not change during a run; equal on all ranks.
 struct WindowSetting {
-    std::optional<double> duration; ///< of a window, in micro-steps; unset: the cheapest one
-    std::optional<int> halo;        ///< of a block's first run, in reaches; unset: chosen
-    double speed_allowance = 1.08;  ///< bound over the largest speed at a window's start
-    double n_threads = 0;           ///< of all ranks together; 0 if each rank has one thread
+    std::optional<double> duration; ///< duration of a window in micro-steps; unset: the fastest one
+    std::optional<int> halo;        ///< halo of a block's first run, in reaches; unset: chosen
+    /// Bound of speeds, relative to the largest speed at a window's start
+    double speed_allowance = 1.08;
+    double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
 };
 
 /// Times are in micro-steps since the last sync.
@@ -28,29 +29,29 @@ struct PlannedWindow {
 /// A round of block runs that had to be repeated; equal on all ranks.
 struct Rollback {
     double repeated = 0;         ///< block runs, as a share of all blocks
-    double waited = 0;           ///< for the rank that repeats most, in times of its first runs
-    double price_of_reach = 0.1; ///< time of one more reach of halo, as a share of the first runs
+    double waited = 0;           ///< time of the rank that repeats most, relative to its first runs
+    double price_of_reach = 0.1; ///< time of one more reach of halo, relative to the first runs
 };
 
 class WindowPolicy {
 public:
     explicit WindowPolicy(const WindowSetting& setting) : setting_(setting) {}
 
-    /// A time that the window from `time` is not likely to pass. It is at most `target`.
+    /// The time at which a window that begins at `time` will probably end, at most `target`.
     double soon(double time, double target) const;
     /// The bound of speeds for a window that begins with the `largest` speed, if the bound of the
     /// window before it was `last_bound`, and if its discs may gain `gained` in a frame that falls.
-    /// The bound goes down slowly, because the largest speed goes up and down.
+    /// The bound falls only slowly, because the largest speed fluctuates.
     double speed_bound(double largest, double last_bound, double gained) const;
 
     /// Plans the next window, from `needs.time` to `target` or before. `collision_rate` is that of
     /// the window before, or a guess for the first one, and `longest` the longest window that the
-    /// box permits. `needs` has all but what is learned from windows.
+    /// box permits. `needs` contains everything except what is learned from windows.
     PlannedWindow plan(BlockNeeds needs, double collision_rate, double longest, double target);
 
-    /// Called for each round of repeated runs in the planned window.
+    /// Call it for each round of repeated runs in the planned window.
     void note(const Rollback& rollback);
-    /// The window is over.
+    /// Call it at the end of the window.
     void note_end(double duration) { last_duration_ = duration; }
 
     double last_duration() const { return last_duration_; }
@@ -63,11 +64,11 @@ private:
 
     WindowSetting setting_;
     double collision_rate_ = 0;
-    double rate_to_expect_ = 0;   ///< the same, but it goes down slowly
+    double rate_to_expect_ = 0;   ///< the same rate, but it falls only slowly
     double last_duration_ = 1;    ///< of the last window
-    double rounds_lately_ = 0.05; ///< mean of rounds in which older windows count less
-    double n_rounds_ = 0;         ///< of repeated runs in the last window
-    Rollback last_;               ///< sums over these rounds, and the price of the last one ever
+    double rounds_lately_ = 0.05; ///< running mean of the number of rounds
+    double n_rounds_ = 0;         ///< number of repeated rounds in the last window
+    Rollback last_;               ///< sums over these rounds, with the latest price
     Caution caution_;
 };
 

@@ -12,7 +12,7 @@ std::string version_text(int version) {
     return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
 }
 
-/// One line for each way in which there is no GPU to use.
+/// One error message for each reason why no GPU can be used.
 void check_gpu() {
     int driver = 0, runtime = 0, n_devices = 0;
     cudaDriverGetVersion(&driver);

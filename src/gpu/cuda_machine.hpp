@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A GPU that CUDA drives; compiled by nvcc alone. Kernels and copies follow each other in the order
-// in which the host asks for them.
+// A GPU that is used through CUDA; only nvcc compiles this file. Kernels and copies run in the
+// order in which the host starts them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// Throws CollectiveError with CUDA's words.
+/// Throws CollectiveError with CUDA's text of the error.
 inline void check_cuda(cudaError_t error, const char* what) {
     if (error == cudaSuccess) return;
     throw CollectiveError(std::string("GPU: ") + what + ": " + cudaGetErrorString(error));
@@ -25,7 +25,8 @@ inline void check_cuda(cudaError_t error, const char* what) {
 namespace cuda {
 
 constexpr unsigned threads_of_block = 128, threads_of_rounds = 512;
-/// Where the number of threads is in the device's memory: enough to keep any GPU busy.
+/// The largest number of blocks of a kernel whose number of threads is in the device's memory:
+/// enough for any GPU.
 constexpr unsigned most_blocks = 2048;
 
 template <class Kernel> __global__ void for_each(std::uint32_t n, const Kernel kernel) {
@@ -49,8 +50,8 @@ template <class Rounds> __global__ void match(const Rounds rounds, int round) {
          i += gridDim.x * blockDim.x)
         rounds.match(round, i);
 }
-/// One block. Its threads wait for each other, so that all of them see the same size of a round,
-/// and what the part before has written.
+/// Runs in one block. Its threads wait for each other, so that all of them read the same size of a
+/// round and the results of the part before.
 template <class Rounds> __global__ void finish_rounds(const Rounds rounds, int round) {
     for (;; ++round) {
         __syncthreads();
@@ -74,7 +75,7 @@ struct CudaMachine {
         void operator()(void* memory) const { cudaFree(memory); }
     };
     using Memory = std::unique_ptr<void, Free>;
-    /// Memory that kernels of a library work in.
+    /// Scratch memory for kernels of a library.
     struct Scratch {
         Memory memory;
         std::size_t n_bytes = 0;
@@ -88,7 +89,7 @@ struct CudaMachine {
     static void copy_to_device(void* to, const void* from, std::size_t n_bytes) {
         check_cuda(cudaMemcpy(to, from, n_bytes, cudaMemcpyHostToDevice), "copy");
     }
-    /// Waits for all kernels, and reports what has gone wrong in them.
+    /// Waits for all kernels, and throws the error if one has failed.
     static void copy_to_host(void* to, const void* from, std::size_t n_bytes) {
         check_cuda(cudaGetLastError(), "kernel");
         check_cuda(cudaMemcpy(to, from, n_bytes, cudaMemcpyDeviceToHost), "copy");

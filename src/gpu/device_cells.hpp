@@ -24,8 +24,8 @@ struct CellsAlong {
     bool is_periodic = false;
 
     CellsAlong() = default;
-    /// Cells are at least `least_width` long. Where the box is shorter than `reach` and periodic,
-    /// a disc has partners in several images of the box.
+    /// Cells are at least `least_width` long. If the box is periodic and shorter than `reach`, a
+    /// disc has partners in several images of the box.
     CellsAlong(double length, double least_width, double reach, bool repeats)
         : n(static_cast<int>(std::clamp(std::floor(length / least_width), 1.0, 30000.0))),
           is_periodic(repeats) {
@@ -43,14 +43,14 @@ struct CellsAlong {
     CARROM_DEVICE int last(int cell) const {
         return is_periodic ? cell + around : std::min(cell + around, n - 1);
     }
-    /// The box that this cell of the repeated row is in.
+    /// The number of the box in which this cell of the repeated row is.
     CARROM_DEVICE int box_of(int cell) const {
         if (!is_periodic || (cell >= 0 && cell < n)) return 0;
         return cell >= 0 ? cell / n : -((n - 1 - cell) / n);
     }
 };
 
-/// `begins[c]` is the first slot of cell c, and there is one more for the end.
+/// `begins[c]` is the first slot of cell c; the last entry is the end.
 struct DeviceCells {
     CellsAlong x, y;
     std::uint32_t* begins = nullptr;
@@ -62,7 +62,7 @@ struct DeviceCells {
         return static_cast<std::uint32_t>(y.of(at_y) * x.n + x.of(at_x));
     }
     /// Calls visit(slot, image) for each disc in the cells around `cell`, itself included. The disc
-    /// is displaced by `image`, beside what its state says.
+    /// is displaced by `image` in addition to the image in its state.
     template <class Visit>
     CARROM_DEVICE void for_each_near(std::uint32_t cell, const Visit& visit) const {
         const int column = static_cast<int>(cell) % x.n, row = static_cast<int>(cell) / x.n;
@@ -81,8 +81,8 @@ struct DeviceCells {
     }
 };
 
-/// Cells for n discs in the box whose partners are within `reach`. Some two fifths of a disc are
-/// in a cell where `reach` allows that, because small cells save tests of pairs.
+/// Cells for n discs in the box whose partners are within `reach`. If `reach` permits, a cell has
+/// 0.4 discs on average, because small cells save tests of pairs.
 inline DeviceCells cells_for(const Box& box, const Periods& periods, double reach,
                              std::uint64_t n_discs) {
     constexpr double discs_in_cell = 0.4;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The dynamics that a device runs: a scene's motion (dynamics/motion.hpp) between walls that only
-// reverse a velocity. It is plain data, and answers what StepWalls and the sums of stress ask.
+// reverse a velocity. It is plain data, and has the functions that StepWalls and the sums of stress
+// call.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +27,8 @@ public:
 
     CARROM_DEVICE static constexpr bool has_obstacles() { return false; }
     CARROM_DEVICE const MirrorSides<Arithmetic>& sides() const { return sides_; }
-    /// False only if the disc meets no wall in a micro-step that ends by `time`. A wall at rest is
-    /// also met by a disc that ends a micro-step within its band.
+    /// Returns false only if the disc meets no wall in a micro-step that ends by `time`. A disc
+    /// that ends a micro-step within the band of a wall at rest meets it, too.
     CARROM_DEVICE bool may_meet_wall(const DiscState& disc, double time) const {
         if (!this->space_.has_sides()) return false;
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy));
@@ -50,16 +51,16 @@ private:
     MirrorSides<Arithmetic> sides_;
 };
 
-/// Whether a GPU can do scenes with this dynamics.
+/// Whether a GPU can run scenes with this dynamics.
 template <class OfDynamics>
 constexpr bool is_dynamics_of_gpus = !OfDynamics::has_moving_images &&
                                      !std::is_same_v<OfDynamics, GrowingDynamics>;
 
-/// Names the motion of a dynamics.
+/// The type of the motion of a dynamics.
 template <class OfDynamics>
 using MotionOf = std::remove_cvref_t<decltype(std::declval<const OfDynamics&>().motion())>;
 
-// Calls make(dynamics) for each of those whose scenes a GPU can do.
+// Calls make(dynamics) for each dynamics whose scenes a GPU can run.
 #define CARROM_FOR_EACH_DYNAMICS_OF_GPUS(make)                                                     \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(WalledDynamics) make(WalledMixedDynamics) make(PeriodicDynamics)                      \

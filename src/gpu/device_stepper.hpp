@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stepper of a machine: owns the memory, and runs the kernels in their order.
+// The stepper of a machine. It owns the memory, and runs the kernels in their order.
 //
 // Memory is 64 bytes a disc for its state, 64 for a second copy while discs are sorted, 8 for cells
 // and places in them, and some 10 for the table of cells. Between two sorts the second copy is
@@ -91,7 +91,7 @@ private:
         return counters;
     }
 
-    /// Waits for nothing, because the host has nothing to do with the last window's numbers.
+    /// Does not wait, because the host does not need the numbers of the last window yet.
     void begin(const DeviceWindow& window, bool forgets_speed) {
         world_.window = window.window;
         world_.squared_window_speed = window.speed * window.speed;
@@ -100,7 +100,7 @@ private:
         Machine::for_each(1, Begin<D>{world_, forgets_speed});
     }
 
-    /// Brings the discs into the order of the cells of this reach.
+    /// Sorts the discs into cells for this reach.
     void sort(double reach) {
         Periods periods;
         if constexpr (D::is_periodic) periods = world_.dynamics.periods();
@@ -108,7 +108,7 @@ private:
         const std::uint32_t n_cells = world_.cells.n_cells();
         if (n_cells + 1 > most_cells_) {
             most_cells_ = n_cells + 1 + n_cells / 8;
-            begins_.reset(); // first, so that both are never there together
+            begins_.reset(); // freed first, so that old and new memory do not exist at once
             begins_ = allocate<std::uint32_t>(most_cells_);
         }
         world_.cells.begins = as<std::uint32_t>(begins_);
@@ -121,7 +121,7 @@ private:
         point_at_discs();
     }
 
-    /// Gives the free copy of the states to the arrays of a window.
+    /// Uses the free copy of the states as memory for the arrays of a window.
     void point_at_discs() {
         world_.discs = as<DiscState>(discs_);
         auto* next = static_cast<std::byte*>(spare_.get());
@@ -129,7 +129,7 @@ private:
             array = reinterpret_cast<T*>(next);
             next += sizeof(T) * n_;
         };
-        carve(world_.time); // the widest numbers first, so that all are aligned
+        carve(world_.time); // the widest numbers come first, so that all are aligned
         carve(world_.partner);
         carve(world_.is_listed);
         carve(world_.active);

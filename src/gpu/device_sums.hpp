@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums without an order on a device. A term is a whole number of units (core/exact_sum.hpp), and
-// goes as four pieces of 32 bits into four integers. So threads add to them in any order, and no
-// carry passes between them; the host puts the pieces together.
+// Sums on a device that do not depend on the order of terms. A term is a whole number of units
+// (core/exact_sum.hpp), and its four pieces of 32 bits are added to four integers. So threads can
+// add in any order, without carries between the integers; the host combines the pieces.
 //
 // Threads that all add to the same integers would wait for each other. So there are many copies,
-// the stripes, and a thread takes one by its number.
+// the stripes, and a thread's number decides which one it uses.
 #pragma once
 
 #include <cmath>
@@ -18,12 +18,12 @@
 
 namespace carrom {
 
-/// The pieces of one sum, the lowest first. Each stays whole for 2^31 terms.
+/// The pieces of one sum, the lowest first. They cannot overflow before 2^31 terms.
 struct SumPieces {
     std::uint64_t piece[4] = {};
 };
 
-/// Adds to pieces what ExactSum::add adds to a sum of that scale.
+/// Adds to the pieces of a sum of the same scale what ExactSum::add would add.
 class DeviceSum {
 public:
     CARROM_DEVICE DeviceSum(SumPieces& pieces, double scale) : pieces_(pieces), scale_(scale) {}
@@ -32,10 +32,11 @@ public:
     CARROM_DEVICE void add_units(std::int64_t units) {
         if (units == 0) return;
         carrom::add(pieces_.piece[0], static_cast<std::uint64_t>(units) & 0xffffffff);
-        carrom::add(pieces_.piece[1], static_cast<std::uint64_t>(units >> 32)); // keeps the sign
+        // The sign is in the highest piece
+        carrom::add(pieces_.piece[1], static_cast<std::uint64_t>(units >> 32));
     }
     CARROM_DEVICE void add(double term) {
-        const double scaled = term * scale_; // exact: the scale is a power of two
+        const double scaled = term * scale_; // exact, because the scale is a power of two
         if (std::fabs(scaled) < 0x1p62)
             add_units(static_cast<std::int64_t>(scaled));
         else
@@ -43,7 +44,7 @@ public:
     }
 
 private:
-    /// Such a number is whole, and cutting pieces from it is exact.
+    /// Such a number is whole, so it can be cut into pieces exactly.
     CARROM_DEVICE void add_large(double scaled) {
         double rest = std::fabs(scaled);
         for (int k = 3; k >= 0; --k) {
@@ -72,20 +73,20 @@ struct DeviceStress {
     DeviceSum xx, xy, yy, energy;
 };
 
-/// Takes the place of StressTerms, and lets no term wait.
+/// Replaces StressTerms: each term is added at once.
 struct DeviceTerms {
     CARROM_DEVICE void add(double ix, double iy, const Separation& to, DeviceStress& sums) const {
         add_impulse(sums, ix, iy, to);
     }
 };
 
-/// Adds to `sums` what threads have added to the stripes.
+/// Adds the sums of all stripes to `sums`.
 inline void add_stripes(std::span<const StressPieces> stripes, StressSums& sums) {
     __extension__ typedef __int128 Wide; // NOLINT: nvcc takes the extension of no other form
     const auto add = [&](ExactSum& sum, SumPieces StressPieces::* pieces) {
         Wide total = 0;
         for (const StressPieces& stripe : stripes)
-            for (int k = 0; k < 4; ++k) // pieces have signs
+            for (int k = 0; k < 4; ++k) // pieces can be negative
                 total += static_cast<Wide>(static_cast<std::int64_t>((stripe.*pieces).piece[k]))
                          << (32 * k);
         sum.add_words(static_cast<std::uint64_t>(total), static_cast<std::uint64_t>(total >> 64));

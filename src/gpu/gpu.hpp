@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether this program can use a GPU, and engines on it.
+// Whether this program can use a GPU, and how to make engines on it.
 //
 // The module is the same for every build. A build with -DCARROM_CUDA=ON links the kernels, which
 // `program_gpu` then has; tests put the serial device in their place.
@@ -21,7 +21,7 @@ namespace carrom {
 std::unique_ptr<Engine> make_gpu_engine(const SceneParameters& scene, StoredState state,
                                         const Communicator& communicator, const Tuning& tuning);
 
-/// What makes engines, and the device that they are made for.
+/// A function that makes engines, and the device for them.
 struct Gpu {
     const DeviceKind* device = nullptr;
     std::unique_ptr<Engine> (*make_engine)(const DeviceKind& device, const SceneParameters& scene,
@@ -31,7 +31,7 @@ struct Gpu {
 /// The GPUs of this program; it has none if it was built without CUDA.
 Gpu& program_gpu();
 
-/// See Gpu. It is compiled only where there are kernels.
+/// See Gpu. Compiled only together with kernels.
 std::unique_ptr<Engine> make_gpu_engine_on(const DeviceKind& device, const SceneParameters& scene,
                                            StoredState state, const Communicator& communicator,
                                            const Tuning& tuning);

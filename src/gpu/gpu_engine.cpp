@@ -18,11 +18,11 @@ namespace carrom {
 
 namespace {
 
-/// By how much discs may become faster in a window before it is cut short: in equilibrium, and
-/// after a window that was cut.
+/// The speed allowance of a window, relative to the largest speed: in equilibrium, and after a
+/// window that was cut short.
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
-/// Brings numbers along discs into another order of the discs. Ids are 0 to n - 1.
+/// Rearranges numbers along discs for another order of the discs. Ids are 0 to n - 1.
 void follow(SideColumns& columns, std::span<const DiscId> old_ids,
             std::span<const DiscState> discs) {
     std::vector<std::size_t> place_of(old_ids.size());
@@ -57,13 +57,13 @@ template <class Dynamics> void GpuEngine<Dynamics>::put_states() {
     is_host_current_ = true;
 }
 
-/// Discs come in the order of the device's memory.
+/// The discs arrive in the order of the device's memory.
 template <class Dynamics> void GpuEngine<Dynamics>::bring_states() const {
     if (is_host_current_) return;
     const PhaseClock::Scope scope(*copying_time_, Phase::exchange);
     is_host_current_ = true;
     on_host_->forget_halo();
-    on_host_->drop_grid(); // it was made for the old order
+    on_host_->drop_grid(); // because it was made for the old order
     std::vector<DiscId> old_ids;
     bool has_columns = false;
     on_host_->columns().for_each([&](SideColumn) { has_columns = true; });
@@ -150,7 +150,8 @@ template <class Dynamics> void GpuEngine<Dynamics>::take_stress() {
     if (this->stress_) stepper_->take_stress(*this->stress_);
 }
 
-/// Whoever follows images of discs needs their flights one by one, so that sync is the host's.
+/// If a measurement follows images of discs, the host makes the sync, because it needs the flights
+/// one by one.
 template <class Dynamics> double GpuEngine<Dynamics>::restart_states() {
     if (!this->crossings_.empty()) {
         bring_states();

@@ -2,8 +2,8 @@
 // The time-stepped method on a device. The discs stay in its memory, and their states come to the
 // host where something reads them: measurements, checkpoints, lines of discs, totals.
 //
-// The host chooses windows and reads a handful of numbers after each. A device does no parts of
-// micro-steps: where discs are fast a window is one micro-step, and its cells allow for all of it.
+// The host chooses windows and reads a handful of numbers after each. A device does not divide
+// micro-steps: if discs are fast, a window is one micro-step, and its cells allow for all of it.
 #pragma once
 
 #include <cstdint>
@@ -47,12 +47,14 @@ private:
 
     DeviceFacts facts_;
     std::unique_ptr<Stepper> stepper_;
-    StripDiscs* on_host_ = nullptr;      ///< discs_, which reading may bring up to date
+    StripDiscs* on_host_ = nullptr; ///< discs_, which functions that only read may have to update
     PhaseClock* copying_time_ = nullptr; ///< phases_, for the same reason
     mutable bool is_host_current_ = true;
-    double window_speed_ = 0;        ///< the window's reach allows for it
-    double speed_allowance_ = 1.02;  ///< for the next window, over the largest speed
-    double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
+    double window_speed_ = 0; ///< speed that the window's reach allows for
+    /// Bound of speeds in the next window, relative to the largest speed
+    double speed_allowance_ = 1.02;
+    /// Collisions per disc and micro-step in the last sync interval
+    double hits_per_micro_step_ = 0;
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;
 };
 

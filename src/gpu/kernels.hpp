@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of the time-stepped method on a device, in the order in which a window runs them.
 // Each is a functor whose call with i is the work of one thread. A machine (serial_machine.hpp,
-// cuda_machine.hpp) calls it for all i, so that the same text runs on a GPU and, in tests, on the
+// cuda_machine.hpp) calls it for all i, so that the same code runs on a GPU and, in tests, on the
 // CPU.
 //
 //   PutIntoCells, Scatter    bring discs into the order of their cells
@@ -17,15 +17,16 @@
 //   Renew        finds it
 //   EndMicroStep empties the lists, and cuts the window short if discs are too fast for it
 //
-// At a sync Restart advances all discs. No kernel needs threads that act together, but for the
-// rounds, in which a block of threads waits for each other.
+// At a sync Restart advances all discs. Threads of a kernel are independent, except in the rounds,
+// where the threads of a block wait for each other.
 #pragma once
 
 #include "gpu/world.hpp"
 
 namespace carrom {
 
-/// Empties what the host reads after a window, or after a sync: `forgets_speed`.
+/// Resets the numbers that the host reads after a window. `forgets_speed` also resets the largest
+/// speed, after a sync.
 template <class D> struct Begin {
     World<D> world;
     bool forgets_speed;
@@ -36,8 +37,8 @@ template <class D> struct Begin {
     }
 };
 
-/// Slot i gets its cell and its place among the discs of the cell. In a periodic box the disc gets
-/// the image that is in the box at the window's anchor.
+/// Computes for slot i the cell and the place among the discs of the cell. In a periodic box the
+/// disc gets the image that is in the box at the window's anchor.
 template <class D> struct PutIntoCells {
     World<D> world;
     std::uint32_t *counts, *place_in_cell;
@@ -59,7 +60,7 @@ template <class D> struct PutIntoCells {
     }
 };
 
-/// Copies the disc of slot i to where its cell begins, and further by its place in the cell.
+/// Copies the disc of slot i to the first place of its cell plus its place in the cell.
 template <class D> struct Scatter {
     PutIntoCells<D> put;
     DiscState* sorted;
@@ -83,7 +84,7 @@ template <class D> struct Predict {
     }
 };
 
-/// Thread i looks at eight discs, because nearly all of them have nothing to do.
+/// Thread i handles eight discs, because nearly all of them have nothing to do.
 template <class D> struct Collect {
     static constexpr std::uint32_t at_once = 8;
     World<D> world;
@@ -131,8 +132,8 @@ private:
     }
 };
 
-/// Rounds over the discs that wait. In each of them the first candidate of all that are left is
-/// mutual, so rounds come to an end.
+/// Rounds over the discs that wait. In each round the first of all remaining candidates is mutual,
+/// so the rounds end.
 template <class D> struct Waiting {
     World<D> world;
     int m;
@@ -143,13 +144,13 @@ template <class D> struct Waiting {
     CARROM_DEVICE const std::uint32_t* size(int round) const {
         return &world.counters->n_waiting[counter_of(round)];
     }
-    /// One thread empties the next round's list.
+    /// One thread resets the next round's list.
     CARROM_DEVICE void begin(int round) const {
         world.counters->n_waiting[counter_of(round + 1)] = 0;
     }
     CARROM_DEVICE void search(int round, std::uint32_t i) const {
         const LocalIndex k = world.waiting[round % 2][i], partner = world.partner[k];
-        if (world.taken[partner] == 0) return; // a wall is met at once, so this is a disc
+        if (world.taken[partner] == 0) return; // a disc, because walls have been handled already
         NextEvent next = world.first_event(k, m, true);
         if (next.micro != world.number_of(m)) next = {};
         world.set_event(k, next);
@@ -218,8 +219,8 @@ private:
     }
 };
 
-/// For a disc that has a new state: lists the discs near it whose first candidate was with it, or
-/// that meet it before that now.
+/// For a disc with a new state, lists the nearby discs whose first candidate was with it, or that
+/// now meet it before their first candidate.
 template <class D> struct Mark {
     World<D> world;
     int m;
@@ -242,7 +243,7 @@ private:
         if (!world.dynamics.has_pairs()) return false;
         NextEvent event = world.meeting(p, other, image, m + 1);
         if (event.partner == no_partner) return false;
-        event.partner = k; // as the other disc sees it
+        event.partner = k; // the event from the other disc's side
         event.image_x = static_cast<std::int16_t>(-image.x);
         event.image_y = static_cast<std::int16_t>(-image.y);
         return world.is_before(other, event, world.event(other));
@@ -274,10 +275,10 @@ template <class D> struct EndMicroStep {
     }
 };
 
-/// What all discs do at a sync: they are at its time, and times count from there.
+/// The sync: advances all discs to its time, from which times count afterwards.
 template <class D> struct Restart {
     World<D> world;
-    double time; ///< of the sync
+    double time; ///< time of the sync
     bool ends_flights;
 
     CARROM_DEVICE void operator()(std::uint32_t i) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A device that is the CPU, for tests: its memory is the host's, and it calls kernels for one index
-// after the other. What it gives is what a GPU gives, because no kernel depends on the order of its
+// after the other. Its results equal those of a GPU, because no kernel depends on the order of its
 // threads.
 #pragma once
 
@@ -36,26 +36,26 @@ struct SerialMachine {
     template <class Kernel> static void for_each(std::uint32_t n, const Kernel& kernel) {
         for (std::uint32_t i = 0; i < n; ++i) kernel(i);
     }
-    /// The number is in the device's memory; it is at most `most`.
+    /// The number of threads is in the device's memory; it is at most `most`.
     template <class Kernel>
     static void for_each_of(const std::uint32_t* n, std::uint32_t /*most*/, const Kernel& kernel) {
         for_each(*n, kernel);
     }
-    /// Round `round` of kernels such as Waiting, with all threads of the device.
+    /// Runs round `round` of kernels such as Waiting, with all threads of the device.
     template <class Rounds>
     static void run_round(const Rounds& rounds, int round, std::uint32_t /*most*/) {
         const std::uint32_t n = *rounds.size(round);
         for (std::uint32_t i = 0; i < n; ++i) rounds.search(round, i);
         for (std::uint32_t i = 0; i < n; ++i) rounds.match(round, i);
     }
-    /// All further rounds, with one block of threads.
+    /// Runs all further rounds, with one block of threads.
     template <class Rounds> static void finish_rounds(const Rounds& rounds, int round) {
         for (; *rounds.size(round) > 0; ++round) {
             rounds.begin(round);
             run_round(rounds, round, 0);
         }
     }
-    /// Replaces each number by the sum of those before it.
+    /// Replaces each number by the sum of the numbers before it.
     static void sum_before(std::uint32_t* numbers, std::uint32_t n, Scratch& /*scratch*/) {
         std::uint32_t sum = 0;
         for (std::uint32_t i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs in the memory of a device, which steps them. This is all that an engine sees of a device,
+// Discs in the memory of a device, which steps them. Engines use devices only through this header,
 // so that a compiler for GPUs gets as little of the program as possible.
 #pragma once
 
@@ -16,20 +16,21 @@
 
 namespace carrom {
 
-/// What an engine asks of a window. Lengths are the scene's; speeds are per micro-step.
+/// The arguments of a window. Lengths are the scene's; speeds are per micro-step.
 struct DeviceWindow {
     Window window;
     double reach = 0; ///< see reach_of
-    double speed = 0; ///< the reach allows for it; the window is cut short if a disc is faster
-    double flown = 0; ///< how long flights have gathered stress before the last sync
-    double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: none are taken
+    double speed = 0; ///< speed that the reach allows for; a faster disc cuts the window short
+    double flown = 0; ///< time of flights before the last sync that are not in the sums yet
+    double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: no stress is summed
 };
 
-/// What a window has come to.
+/// The results of a window.
 struct DeviceOutcome {
-    int n_micro = 0;                            ///< micro-steps that are done
-    double squared_speed = 0;                   ///< the largest one since the last sync
-    std::uint64_t n_candidates = 0, n_kept = 0; ///< since the stepper was made
+    int n_micro = 0;          ///< number of completed micro-steps
+    double squared_speed = 0; ///< square of the largest speed since the last sync
+    /// Candidates found and carried out since the stepper was made
+    std::uint64_t n_candidates = 0, n_kept = 0;
 };
 
 /// A device's discs. Failures of the device throw CollectiveError.
@@ -42,26 +43,26 @@ public:
 
     /// Replaces the discs; their number never changes.
     virtual void put(std::span<const DiscState> discs) = 0;
-    /// The discs in the order of the device's memory.
+    /// Copies the discs in the order of the device's memory.
     virtual void get(std::span<DiscState> discs) = 0;
     virtual DeviceOutcome run(const DeviceWindow& window) = 0;
     /// Brings all discs to `time`, which is 0 from now on (EngineBase::restart_states), and returns
     /// the largest squared speed. `window` gives `flown` and the scale.
     virtual double restart(double time, bool ends_flights, const DeviceWindow& window) = 0;
-    /// Adds to `sums`, of the scale that windows had, what has been gathered, and forgets it.
+    /// Adds the stress since the last call to `sums`, whose scale is that of the windows.
     virtual void take_stress(StressSums& sums) = 0;
 };
 
-/// Bytes of the device's memory that a disc needs, and that any run needs.
+/// Device memory in bytes for each disc, and for any run.
 constexpr std::uint64_t device_bytes_per_disc = 152, device_bytes_of_run = std::uint64_t{64} << 20;
 
 /// A kind of device. There is one for each way to compile the kernels.
 class DeviceKind {
 public:
     virtual ~DeviceKind() = default;
-    /// Of the device that this process uses. Throws CollectiveError if there is none.
+    /// Facts about the device that this process uses. Throws CollectiveError if there is none.
     virtual DeviceFacts facts() const = 0;
-    /// Discs that move like that; `species` has the table that the motion looks up.
+    /// Makes a stepper for discs with this motion; `species` owns the table that the motion reads.
 #define CARROM_DECLARE(Dynamics)                                                                   \
     virtual std::unique_ptr<Stepper> make_stepper(const MotionOf<Dynamics>& motion,                \
                                                   const SpeciesTable& species,                     \

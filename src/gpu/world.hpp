@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What kernels of a window see: plain pointers into the device's memory, and how a disc's next
-// event is kept.
+// The data of a window's kernels: plain pointers into the device's memory, and the representation
+// of a disc's next event.
 //
-// Each disc has its first candidate of the window: of all its contacts the one that is first by
-// micro-step, and then by the total order. A micro-step decides and carries out those candidates
-// alone. So a micro-step in which few discs collide touches few discs.
+// For each disc its first candidate of the window is stored: the contact that is first by
+// micro-step, and then by the total order. A micro-step handles only the candidates in it. So a
+// micro-step in which few discs collide touches few discs.
 #pragma once
 
 #include <cstdint>
@@ -23,35 +23,36 @@
 
 namespace carrom {
 
-/// In place of a partner: the disc has no candidate.
+/// Replaces a partner: the disc has no candidate.
 inline constexpr LocalIndex no_partner = wall_index - 1;
-/// In place of a micro-step, counted from the window's start.
+/// Replaces a micro-step, which is counted from the window's start.
 inline constexpr std::uint8_t no_micro = 255;
 static_assert(longest_window < no_micro);
 
 /// A disc's first candidate.
 struct NextEvent {
-    double time = 0;                       ///< in-step time of its micro-step
+    double time = 0;                       ///< time within its micro-step, 0 to 1
     LocalIndex partner = no_partner;       ///< slot of the other disc, or `wall_index`
-    std::int16_t image_x = 0, image_y = 0; ///< the other disc is displaced by so many boxes
+    std::int16_t image_x = 0, image_y = 0; ///< displacement of the other disc's image, in boxes
     std::uint8_t micro = no_micro;
 };
 
-/// How many rounds discs of a list may wait before one block of threads does the rest.
+/// Number of rounds that use the whole device; afterwards one block of threads does the rest.
 inline constexpr int rounds_of_all = 2;
 
-/// Numbers that kernels add to, and the host reads after a window.
+/// Numbers that kernels increase, and the host reads after a window.
 struct DeviceCounters {
     std::uint32_t n_active = 0;  ///< discs with a candidate in the present micro-step
-    std::uint32_t n_changed = 0; ///< discs that need another first candidate
+    std::uint32_t n_changed = 0; ///< discs whose first candidate must be found again
     std::uint32_t n_waiting[rounds_of_all + 2] = {};
-    std::uint32_t is_cut = 0;                   ///< discs are too fast for the rest of the window
-    std::uint32_t n_micro = 0;                  ///< micro-steps of the window that are done
-    std::uint64_t n_candidates = 0, n_kept = 0; ///< since the run began
-    Largest squared_speed;                      ///< since the last sync, or of all discs
+    std::uint32_t is_cut = 0;  ///< 1 if discs are too fast for the rest of the window
+    std::uint32_t n_micro = 0; ///< completed micro-steps of the window
+    /// Candidates found and carried out since the run began
+    std::uint64_t n_candidates = 0, n_kept = 0;
+    Largest squared_speed; ///< since the last sync, or over all discs
 };
 
-/// Everything that kernels of a window use. All arrays but the last ones run along the slots.
+/// All data of a window's kernels. All arrays but the last ones are indexed by slot.
 template <class D> struct World {
     explicit World(const D& of_scene) : dynamics(of_scene) {}
 
@@ -59,18 +60,18 @@ template <class D> struct World {
     DeviceCells cells;
     Window window;
     std::uint32_t n = 0;
-    double squared_window_speed = 0; ///< the window's reach allows for it
-    double flown = 0;                ///< how long flights gathered stress before the last sync
-    double stress_scale = 0;         ///< 0: no stress is summed
+    double squared_window_speed = 0; ///< speed that the window's reach allows for, squared
+    double flown = 0;        ///< time of flights before the last sync that are not in the sums yet
+    double stress_scale = 0; ///< 0: no stress is summed
 
     DiscState* discs = nullptr;
     std::uint32_t* cell = nullptr;
-    double* time = nullptr; ///< this and the next four: the disc's NextEvent
+    double* time = nullptr; ///< the disc's NextEvent is in this and the next four arrays
     LocalIndex* partner = nullptr;
     std::int16_t *image_x = nullptr, *image_y = nullptr;
     std::uint8_t* micro = nullptr;
     std::uint8_t* taken = nullptr;      ///< the disc takes part in an event of this micro-step
-    std::uint32_t* is_listed = nullptr; ///< among `changed`
+    std::uint32_t* is_listed = nullptr; ///< whether the disc is in `changed`
     LocalIndex *active = nullptr, *changed = nullptr;
     LocalIndex* waiting[2] = {};
 
@@ -94,7 +95,7 @@ template <class D> struct World {
     CARROM_DEVICE DeviceStress stress(std::uint32_t thread) const {
         return {stripes[thread % n_stripes], stress_scale};
     }
-    /// The disc in this slot, displaced by so many boxes.
+    /// The disc in this slot, displaced by `image` in boxes.
     CARROM_DEVICE DiscState displaced(LocalIndex slot, Image image) const {
         DiscState disc = discs[slot];
         if constexpr (D::is_periodic) move_image(disc, image);
@@ -110,8 +111,8 @@ template <class D> struct World {
         }
         return candidate;
     }
-    /// Whether one candidate of disc k comes before another one of it. Where two images of a disc
-    /// touch k at once, which one comes first is fixed, too.
+    /// Whether one candidate of disc k comes before another one of it. If two images of a disc
+    /// touch k at the same time, the order of the images is fixed, too.
     CARROM_DEVICE bool is_before(LocalIndex k, const NextEvent& a, const NextEvent& b) const {
         if (b.partner == no_partner) return a.partner != no_partner;
         if (a.micro != b.micro) return a.micro < b.micro;
@@ -124,8 +125,8 @@ template <class D> struct World {
         return sign * a.image_y < sign * b.image_y;
     }
 
-    /// The candidate of disc k, which is in the state `p`, with the disc in another slot, from
-    /// micro-step `from` on.
+    /// The candidate of disc k in the state `p` and the disc in another slot, from micro-step
+    /// `from` on.
     CARROM_DEVICE NextEvent meeting(const DiscState& p, LocalIndex other, Image image,
                                     int from) const {
         const auto contact = D::is_periodic
@@ -153,13 +154,12 @@ template <class D> struct World {
         if (!dynamics.has_pairs()) return;
         const DiscState p = discs[k];
         cells.for_each_near(cell[k], [&](LocalIndex other, Image image) {
-            if (other == k) return; // an image of a disc never comes nearer to it
+            if (other == k) return; // an image of a disc never approaches the disc itself
             const NextEvent event = meeting(p, other, image, from);
             if (event.partner != no_partner) visit(event);
         });
     }
-    /// The first candidate of disc k from micro-step `from` on. Passes by discs that are taken, if
-    /// that is asked for.
+    /// The first candidate of disc k from micro-step `from` on. Can skip discs that are taken.
     CARROM_DEVICE NextEvent first_event(LocalIndex k, int from, bool passes_taken) const {
         NextEvent first = bounce(discs[k], from);
         for_each_meeting(k, from, [&](const NextEvent& event) {

@@ -14,20 +14,22 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A right program may round so many times worse than the runs by which growth is measured.
+/// A correct program may have roundings larger by this factor than the runs by which their growth
+/// is measured.
 constexpr double growth_margin = 1000;
-/// This factor for a single step from known numbers.
+/// The same factor for a single step from known numbers.
 constexpr double step_margin = 20;
-constexpr std::uint64_t own_runs = 6; ///< from the output's numbers, the others from near by
-/// In radii: roundings may decide which discs collide if differences are this large.
+/// The first ones vary the last digits of the output's numbers, the others vary the last bits
+constexpr std::uint64_t own_runs = 6;
+/// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
-/// In radii: a number with few digits in a line of others with more excuses no larger difference,
-/// because zeros at its end may be left out. A step does not follow from lines that all are
-/// coarser.
+/// In radii: the largest tolerance for a number with few digits in a line whose other numbers have
+/// more, because it may have lost zeros at its end. If all lines are coarser, the next step cannot
+/// be computed from them.
 constexpr double coarsest_digit = 0.01;
-/// In radii: an output whose numbers all have few digits excuses no larger difference.
+/// In radii: the largest tolerance for an output whose numbers all have few digits.
 constexpr double coarsest_output = 0.5;
-/// In box sides: roundings of a step in single precision, which has 24 bits, are smaller.
+/// In box sides: larger than the roundings of a step in single precision, which has 24 bits.
 constexpr double float_unit = 0x1p-21;
 /// In box sides: grading ends with a disc that is farther outside, because its numbers may
 /// overflow.
@@ -43,7 +45,7 @@ Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& str
              {scene.n_discs, scene.steps, scene.text_output == TextOutput::every_step}),
       digits_before_(scene.n_discs), is_counter_unknown_(scene.n_discs, false),
       counts_points_(counts_points) {
-    if (scene.steps > 0) points_.are_counters_right = false; // until they are seen
+    if (scene.steps > 0) points_.are_counters_right = false; // until counters have been compared
 }
 
 void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
@@ -70,14 +72,14 @@ void Grader::count_missing(std::int64_t step) {
         points_.n_missing += 1;
 }
 
-/// Returns whether grading goes on.
+/// Records a problem. Returns whether grading continues.
 bool Grader::note_problem(const std::string& problem) {
     points_.are_lines_whole = false;
     if (verdict_.empty()) verdict_ = problem;
     return counts_points_;
 }
 
-/// A step that is not there. Returns whether grading goes on.
+/// Records a missing step. Returns whether grading continues.
 bool Grader::note_missing(std::int64_t step) {
     const std::string problem = steps_.missing_problem(step);
     if (problem.empty()) return true;
@@ -85,7 +87,7 @@ bool Grader::note_missing(std::int64_t step) {
     return note_problem(problem) && steps_.next_line() && steps_.next_line()->step > step;
 }
 
-/// Lines behind the last step. Returns whether they are graded, as one step more.
+/// Handles lines after the last step. Returns whether they are graded, as one more step.
 bool Grader::note_more(std::int64_t step) {
     if (!steps_.next_line()) return false;
     return note_problem(steps_.more_problem()) && step == scene_.steps && steps_.is_next(step + 1);
@@ -105,7 +107,7 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     }
     finest_ = unlimited;
     for (const StudentLine& line : lines()) finest_ = std::min(finest_, line.finest_digit);
-    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show how they were rounded
+    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show the rounding
     finest_ = std::max(finest_, unit_of_float_);
     n_steps_ += 1;
     if (!can_grade(step)) {
@@ -118,13 +120,13 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
     const bool is_right = hold(aim, step);
     if (!is_right && !(counts_points_ && are_possible(step))) return false;
-    if (!is_right) has_left_runs_ = true; // the program's run is elsewhere by now
+    if (!is_right) has_left_runs_ = true; // the program's own run differs from here on
     go_on_from_lines(step, aim.discs);
     return true;
 }
 
-/// Makes the student's lines the state that the next step is graded from. `counters` has those of
-/// the rule, or is empty if they are unknown.
+/// Makes the student's lines the state that the next step is graded from. `counters` are those of
+/// the rule, or empty if they are unknown.
 void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& counters) {
     if (counters.empty()) is_counter_unknown_.assign(scene_.n_discs, true);
     own_before_ = own_state(counters, step);
@@ -135,7 +137,8 @@ void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& c
     written_before_ = step;
 }
 
-/// A step follows from the student's lines only if they are of the step before, and fine enough.
+/// A step can be computed from the student's lines only if they are of the step before, and precise
+/// enough.
 bool Grader::can_grade(std::int64_t step) const {
     if (!has_left_runs_) return true;
     return own_before_ && step - written_before_ == 1 &&
@@ -155,8 +158,8 @@ bool Grader::hold(const Aim& aim, std::int64_t step) {
     return are_places_right && are_counters_right;
 }
 
-/// False if step 0 is the input rounded to single precision. Then later steps are graded as if the
-/// student's numbers had as few digits.
+/// Returns false if step 0 is the input rounded to single precision. Then later steps are graded as
+/// if the student's numbers had as few digits.
 bool Grader::hold_precision(const Aim& aim) {
     const double unit = float_unit * setting_.box.longest();
     if (tolerance_ >= unit || !is_rounded_to_float(lines(), aim.discs, unit_)) return true;
@@ -168,18 +171,18 @@ bool Grader::hold_precision(const Aim& aim) {
     return false;
 }
 
-/// Checks what holds at any step, whatever roundings decide: finite numbers, centres in the box.
-/// With points it is enough that the rule can go on from the numbers.
+/// Checks conditions that hold at any step and for any roundings: finite numbers, and centres in
+/// the box. If points are counted, it is enough that the rule can continue from the numbers.
 bool Grader::are_possible(std::int64_t step) {
     const double longest = setting_.box.longest();
-    // A disc may be beyond its wall to the micro-step's end.
+    // A disc may be beyond its wall until the end of the micro-step.
     const double slack = counts_points_ ? farthest * longest : setting_.radius;
     for (const StudentLine& line : lines()) {
         const bool is_inside = line.x >= -slack && line.x <= setting_.box.x + slack &&
                                line.y >= -slack && line.y <= setting_.box.y + slack;
         const double speed = std::max(std::fabs(line.vx), std::fabs(line.vy));
         const double fastest = counts_points_ ? slack : std::numeric_limits<double>::max();
-        if (is_inside && speed <= fastest) continue; // false for NaN
+        if (is_inside && speed <= fastest) continue; // false also for NaN
         if (!verdict_.empty()) return false;
         verdict_ = fmt::format("line {}: step {}, disc {} is outside the box or not finite\n"
                                "rule: lines\n  each number is finite, and each centre in the box\n",
@@ -201,7 +204,7 @@ Grader::Aim Grader::aim_at(const ExpectedDiscs& expected) const {
     return aim;
 }
 
-/// The student's numbers as a state of the run, with these counters or none.
+/// The student's numbers as a state of the run, with these counters, or without counters.
 SharedState Grader::own_state(const std::vector<DiscState>& counters, std::int64_t step) const {
     SharedState state{setting_, {}, step * setting_.micro_steps};
     const auto tau = static_cast<double>(state.micro_steps_done % setting_.sync_every);
@@ -219,7 +222,7 @@ SharedState Grader::own_state(const std::vector<DiscState>& counters, std::int64
     return state;
 }
 
-/// Changes numbers to others that the student's program writes in the same way.
+/// Changes numbers to others that the student's program would write in the same way.
 void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     double* const numbers[] = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::uint64_t i = 0; i < 4; ++i) {
@@ -229,8 +232,8 @@ void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     }
 }
 
-/// One step of the rule from the student's own step before. The other runs begin as
-/// far away as the student's last digits allow.
+/// One step of the rule from the student's own step before. The other runs begin from states within
+/// the rounding of the student's last digits.
 Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
@@ -263,7 +266,7 @@ double Grader::difference_to(const std::vector<DiscState>& discs, double clock, 
         std::fabs(line.vx - disc.vx * unit_), std::fabs(line.vy - disc.vy * unit_)};
     double largest = 0;
     for (const double one : differences) {
-        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // also for NaN
+        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // true also for NaN
         largest = std::max(largest, one);
     }
     return largest;
@@ -281,8 +284,8 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// If roundings decide, a disc may be at any place to which a rounding leads. Equal times
-/// are not roundings: if a wrong choice between them gives the line, that is the mistake.
+/// If roundings decide, a disc may be at any position that a rounding can produce. Equal times are
+/// not roundings: if a wrong choice between them produces the line, that is the mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -334,7 +337,7 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
     return discs;
 }
 
-/// Notes the disc's line if it is the first that differs; returns false.
+/// Records the disc's line if it is the first that differs; returns false.
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
     if (!verdict_.empty()) return false;
     const StudentLine& line = lines()[id];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares a student's lines with the rule, step by step, on one rank.
 //
-// Before roundings can decide anything, lines are compared with the program's own run. Each
-// disc may be off by the tolerance and by the growth of roundings. Afterwards two right
-// programs have different discs, so each step is compared with the rule applied to the
-// student's own step before. A step that is missing or cannot be read is counted, and the later
-// ones are graded. Takes N lines of memory, and a plain step for each line later on.
+// At first lines are compared with the program's own run. Each disc may differ by the tolerance and
+// by the growth of roundings. Once roundings have grown to the size of discs, two correct programs
+// differ. Then each step is compared with the rule applied to the student's own step before. A step
+// that is missing or cannot be read is counted, and later steps are still graded. Takes the memory
+// of N lines, and later a step of the plain rule for each step.
 #pragma once
 
 #include <algorithm>
@@ -26,16 +26,16 @@ namespace carrom {
 
 class Grader {
 public:
-    /// `scene` and `stream` must outlive this. With `counts_points` grading goes on behind a wrong
+    /// `scene` and `stream` must outlive this. With `counts_points` grading continues after a wrong
     /// step, from the student's own lines.
     Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
            const std::string& name, bool counts_points);
 
-    /// Once this is true the program's runs are not needed any more.
+    /// Once this is true, the program's own runs are no longer needed.
     bool has_left_runs() const { return has_left_runs_; }
-    /// Reads the lines of that step, if it is there, and compares them with the rule. `expected` is
-    /// empty once roundings decide. Returns whether the next step is to be graded, which may be
-    /// one behind the last.
+    /// Reads the lines of that step, if there are any, and compares them with the rule. `expected`
+    /// is empty after `has_left_runs`. Returns whether to grade the next step, which may be one
+    /// after the last.
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
     /// Whether no line has differed so far.
     bool is_right() const { return verdict_.empty(); }
@@ -43,16 +43,17 @@ public:
     /// Whether all written steps so far were compared with the rule.
     bool has_graded_all() const { return n_not_graded_ == 0; }
 
-    /// Says which line differs, or in which sense the output is the same.
+    /// The line that differs, or in which sense the output is correct.
     std::string verdict() const;
 
 private:
-    /// The reference for a step.
+    /// The expected result of a step.
     struct Aim {
         std::vector<DiscState> discs;
         double clock = 0;
-        std::vector<double> allowed;                ///< by id; infinite if roundings decide
-        std::vector<std::vector<DiscState>> others; ///< results of other roundings
+        /// Allowed difference of each disc, by id; infinite if roundings decide
+        std::vector<double> allowed;
+        std::vector<std::vector<DiscState>> others; ///< results of the runs with other roundings
     };
 
     void note_growth(std::int64_t step, const ExpectedDiscs& expected);
@@ -88,18 +89,19 @@ private:
     RuleSetting setting_;
     double tolerance_, unit_;
     StudentSteps steps_;
-    std::optional<SharedState> before_;     ///< at the written step before, to go on from
-    std::optional<SharedState> own_before_; ///< that step by the student's lines
+    std::optional<SharedState> before_;     ///< the discs at the last graded step
+    std::optional<SharedState> own_before_; ///< the same step by the student's lines
     std::int64_t written_before_ = 0;
-    double unit_of_float_ = 0;              ///< if the student's numbers are in single precision
-    std::vector<double> digits_before_;     ///< StudentLine::last_digit
-    double finest_ = 0, finest_before_ = 0; ///< the finest last digit of any line of a step
+    double unit_of_float_ = 0; ///< nonzero if the student's numbers are in single precision
+    std::vector<double> digits_before_; ///< StudentLine::last_digit
+    /// The finest last digit of any line, now and at the step before
+    double finest_ = 0, finest_before_ = 0;
     std::vector<bool> is_counter_unknown_;
     bool has_left_runs_ = false;
     std::int64_t first_left_ = 0, n_steps_ = 0, n_not_graded_ = 0;
     std::optional<std::int64_t> first_drift_;
     double largest_ = 0;
-    std::string verdict_; ///< the first line that differs; empty before
+    std::string verdict_; ///< text about the first line that differs; empty if there is none
     bool counts_points_;
     Points points_;
 };

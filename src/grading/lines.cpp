@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t words_of_a_disc = 6, words_with_counters = 8;
 
-/// 0.01 for 1.25, 0.0001 for 1.25e-2; 0 for a whole number, which does not show its rounding.
+/// The unit of the last digit: 0.01 for 1.25, 0.0001 for 1.25e-2. It is 0 for a whole number, which
+/// does not show its rounding.
 double last_digit_of(std::string_view word) {
     const std::size_t point = word.find('.');
     if (point == std::string_view::npos) return 0;
@@ -54,7 +55,7 @@ std::uint64_t StudentOutput::count(std::string_view word) const {
     return *value;
 }
 
-/// A step and an id first, and as many words as a line of a disc has.
+/// Whether the line begins with a step and an id, and has as many words as the line of a disc.
 bool StudentOutput::is_disc() const {
     return (words_.size() == words_of_a_disc || words_.size() == words_with_counters) &&
            parse_id(words_[0]) && parse_id(words_[1]);
@@ -66,7 +67,7 @@ void StudentOutput::leave_out(std::string_view text) {
     left_out_ = trimmed(text);
 }
 
-/// Goes on to the next line of a disc.
+/// Reads on to the next line of a disc.
 bool StudentOutput::next_words() {
     std::string_view text;
     for (;;) {

@@ -15,27 +15,28 @@
 namespace carrom {
 
 struct StudentLine {
-    std::int64_t number = 0; ///< number of the line, from 1
+    std::int64_t number = 0; ///< line number, from 1
     std::int64_t step = 0;
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
-    double digits[4] = {}; ///< the value of one unit of the last digit of x, y, vx, vy; 0 if whole
-    double last_digit = 0; ///< the value of one unit of it, in the number with the fewest digits
-    double finest_digit = 0; ///< in the number with the most; infinite if all are whole numbers
+    double digits[4] = {}; ///< the unit of the last digit of x, y, vx, vy; 0 for a whole number
+    double last_digit = 0; ///< this unit for the number with the fewest digits
+    /// This unit for the number with the most digits; infinite if all are whole numbers
+    double finest_digit = 0;
     bool has_counters = false;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };
 
 class StudentOutput {
 public:
-    /// The stream must outlive this.
+    /// `stream` must outlive this.
     StudentOutput(std::istream& stream, std::string name);
 
-    /// The next line of a disc; false at the end. InputError if one of its numbers is none, or if
-    /// the output has other lines only.
+    /// The next line of a disc; false at the end. Throws InputError if a word is not a number, or
+    /// if no line of the output is a disc.
     bool next(StudentLine& line);
 
-    /// Names the lines that were left out; empty if there are none.
+    /// Describes the lines that were left out; empty if there are none.
     std::string remark() const;
 
 private:
@@ -51,7 +52,7 @@ private:
     std::vector<std::string_view> words_;
     bool has_discs_ = false;
     std::int64_t n_left_out_ = 0, first_left_out_ = 0;
-    std::string left_out_; ///< the first of them
+    std::string left_out_; ///< the first line that was left out
 };
 
 } // namespace carrom

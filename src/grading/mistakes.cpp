@@ -24,7 +24,7 @@ constexpr const char* stop_at_wall = "stop at a wall";
 constexpr const char* overlap = "overlap";
 constexpr const char* corner = "corner";
 
-/// Smaller deviations first, because the first one counts if several give the same lines.
+/// Smaller deviations come first, because the first one that produces the lines is reported.
 constexpr std::array known_mistakes{
     KnownMistake{Mistake::ties_by_higher_id, order,
                  "of collisions at equal times the one of the higher ids is kept"},
@@ -75,7 +75,7 @@ constexpr std::array known_mistakes{
     KnownMistake{Mistake::wall_missed, candidates, "a disc flew on freely through a wall"},
 };
 
-/// Mistakes that concern one disc are tried with this many.
+/// Mistakes about a single disc are tried with this many discs.
 constexpr std::size_t most_subjects = 4;
 
 std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, Mistake mistake,
@@ -92,7 +92,7 @@ std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, M
 
 bool agree(const GivenDisc& made, const GivenDisc& given) {
     const auto is_near = [&given](double a, double b) {
-        return std::fabs(a - b) <= given.tolerance; // false for NaN
+        return std::fabs(a - b) <= given.tolerance; // false also for NaN
     };
     return is_near(made.x, given.x) && is_near(made.y, given.y) && is_near(made.vx, given.vx) &&
            is_near(made.vy, given.vy);
@@ -109,8 +109,8 @@ bool concerns_one_disc(Mistake mistake) {
            mistake == Mistake::wall_missed;
 }
 
-/// The disc `wrong`, and a few others whose lines differ from those of the rule: one of them can be
-/// the reason why `wrong` meets another disc.
+/// The disc `wrong`, and a few others whose lines differ from those of the rule, because one of
+/// them may be the reason why `wrong` meets another disc.
 std::vector<DiscId> differing(const std::vector<GivenDisc>& made,
                               const std::vector<GivenDisc>& given, DiscId wrong) {
     std::vector<DiscId> ids{wrong};
@@ -198,7 +198,7 @@ bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vecto
 }
 
 bool can_explain(std::uint64_t n_discs, std::int64_t micro_steps) {
-    constexpr double most_pairs = 2e10; // a minute or two
+    constexpr double most_pairs = 2e10; // takes a minute or two
     const auto n = static_cast<double>(n_discs);
     return n * n / 2 * static_cast<double>(micro_steps) *
                static_cast<double>(known_mistakes.size() + 3 * most_subjects) <

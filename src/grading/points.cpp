@@ -38,7 +38,7 @@ std::string Points::text() const {
     const std::int64_t n_steps = n_graded + n_missing;
     if (n_steps == 0)
         sum.leave_out("steps");
-    else // rounded down, so that only a program without a mistake gets all points
+    else // rounded down, so that only a program without mistakes gets all points
         sum.add("steps", for_steps * n_right / n_steps, for_steps,
                 fmt::format(": {} of {} steps follow from the step before{}", n_right, n_steps,
                             n_missing > 0 ? fmt::format(", {} missing", n_missing) : ""));

@@ -30,7 +30,7 @@ auto place_in_order(const PlainRule::Candidate& c) {
     return std::make_tuple(c.t, c.p, is_wall(c) ? 0 : 1, c.q);
 }
 
-/// The place of a candidate in a wrong order.
+/// The place of a candidate in a wrong order of the mistake.
 std::tuple<double, double, double, double> place_by_mistake(const PlainRule::Candidate& c,
                                                             Mistake mistake) {
     const double t = c.t, p = static_cast<double>(c.p), pair = is_wall(c) ? 0 : 1,
@@ -117,7 +117,8 @@ double PlainRule::contact_time(const DiscState& p, const DiscState& q, double m)
     return contact.exists() ? (contact.base - m) + contact.delay : never;
 }
 
-/// The time at which discs collide by mistake that the rule lets pass through each other.
+/// The time of the collision of overlapping discs, which the rule lets pass through each other,
+/// with the mistake that makes them collide.
 double PlainRule::overlap_time(const DiscState& p, const DiscState& q, double m) const {
     const double sigma = 2 * setting_.radius;
     const double at = mistake_ == Mistake::overlap_at_end ? m + 1 : m;
@@ -168,7 +169,8 @@ void PlainRule::keep_candidates(double m) {
     }
 }
 
-/// Whether that mistake is made with this candidate: once, with a pair or a wall of `subject`.
+/// Whether this candidate is the one for the mistake: it happens once, with a pair or a wall of
+/// `subject`.
 bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake) {
     const bool is_its_own = candidate.p == subject_ ||
                             (!is_wall(candidate) && candidate.q == subject_);
@@ -178,7 +180,8 @@ bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake)
     return true;
 }
 
-/// The event-driven method inside the micro-step: after each collision its discs are searched anew.
+/// The event-driven method inside the micro-step: after each collision its discs are searched
+/// again.
 void PlainRule::keep_all_collisions(double m) {
     const auto sooner = [](const Candidate& a, const Candidate& b) {
         return place_in_order(a) < place_in_order(b);
@@ -220,9 +223,9 @@ void PlainRule::keep(const Candidate& candidate, double m) {
     if (is_first_of_subject(candidate, Mistake::one_disc_only)) discs_[subject_] = before;
 }
 
-/// Carries out a collision with the discs of the micro-step's start, as if each were the only one.
-/// The last collision of a disc says from where it flies on. Changes of velocity add up, unless the
-/// last one replaces those before, as in a program that writes the discs into a second array.
+/// Carries out each collision from the discs at the micro-step's start, as if it were the only one.
+/// A disc flies on from its last collision. Changes of velocity add up, or the last one replaces
+/// those before, as in a program that writes the discs into a second array.
 void PlainRule::keep_from_start(const Candidate& candidate, double m) {
     const auto change = [this](DiscId id, const DiscState& made) {
         const DiscState& start = start_[id];
@@ -272,7 +275,7 @@ void PlainRule::bounce(DiscState& disc, double m, double t) const {
     advance(disc, m + t);
     bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
     bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
-    if (!x_reverses && !y_reverses) { // every_candidate: another collision came before
+    if (!x_reverses && !y_reverses) { // for every_candidate, after an earlier collision
         const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
             return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;
         };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method for one process, with a switch for each mistake. `carrom
-// compare` finds the mistake that gives a student's line.
+// The time-stepped method in one process, with a switch for each mistake. `carrom compare` uses it
+// to find the mistake that produces a student's line.
 //
 // A micro-step tests all pairs whose paths may meet, sorts all candidates by the total order and
 // walks them. Without a mistake the decisions are the engine's. Price: up to N^2/2 predicates.
@@ -41,7 +41,7 @@ enum class Mistake {
     overlap_leaves,
     overlap_at_end,
     corner_on_one_axis,
-    one_disc_only, ///< these three concern one collision of the disc `subject`
+    one_disc_only, ///< for this one and the next two, the collision of the disc `subject`
     pair_missed,
     wall_missed,
 };
@@ -54,23 +54,23 @@ struct RuleSetting {
 
 class PlainRule {
 public:
-    /// A collision that may happen in a micro-step, and whether it does.
+    /// A possible collision of a micro-step, and whether it is carried out.
     struct Candidate {
-        double t = 0; ///< from the micro-step's start
+        double t = 0; ///< time since the micro-step's start
         DiscId p = 0, q = Collision::wall;
         bool is_kept = false;
     };
 
-    /// `discs` by id, as a DiscSystem stores them after `micro_steps_done`.
+    /// `discs` are in the order of ids, as a DiscSystem stores them after `micro_steps_done`.
     PlainRule(const RuleSetting& setting, std::vector<DiscState> discs,
               std::int64_t micro_steps_done, Mistake mistake = Mistake::none, DiscId subject = 0);
 
     void run_micro_step();
 
-    /// By id, at `clock()`.
+    /// The discs in the order of ids, at `clock()`.
     std::span<const DiscState> discs() const { return discs_; }
     double clock() const { return static_cast<double>(micro_steps_ % setting_.sync_every); }
-    /// The candidates of the last micro-step, in the order of decision.
+    /// The candidates of the last micro-step, in the order in which they were decided.
     std::span<const Candidate> candidates() const { return candidates_; }
 
 private:
@@ -97,9 +97,10 @@ private:
     double deepest_overlap_;
     Mistake mistake_;
     DiscId subject_;
-    bool has_missed_ = false; ///< the mistake about `subject` has been made
+    bool has_missed_ = false; ///< the mistake about `subject` has already been made
     std::vector<DiscState> discs_;
-    std::vector<DiscState> start_; ///< the discs at the micro-step's start, for `..._from_start`
+    /// The discs at the start of the micro-step, for `..._from_start`
+    std::vector<DiscState> start_;
     std::int64_t micro_steps_;
     std::vector<Candidate> candidates_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run that a student's output is compared with, and two runs of the same scene with
-// other roundings: one begins some last bits away, one also has the course program's
-// formulas. Their distance from the first run shows how far roundings have grown.
+// The run that a student's output is compared with, and two runs of the same scene with other
+// roundings: one begins with changed last bits, and one also uses the course program's formulas.
+// Their distance from the first run shows how much roundings have grown.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@
 
 namespace carrom {
 
-/// Discs on rank 0, by id.
+/// The expected discs, on rank 0, in the order of ids.
 struct ExpectedDiscs {
     std::vector<DiscState> discs;
     double clock = 0;
-    std::vector<double> spread; ///< the largest difference of a number in another run, per step
+    /// For each disc the largest difference of a number in another run, per step
+    std::vector<double> spread;
 };
 
 class ComparedRuns {
@@ -28,7 +29,7 @@ public:
     ComparedRuns(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const Communicator& ranks);
 
-    /// Goes on to that step. Rank 0 gets discs, the others nothing. **Collective.**
+    /// Advances the runs to that step. Rank 0 gets discs, the others an empty list. **Collective.**
     ExpectedDiscs at(std::int64_t step);
 
 private:
@@ -39,13 +40,14 @@ private:
     std::vector<std::unique_ptr<DiscSystem>> runs_;
 };
 
-/// A number from -1 to 1, the same for the same arguments.
+/// A random number from -1 to 1 that is a function of the arguments.
 double drawn(std::uint64_t id, std::uint64_t seed);
 
-/// `place` a few of its last bits up or down; 0 stays 0.
+/// `place` with its last few bits changed up or down; 0 stays 0.
 double nudged(double place, std::uint64_t id, std::uint64_t seed);
 
-/// The largest difference between the four numbers of two discs; `unit` multiplies velocities.
+/// The largest difference between the four numbers of two discs; `unit` is the factor of
+/// velocities.
 double difference(const DiscState& a, double clock_a, const DiscState& b, double clock_b,
                   double unit);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a student's output step by step. The lines of a step may come in any order of ids, because
-// a program that prints them so can be right all the same.
+// a program that prints them in another order can still be correct.
 #pragma once
 
 #include <cstdint>
@@ -14,42 +14,42 @@
 
 namespace carrom {
 
-/// What the task asks for.
+/// The steps that the task requires.
 struct WantedSteps {
     std::uint64_t n_discs = 0;
     std::int64_t last = 0;
-    bool are_all = false; ///< otherwise the last one alone has to be there
+    bool are_all = false; ///< false: only the last step is required
 };
 
 class StudentSteps {
 public:
-    /// The stream must outlive this.
+    /// `stream` must outlive this.
     StudentSteps(std::istream& stream, std::string name, const WantedSteps& wanted);
 
     bool is_due(std::int64_t step) const {
         return step == wanted_.last || (wanted_.are_all && step < wanted_.last);
     }
 
-    /// The first line that is not read yet; nothing at the end of the output.
+    /// The next line that has not been read; nothing at the end of the output.
     const std::optional<StudentLine>& next_line() const { return next_; }
     bool is_next(std::int64_t step) const { return next_ && next_->step == step; }
 
-    /// Reads all lines of the next step, which must exist. The functions below are about it.
+    /// Reads all lines of the next step, which must exist. The functions below describe this step.
     void read();
 
-    /// By id; all are of this step if it is whole.
+    /// In the order of ids; all lines are of this step if it is whole.
     const std::vector<StudentLine>& lines() const { return lines_; }
     bool is_whole() const { return is_whole_; } ///< each disc has exactly one line
     bool has_counters() const { return n_counters_ == lines_.size(); }
-    /// What is wrong with the form of the lines, or empty. The last step that is there may have
-    /// counters, even if it should not be the last.
+    /// The problem with the form of the lines, or empty. The last step of the output may have
+    /// counters, even if it is too early.
     const std::string& problem() const { return problem_; }
-    /// Whether each disc has a line, and the order of lines is what `problem` is about.
+    /// Whether every disc has a line and `problem` is only about the order of lines.
     bool is_only_in_other_order() const { return is_whole_ && !is_in_order_; }
 
-    /// Why it is wrong that the next line is not of `step`, or empty.
+    /// The problem if the next line does not belong to `step`, or empty.
     std::string missing_problem(std::int64_t step) const;
-    /// Why it is wrong that the next line exists.
+    /// The problem that there is a line after the last step.
     std::string more_problem() const;
 
     /// See StudentOutput.
@@ -65,7 +65,7 @@ private:
     StudentOutput output_;
     std::optional<StudentLine> next_;
     std::vector<StudentLine> lines_;
-    std::vector<bool> is_there_; ///< by id
+    std::vector<bool> is_there_; ///< by id: whether the step has a line of the disc
     bool is_whole_ = false, is_in_order_ = true;
     std::uint64_t n_counters_ = 0;
     std::string problem_;

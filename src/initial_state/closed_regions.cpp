@@ -13,8 +13,8 @@ namespace carrom {
 
 namespace {
 
-/// Distance of points over the smallest radius. A step between two points crosses no segment if
-/// this is at most 2/3, because one of the points would be blocked.
+/// Distance between points, relative to the smallest radius. If it is at most 2/3, a step between
+/// two points cannot cross a segment, because one of them would be blocked.
 constexpr double spacing = 0.66;
 constexpr double most_points = 0x1p22;
 
@@ -52,7 +52,7 @@ public:
 
     bool are_several() const { return sizes_.size() > 1; }
     std::size_t n() const { return sizes_.size(); }
-    /// The region that shuts the place in, or -1.
+    /// The number of the closed region that contains the position, or -1.
     std::int32_t closed_region(double x, double y) const {
         const std::int32_t region = region_of_[index(column_of(x), row_of(y))];
         const bool is_shut = region >= 0 && region != largest_ &&
@@ -82,7 +82,7 @@ private:
         return (static_cast<double>(row) + 0.5) * box_.y / static_cast<double>(n_rows_);
     }
 
-    /// Blocks the points outside of a box of another shape.
+    /// Blocks the points outside of a box that is not a rectangle.
     void block_outside(const Container& container) {
         if (container.is_rectangle()) return;
         for (std::int64_t column = 0; column < n_columns_; ++column)
@@ -117,7 +117,8 @@ private:
             }
     }
 
-    /// Gives the region of a point its number, and returns how many points it has.
+    /// Gives all points of a region its number, starting from one point, and returns how many they
+    /// are.
     std::uint64_t fill(std::size_t first) {
         const auto number = static_cast<std::int32_t>(sizes_.size());
         std::uint64_t n_points = 0;
@@ -145,7 +146,7 @@ private:
         to_visit_.push_back(index(column, row));
     }
 
-    /// Gives regions at open sides the size 0, because their discs can leave.
+    /// Sets the size of regions at open sides to 0, because their discs can leave.
     void let_out(const Effects& effects) {
         const auto is_open = [&](std::size_t side) {
             return effects.boundaries[side].kind == BoundaryKind::open;
@@ -167,8 +168,9 @@ private:
     Box box_;
     bool is_periodic_x_, is_periodic_y_;
     std::int64_t n_columns_ = 0, n_rows_ = 0;
-    std::vector<std::int32_t> region_of_; ///< by column, then row
-    std::vector<std::uint64_t> sizes_;    ///< points of each region
+    /// Number of the region of each point, by column, then row
+    std::vector<std::int32_t> region_of_;
+    std::vector<std::uint64_t> sizes_; ///< number of points in each region
     std::vector<std::size_t> to_visit_;
     std::int32_t largest_ = 0;
 };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds discs that random insertion has put where obstacles shut them off from the other discs, as
-// inside a polygon of segments. There they have another density than the scene seems to say.
+// Finds discs that random insertion has placed in regions that obstacles separate from the other
+// discs, such as the inside of a polygon of segments. The density there differs from that of the
+// rest, which the author of a scene may not expect.
 //
-// The box is covered with points two thirds of the smallest radius apart. Those where the smallest
-// disc would overlap an obstacle by more than that are blocked, and those near the lines across
-// gaps that are too narrow (narrow_gaps.hpp). A flood fill finds which others hang together. So a
-// gap counts as a way out if the smallest disc fits through. A region at an open side has a way
-// out. Four bytes and a few nanoseconds a point on each rank.
+// The box is covered with points that are two thirds of the smallest radius apart. A point is
+// blocked if the smallest disc there would overlap an obstacle by more than this distance, or if it
+// is near a line across a gap that is too narrow (narrow_gaps.hpp). A flood fill finds the
+// connected regions of the other points. So two regions are connected if the smallest disc fits
+// through the gap between them. A region at an open side counts as open. Cost: four bytes and a few
+// nanoseconds a point on each rank.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +20,12 @@
 namespace carrom {
 
 struct ShutInDiscs {
-    std::uint64_t n_discs = 0; ///< outside the largest region
+    std::uint64_t n_discs = 0; ///< number of discs outside the largest region
     std::uint64_t n_regions = 0;
 };
 
-/// `discs` are in any distribution over the ranks. Nothing is found in boxes that would take more
-/// than four million points. **Collective.**
+/// `discs` are in any distribution over the ranks. Finds nothing if the box would need more than
+/// four million points. **Collective.**
 ShutInDiscs find_shut_in(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator);
 

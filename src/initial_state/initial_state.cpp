@@ -28,7 +28,7 @@ std::vector<InputDisc> listed_discs(const SceneParameters& scene,
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// Places one disc on each site; `place_of` gives the place of a site.
+/// Places one disc on each site; `place_of` returns the position of a site.
 template <class PlaceOf>
 std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
                                       const Communicator& communicator, const PlaceOf& place_of) {
@@ -37,7 +37,8 @@ std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
     discs.reserve(last - first);
     const std::uint64_t stride = scene.effects.species.empty() ? 1 : mixing_stride(scene.n_discs);
     for (DiscId id = first; id < last; ++id) {
-        const Point place = place_of(id * stride % scene.n_discs); // below 2^64: ids are below 2^32
+        // No overflow, because ids are below 2^32
+        const Point place = place_of(id * stride % scene.n_discs);
         discs.push_back({id, place.x, place.y, 0, 0});
     }
     return discs;
@@ -95,7 +96,8 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
                                         const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
-    // Placing has hundreds of short parallel regions, in each of which all threads have to wake.
+    // The number of threads is limited, because placing has hundreds of short parallel regions, for
+    // each of which all threads have to wake.
     const std::uint64_t own = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
     return insert_at_random(scene, communicator, useful_threads(n_threads, own));
 }

@@ -13,13 +13,16 @@ namespace carrom {
 
 namespace {
 
-// Proposals of a rank in a batch. Few take less time than an exchange, many take memory.
+// Proposals of a rank in a batch. If there are too few, the exchange takes longer; if there are
+// many, they take memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
 constexpr std::uint64_t most_rounds = 4096; ///< in a batch
-/// Discs that find a place make the proposals of the batch's later rounds in vain.
+/// The largest share of discs that a batch should place, because their proposals in later rounds
+/// are useless.
 constexpr double most_placed_share = 0.25;
 
-/// Places that a batch finds, at most: each rank decides about all of them, one after the other.
+/// The largest number of places that a batch should find, because each rank decides about all of
+/// them, one after the other.
 std::uint64_t most_found(std::uint64_t n_discs) {
     return std::max<std::uint64_t>(1024, n_discs / 1024);
 }
@@ -58,11 +61,11 @@ std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& u
     return last;
 }
 
-/// Takes the discs that have found a place out of the list of those without one.
+/// Removes the placed discs from the list of unplaced ones.
 void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced) {
     std::ranges::sort(found, {}, &Notice::id);
     const std::size_t n_marks = std::bit_ceil(64 * found.size());
-    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by the last bits of the id
+    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by the last bits of ids
     for (const Notice& notice : found) may_be_found[notice.id % n_marks] = 1;
     std::erase_if(unplaced, [&](std::uint32_t id) {
         return may_be_found[id % n_marks] != 0 &&
@@ -88,10 +91,11 @@ void InsertionBatch::find_free() {
     }
 }
 
-/// Lists what overlaps a free proposal in its round and has a lower id, wherever it is refused.
+/// Lists the proposals that overlap a free proposal of the same round and have a lower id, whether
+/// or not they are rejected elsewhere.
 void InsertionBatch::find_rivals() {
     rivals_.clear();
-    std::vector<Notice> images; // those of free proposals, with themselves
+    std::vector<Notice> images; // free proposals and their periodic images
     for (const Notice& notice : free_)
         box_.for_images(notice, [&](Point at) {
             images.push_back({at.x, at.y, notice.id, notice.round});
@@ -122,7 +126,7 @@ void InsertionBatch::find_rivals() {
     }
 }
 
-/// Gives each rank the items of all. **Collective.**
+/// Sends the items of all ranks to every rank. **Collective.**
 template <class Item> void InsertionBatch::gather_on_all(std::vector<Item>& items) const {
     if (communicator_.size() == 1) return;
     items =
@@ -139,14 +143,15 @@ bool InsertionBatch::has_rival(const Notice& notice, const Counts& counts) const
     return false;
 }
 
-/// Returns the places that are found, in the order of rounds. A disc that has found its place makes
-/// no more proposals.
+/// Returns the places that are found, in the order of rounds. A placed disc makes no more
+/// proposals.
 std::vector<Notice> InsertionBatch::decide() {
     std::sort(free_.begin(), free_.end(), [](const Notice& a, const Notice& b) {
         return std::tie(a.round, a.id) < std::tie(b.round, b.id);
     });
     std::sort(rivals_.begin(), rivals_.end());
-    std::unordered_map<std::uint32_t, std::uint32_t> round_of; // by id
+    // For each placed disc the round, by id
+    std::unordered_map<std::uint32_t, std::uint32_t> round_of;
     std::vector<Notice> found;
     PointGrid near_found(0, box_.box().x, box_.box().y, box_.diameter(),
                          static_cast<double>(free_.size()));

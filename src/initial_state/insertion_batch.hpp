@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many rounds of random insertion at once, with the places that they would find one by one.
+// Judges many rounds of random insertion at once, with the same result as one by one.
 //
-// Once few places are left, nearly all proposals overlap a disc that had its place before. The few
-// others, and what they overlap in their round, go to all ranks, which decide alike, in the order
-// of rounds and ids. So thousands of rounds take one exchange, and threads share their proposals.
+// When little free space is left, nearly all proposals overlap a disc that has been placed. The few
+// other proposals, and those of the same round that they overlap, are sent to all ranks. All ranks
+// decide in the same way, in the order of rounds and ids. So thousands of rounds need one exchange,
+// and threads share the proposals.
 #pragma once
 
 #include <compare>
@@ -22,21 +23,20 @@ public:
                    PlacedDiscs& placed)
         : box_(box), communicator_(communicator), n_threads_(n_threads), placed_(placed) {}
 
-    /// Gives places to discs of `unplaced`, which are other discs on each rank, `n_left` together,
-    /// and takes them out of the list. Returns the last round in which a place was found, counted
-    /// from the first one.
-    /// **Collective.**
+    /// Places discs of `unplaced` and removes them from the list. Each rank has other discs in its
+    /// list, `n_left` in all. Returns the last round in which a place was found, counted from the
+    /// first one. **Collective.**
     std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced, std::uint64_t n_left,
                                        std::uint64_t first_round, std::uint64_t n_rounds);
 
-    /// How many rounds the next batch has, if the last one had `n_rounds` and gave places to
-    /// `n_placed` discs, and `n_left` have none. The numbers are those of all ranks.
+    /// The number of rounds of the next batch, if the last one had `n_rounds` and placed `n_placed`
+    /// discs, and `n_left` are still without a place. Numbers are sums over all ranks.
     std::uint64_t choose_rounds(std::uint64_t n_placed, std::uint64_t n_rounds,
                                 std::uint64_t n_left) const;
 
 private:
-    /// A proposal that overlaps a later one of the same round. The later one is refused then,
-    /// unless the disc of the earlier one has found a place in a round before.
+    /// A proposal that overlaps a later one of the same round. The later one is then rejected,
+    /// unless the disc of the earlier one has been placed in a previous round.
     struct Rival {
         std::uint32_t round = 0, id = 0, earlier = 0;
 
@@ -56,7 +56,7 @@ private:
     PlacedDiscs& placed_;
     RawVector<Notice> proposals_;
     std::vector<Notice> free_;  ///< proposals that overlap no disc placed before the batch
-    std::vector<Rival> rivals_; ///< of these
+    std::vector<Rival> rivals_; ///< overlaps among free proposals and their periodic images
 };
 
 } // namespace carrom

@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// Ranks that have many discs exchange about this many proposals at once, because what is sent and
-/// what is received take as much memory as the proposals, each.
+/// Ranks that have many discs exchange about this many proposals at once, because the sent and the
+/// received data each take as much memory as the proposals.
 constexpr double most_at_once = 1 << 16;
 
 } // namespace
@@ -21,11 +21,12 @@ void InsertionBox::propose(const Proposers& proposers, std::span<const Notice> u
     const std::uint64_t n = proposers.ids.size() * proposers.n_rounds;
     concerning.clear();
     if (communicator_.size() == 1) return make_proposals(proposers, 0, n, n_threads, concerning);
-    // A list that grows is there twice for a while. Room that is not used takes no memory.
+    // Reserves all memory now, because a growing list exists twice for a while. Reserved memory
+    // that is not used takes no space.
     concerning.reserve(static_cast<std::size_t>(1.1 * static_cast<double>(n + updates.size())) +
                        1000);
     const double n_of_rank = static_cast<double>(proposers.n_of_all * proposers.n_rounds) /
-                             communicator_.size(); // the same on all ranks
+                             communicator_.size(); // a number that is the same on all ranks
     const auto n_parts = static_cast<std::uint64_t>(std::min(n_of_rank, share()) / most_at_once) +
                          1;
     RawVector<Notice> made;
@@ -45,11 +46,11 @@ std::vector<Notice> InsertionBox::gather(const std::vector<InputDisc>& given) co
         visit_concerned(x, [&](std::size_t rank) { out[rank].push_back(notice); });
     }
     std::vector<Notice> all = send_to_owners(communicator_, out).items;
-    std::ranges::sort(all, {}, &Notice::id); // the same grid in every run
+    std::ranges::sort(all, {}, &Notice::id); // so that the grid is the same in every run
     return all;
 }
 
-/// Makes the proposals `first` to `end` - 1, counted round by round.
+/// Makes the proposals number `first` to `end` - 1, counted over all rounds.
 void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t first,
                                   std::uint64_t end, int n_threads, RawVector<Notice>& made) const {
     const std::size_t n = proposers.ids.size();
@@ -63,8 +64,8 @@ void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t firs
     }
 }
 
-/// Sends notices to the ranks that they concern, and appends what comes to `concerning`. A rank
-/// knows its own updates. **Collective.**
+/// Sends notices to the ranks that need them, and appends received ones to `concerning`. A rank
+/// does not send updates to itself. **Collective.**
 void InsertionBox::deliver(std::span<const Notice> notices, std::span<const Notice> updates,
                            int n_threads, RawVector<Notice>& concerning) const {
     std::vector<std::vector<Notice>> out(n_ranks());

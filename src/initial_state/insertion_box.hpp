@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box of random insertion: what is proposed where, which discs overlap, and which ranks hear of
-// a place. The box lies down: x is along the longer side, which strips cut.
+// The box of random insertion: how positions are proposed, which discs overlap, and which ranks
+// need a position. In its coordinates x is along the longer side, which strips cut.
 #pragma once
 
 #include <algorithm>
@@ -22,21 +22,21 @@
 
 namespace carrom {
 
-/// A proposal, or a place that has been found.
+/// A proposed position, or the final position of a disc.
 struct Notice {
     static constexpr std::uint32_t placed = 0xffffffff;
 
     double x = 0, y = 0;
     std::uint32_t id = 0;
-    std::uint32_t round = 0; ///< counted from the first one that is judged, or `placed`
+    std::uint32_t round = 0; ///< number of the round in the batch, or `placed`
 
     bool is_placed() const { return round == placed; }
 };
 
-/// The discs without a place that propose one, and the rounds in which they do.
+/// The discs that still need a position, and the rounds in which they propose one.
 struct Proposers {
-    std::span<const std::uint32_t> ids; ///< other discs on each rank
-    std::uint64_t n_of_all = 0;         ///< their number over all ranks
+    std::span<const std::uint32_t> ids; ///< each rank has other discs
+    std::uint64_t n_of_all = 0;         ///< number of these discs on all ranks
     std::uint64_t first_round = 0, n_rounds = 1;
 };
 
@@ -52,12 +52,12 @@ public:
             obstacles_.emplace(scene.box, scene.radius, scene.effects);
     }
 
-    double diameter() const { return diameter_; } ///< the largest discs'
+    double diameter() const { return diameter_; } ///< of the largest disc
     std::uint64_t n_discs() const { return scene_.n_discs; }
     double radius_of(DiscId id) const { return species_.of(id).radius; }
     const Box& box() const { return box_; }
     Axis axis() const { return axis_; }
-    /// Discs of a rank on average.
+    /// Mean number of discs of a rank.
     double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
 
     double strip_low() const {
@@ -67,11 +67,11 @@ public:
         return box_.x / communicator_.size() * (communicator_.rank() + 1) + margin();
     }
 
-    /// A grid for points of the strip, and within the margin of it.
+    /// A grid for points of the strip and of the margin around it.
     PointGrid grid(double n_points) const {
         return {strip_low(), strip_high(), box_.y, diameter_, n_points};
     }
-    /// So far from a place no disc that has a place there matters.
+    /// Distance beyond which two placed discs cannot overlap.
     double margin() const { return diameter_ * (1 + 1e-9); }
 
     std::size_t owner(double x) const {
@@ -127,7 +127,7 @@ public:
                ObstacleContact::no_body;
     }
 
-    /// Whether the disc has no place before insertion begins.
+    /// Whether the disc's position is found by insertion.
     bool is_random(DiscId id) const {
         DiscId end = 0;
         for (const DiscGroup& group : scene_.groups)
@@ -135,16 +135,17 @@ public:
         return true;
     }
 
-    /// The discs, which have places, that concern this rank. **Collective.**
+    /// Returns the placed discs that this rank needs, from the `given` ones. **Collective.**
     std::vector<Notice> gather(const std::vector<InputDisc>& given) const;
 
-    /// Makes the proposals of all ranks, by all threads, and lists those that concern this rank.
-    /// What others have found, `updates`, comes with them. **Collective.**
+    /// Makes the proposals of all ranks, by all threads, and lists those that this rank needs,
+    /// together with the `updates` of other ranks. **Collective.**
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
-    /// Calls `visit(place)` for a notice and those of its images that discs across a seam are near,
-    /// until it returns true. A grid files places beyond its ends in its last cells.
+    /// Calls `visit(place)` for the position of a notice and for those of its images that are near
+    /// discs across a seam, until it returns true. A grid puts positions beyond its ends into its
+    /// last cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;
@@ -159,7 +160,7 @@ public:
         return false;
     }
 
-    /// Whether disc `id` overlaps another one, if its centre is there.
+    /// Whether disc `id` with its centre at `at` overlaps another one.
     bool overlaps(DiscId id, Point at, const Notice& other) const {
         const double dx = other.x - at.x, dy = other.y - at.y,
                      distance = species_.of(id).radius + species_.of(other.id).radius;
@@ -167,7 +168,7 @@ public:
     }
 
 private:
-    /// The place of a disc in a region, for numbers from 0 to 1. Where a region goes all along a
+    /// The position of a disc in a region, for two numbers from 0 to 1. If a region covers a whole
     /// period, discs may lie across the seam.
     Point place_in(const StartRegion& region, double radius, Point numbers) const {
         const auto [x_low, y_low] = turned(axis_, region.x_low, region.y_low);

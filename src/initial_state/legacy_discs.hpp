@@ -33,12 +33,12 @@ private:
     random_data data_{};
 };
 
-/// All positions by id; nothing if the box is too full to find them in a bounded
-/// number of draws.
+/// All positions by id; nothing if the box is so full that a bounded number of draws does not find
+/// them.
 std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
                                                    LegacyRandom& random);
 
-/// The next disc's velocity per step. To be called in the order of ids, after the positions.
+/// The next disc's velocity per step. Call it in the order of ids, after `positions`.
 InputDisc legacy_disc(const SceneParameters& scene, LegacyRandom& random, DiscId id, Point place);
 
 } // namespace carrom

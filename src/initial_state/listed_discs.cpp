@@ -26,8 +26,8 @@ DiscReader::InParts on_threads(int n_threads) {
     };
 }
 
-/// The size of the scene's file of discs as rank 0 sees it, or 0 if it has no parts: it is no file,
-/// or a pipe. **Collective.**
+/// The size of the scene's file of discs on rank 0, or 0 if it cannot be read in parts because it
+/// is missing or a pipe. **Collective.**
 std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& communicator) {
     std::uint64_t n_bytes = 0;
     if (communicator.is_root()) {
@@ -41,8 +41,8 @@ std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& co
     return n_bytes;
 }
 
-/// Brings `file` to the first line of the rank's part. Lines belong to the part that they begin in,
-/// so the end of one that begins before is skipped.
+/// Brings `file` to the first line of the rank's part. A line belongs to the part in which it
+/// begins, so the end of a line that begins before is skipped.
 DiscReader::Part go_to_part(std::istream& file, std::uint64_t n_bytes,
                             const Communicator& communicator) {
     const auto [begin, end] = slab_of_rank(communicator.rank(), n_bytes, communicator.size());
@@ -59,7 +59,8 @@ bool is_each_once(const std::vector<InputDisc>& discs, const Slab& share) {
     return discs.size() == share.size() && std::ranges::find(seen, false) == seen.end();
 }
 
-/// Nothing if there is a fault in the file, or if not all ranks can read it. **Collective.**
+/// Reads the file by parts. Returns nothing if there is an error in it, or if not all ranks can
+/// read it. **Collective.**
 std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
                                                   const Communicator& communicator, int n_threads) {
     const std::uint64_t n_bytes = bytes_of_file(scene, communicator);
@@ -70,7 +71,8 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     const Slab share = share_of(scene, communicator);
     std::vector<InputDisc> discs, chunk;
     discs.reserve(share.size());
-    std::uint64_t n_ranks[2] = {}; // that may have more lines, that have found a fault
+    // Numbers of ranks that may have more lines, and that have found an error
+    std::uint64_t n_ranks[2] = {};
     do {
         const bool has_more = reader.read(chunk, discs_at_once, on_threads(n_threads));
         hand_out(chunk, scene, communicator, discs);
@@ -83,9 +85,9 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     return discs;
 }
 
-/// Lines of `discs.from`: each rank has those of its share, and rank 0 all others behind them.
-/// Nothing if there is a fault in them, or if not all ranks can read the file; then rank 0 is at
-/// its first line again. **Collective.**
+/// Reads the lines of `discs.from`: each rank reads its share, and rank 0 also has all others
+/// behind it. Returns nothing if a line has an error, or if not all ranks can read the file; rank 0
+/// is then at its first line again. **Collective.**
 std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, std::istream* lines,
                                                   const Communicator& communicator, int n_threads) {
     if (communicator.any(lines == nullptr)) return std::nullopt;
@@ -106,7 +108,7 @@ std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, 
     return std::nullopt;
 }
 
-/// Rank 0 reads all lines and hands them out. **Collective.**
+/// Rank 0 reads all lines and sends the discs to their ranks. **Collective.**
 std::vector<InputDisc> read_on_root(const SceneParameters& scene, std::istream* lines,
                                     const Communicator& communicator, int n_threads) {
     std::vector<InputDisc> discs, chunk;

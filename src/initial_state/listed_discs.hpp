@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads listed discs, and spreads discs of a reader over the ranks.
+// Reads listed discs, and distributes the discs of a reader over the ranks.
 //
-// A file of discs is read by all ranks at once, each a part of its bytes. Only if that finds a
-// fault does rank 0 read the file alone, because it then knows the numbers of lines and all ids,
-// which messages name.
+// All ranks read a file of discs at once, each a part of its bytes. If that finds an error, rank 0
+// reads the whole file again, because messages contain line numbers and ids, which only a reader of
+// the whole file knows.
 #pragma once
 
 #include <cstddef>
@@ -16,23 +16,23 @@
 
 namespace carrom {
 
-/// A rank reads or makes so many discs before it hands them out.
+/// A rank reads or makes this many discs before it sends them on.
 inline constexpr std::size_t discs_at_once = std::size_t{1} << 16;
 
-/// The ids whose discs a rank begins with.
+/// The ids of the discs that a rank starts with.
 inline Slab share_of(const SceneParameters& scene, const Communicator& communicator) {
     return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
 }
 
-/// Sends the ranks' chunks to the ranks whose shares of ids hold the discs, which append them to
+/// Sends the discs in `chunk` to the ranks whose shares of ids contain them, which append them to
 /// `discs`. **Collective.**
 void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
               const Communicator& communicator, std::vector<InputDisc>& discs);
 
-/// The rank's share of the discs in the scene's file, checkpoint or legacy text. `lines` is their
-/// stream on rank 0, which stands at the first disc; of a checkpoint it is that of the rank's share
-/// on others. What other ranks cannot open is read through rank 0 alone. Problems of lines and ids
-/// become an InputError on every rank. **Collective.**
+/// The rank's share of the discs in the scene's file, checkpoint or legacy text. `lines` is the
+/// stream on rank 0, at its first disc; for a checkpoint every rank has the stream of its share. A
+/// file that other ranks cannot open is read by rank 0 alone. Problems of lines and ids become an
+/// InputError on every rank. **Collective.**
 std::vector<InputDisc> read_listed_discs(const SceneParameters& scene, std::istream* lines,
                                          const Communicator& communicator, int n_threads);
 

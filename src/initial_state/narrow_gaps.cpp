@@ -11,9 +11,10 @@ namespace carrom {
 
 namespace {
 
-constexpr double rounding = 1e-9; ///< a gap that is narrower by this share only is wide enough
+/// A gap that is too narrow by only this share counts as wide enough
+constexpr double rounding = 1e-9;
 
-/// A segment and a round border about it; a disc is a segment without length.
+/// A segment with a rounded border of a width; a disc is a segment without length.
 struct Body {
     Segment line;
     double radius = 0;
@@ -27,7 +28,7 @@ struct Body {
 
 double length_of(const Segment& line) { return std::hypot(line.x1 - line.x0, line.y1 - line.y0); }
 
-/// From a point to the nearest one of a segment.
+/// The line from a point to the nearest point of a segment.
 Segment shortest(double x, double y, const Segment& to) {
     const double ex = to.x1 - to.x0, ey = to.y1 - to.y0, square = ex * ex + ey * ey;
     const double along = square > 0
@@ -36,7 +37,7 @@ Segment shortest(double x, double y, const Segment& to) {
     return {x, y, to.x0 + along * ex, to.y0 + along * ey};
 }
 
-/// Between two segments that do not cross, an end of one of them is nearest.
+/// The shortest line between two segments that do not cross. It starts at an end of one of them.
 Segment shortest(const Segment& a, const Segment& b) {
     Segment best = shortest(a.x0, a.y0, b);
     for (const Segment& other :
@@ -45,7 +46,7 @@ Segment shortest(const Segment& a, const Segment& b) {
     return best;
 }
 
-/// Obstacles, and those of their images that may narrow a gap in the box.
+/// Obstacles, and the images of obstacles that can narrow a gap in the box.
 std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
     const Box& box = scene.box;
     const bool is_x = scene.effects.is_periodic_x(), is_y = scene.effects.is_periodic_y();
@@ -69,7 +70,7 @@ std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
     return bodies;
 }
 
-/// Lines from ends of obstacles to walls that are nearer than `width`.
+/// Adds lines from ends of obstacles to walls that are closer than `width`.
 void add_walls(const SceneParameters& scene, const std::vector<Body>& bodies, double width,
                std::vector<Segment>& lines) {
     const Box& box = scene.box;

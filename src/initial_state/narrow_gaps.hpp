@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the gaps between obstacles that are too narrow for a disc, and draws a line across each.
 //
-// Where two obstacles are nearer than the disc's diameter, every point of the line between their
-// nearest points is nearer than a radius to one of them, so no centre of a disc crosses it. The
-// lines and the obstacles together so divide the box as the places of a disc are divided. A sweep
+// If two obstacles are closer than the disc's diameter, every point of the line between their
+// nearest points is within a radius of one of them, so no disc's centre crosses it. So the lines
+// and the obstacles together divide the box into the regions that a disc cannot leave. A sweep
 // along x finds the pairs: their number is about that of obstacles times those in a strip.
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace carrom {
 
 /// Lines across the gaps between obstacles, and between them and walls at rest, through which no
-/// disc of this radius fits. Where sides are periodic, images of obstacles count as well.
+/// disc of this radius fits. Images of obstacles beyond periodic sides are included.
 std::vector<Segment> lines_across_narrow_gaps(const SceneParameters& scene, double radius);
 
 } // namespace carrom

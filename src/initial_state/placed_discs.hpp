@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of random insertion that have places in a rank's strip or within the margin of it.
+// The discs of random insertion that have been placed in a rank's strip or within the margin of it.
 #pragma once
 
 #include <optional>
@@ -29,17 +29,17 @@ public:
         if (refused_places_) map(first);
     }
 
-    /// Makes a map that rejects most proposals of discs of at least this radius at once.
+    /// Makes a map that rejects most proposals of discs of at least this radius with one read.
     void map_refused(double smallest_radius) {
         refused_places_.emplace(box_.strip_low(), box_.strip_high(), box_.box().y, smallest_radius,
                                 box_.share());
         map(0);
     }
 
-    /// Before smaller discs are placed, to which other squares are open.
+    /// Drops the map, because smaller discs fit where it rejects. Call it before they are placed.
     void forget_map() { refused_places_.reset(); }
 
-    /// Whether a disc there would overlap one of these discs, or an obstacle.
+    /// Whether the disc of a proposal would overlap one of these discs, or an obstacle.
     bool overlaps(const Notice& notice) const {
         if (refused_places_ && refused_places_->holds({notice.x, notice.y})) return true;
         if (box_.overlaps_obstacle(notice)) return true;
@@ -53,7 +53,7 @@ public:
         if (refused_places_) refused_places_->prefetch({notice.x, notice.y});
     }
 
-    /// The discs in the own strip. They are not kept, and nothing can be added afterwards.
+    /// Moves the discs of the own strip out. Nothing can be added afterwards.
     std::vector<InputDisc> take_own() {
         refused_places_.reset();
         grid_.reset();
@@ -78,8 +78,8 @@ private:
     const InsertionBox& box_;
     int n_threads_;
     RawVector<Notice> discs_;
-    std::optional<PointGrid> grid_;               ///< of these, until they are taken
-    std::optional<RefusedPlaces> refused_places_; ///< once most proposals are refused
+    std::optional<PointGrid> grid_;               ///< grid of these discs, until `take_own`
+    std::optional<RefusedPlaces> refused_places_; ///< made when most proposals are rejected
 };
 
 } // namespace carrom

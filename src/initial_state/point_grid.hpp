@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points in square cells at least `reach` wide, so that all points within `reach` of a place lie in
-// its own cell or the eight around it. Linked lists: adding a point is O(1), and 4 bytes each for a
-// point and for a cell.
+// its own cell or the eight around it. The cells are linked lists, so adding a point is O(1).
+// Memory: 4 bytes for each point and each cell.
 //
-// The grid knows points by number only; the caller keeps their coordinates and decides
-// what near means. Clearing costs as much as was added, however many cells there are.
+// The grid stores only the numbers of points; the caller keeps their coordinates and decides which
+// are near. Clearing takes time in proportion to the points, not to the cells.
 #pragma once
 
 #include <algorithm>
@@ -26,26 +26,27 @@ public:
     PointGrid(double x_low, double x_high, double height, double reach, double n_points)
         : x_low_(x_low) {
         const double width = std::max(x_high - x_low, reach);
-        // The margin outweighs the rounding of `column` and `row`.
+        // The margin is larger than the rounding in `column` and `row`.
         const double cell = std::max(reach * (1 + 1e-9),
                                      std::sqrt(width * height / (2 * n_points + 1)));
         per_length_ = 1 / cell;
         columns_ = static_cast<std::uint64_t>(width * per_length_) + 1;
         rows_ = static_cast<std::uint64_t>(height * per_length_) + 1;
         heads_.assign(columns_ * rows_, none);
-        // A list that grows is there twice for a while. Room that is not used takes no memory.
+        // Reserves all memory now, because a growing list exists twice for a while. Reserved memory
+        // that is not used takes no space.
         next_.reserve(static_cast<std::size_t>(1.1 * n_points) + 100);
     }
 
-    /// Adds the next point; its number is how many were added before.
+    /// Adds the next point, whose number is the count of points before it.
     void add(Point point) {
         std::uint32_t& head = heads_[cell_of(point)];
         next_.push_back(head);
         head = static_cast<std::uint32_t>(next_.size() - 1);
     }
 
-    /// Adds the points that follow those added before, which are the first ones of `points`. The
-    /// order in a cell's list depends on the threads.
+    /// Adds the points of `points` that have not been added yet; the first ones have. The order in
+    /// a cell's list depends on the threads.
     template <class Points> void add_rest(const Points& points, int n_threads) {
         const std::size_t first = next_.size();
         next_.resize(points.size());
@@ -71,7 +72,7 @@ public:
         return false;
     }
 
-    /// Forgets all points; `points` must be those that were added.
+    /// Removes all points; `points` must be those that were added.
     template <class Points> void clear(const Points& points, int n_threads) {
 #pragma omp parallel for num_threads(n_threads) schedule(static)
         for (std::size_t k = 0; k < points.size(); ++k)

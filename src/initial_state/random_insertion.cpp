@@ -24,7 +24,7 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t most_idle_rounds =
-    10000; ///< without a place for any disc, before all starts anew
+    10000; ///< rounds without any placed disc, after which insertion starts again
 constexpr std::uint64_t most_starts = 10;
 
 /// Rounds in which a larger share of proposals is accepted are judged one by one.
@@ -39,13 +39,13 @@ public:
         if (!scene.groups.empty()) placed_.add(box_.gather(given));
     }
 
-    /// Returns the places, or nothing if the discs have jammed. **Collective.**
+    /// Returns the placed discs, or nothing if they have jammed. **Collective.**
     std::optional<std::vector<InputDisc>> run() {
         std::vector<double> radii{scene_.radius};
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
-        // The largest come first, because they find no room among smaller ones.
+        // The largest discs are placed first, because they find no room among smaller ones.
         for (std::size_t first = 0, end = 0; first < radii.size(); first = end) {
             while (end < radii.size() && is_placed_with(radii[end], radii[first], radii.size()))
                 ++end;
@@ -55,8 +55,8 @@ public:
     }
 
 private:
-    /// A few radii are placed one after the other. Many would need a round or more each, so those
-    /// that differ little are placed together.
+    /// If there are few radii, they are placed one after the other. Many radii would each need at
+    /// least a round, so similar ones are placed together.
     static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
         constexpr std::size_t few_radii = 8;
         return radius == largest || (n_radii > few_radii && radius > 0.9 * largest);
@@ -80,8 +80,9 @@ private:
     }
 
     struct Rounds {
-        std::uint64_t next = 0, n_idle = 0; ///< the next round; rounds since the last place
-        std::uint64_t n_left = 0;           ///< discs without a place, over all ranks
+        /// Number of the next round, and rounds since the last placed disc
+        std::uint64_t next = 0, n_idle = 0;
+        std::uint64_t n_left = 0; ///< unplaced discs on all ranks
 
         bool are_over() const { return n_left == 0 || n_idle >= most_idle_rounds; }
     };
@@ -99,12 +100,12 @@ private:
             share_placed = static_cast<double>(n_placed) / static_cast<double>(n_before);
         }
         proposal_grid_.reset();
-        propose({}); // sends the last updates
+        propose({}); // sends only the last updates
         RawVector<Notice>().swap(proposals_);
     }
 
-    /// Judges many rounds at once. That takes one exchange, and is enough work for all threads.
-    /// **Collective.**
+    /// Judges many rounds at once. They need only one exchange, and give enough work for all
+    /// threads. **Collective.**
     void judge_in_batches(Rounds& rounds, double smallest) {
         if (rounds.are_over()) return;
         placed_.map_refused(smallest);
@@ -120,7 +121,8 @@ private:
         }
     }
 
-    /// Over all ranks. Ends the start after a request to stop if it takes long. **Collective.**
+    /// The number of unplaced discs on all ranks. Throws StopRequested if a stop has been requested
+    /// for some time. **Collective.**
     std::uint64_t n_unplaced() const {
         std::array<std::uint64_t, 2> sums = {unplaced_.size(), is_stop_overdue() ? 1u : 0u};
         communicator_.sum(sums);
@@ -130,7 +132,7 @@ private:
         return sums[0];
     }
 
-    /// Sends proposals, together with the last round's updates, to the ranks that they concern.
+    /// Sends proposals, together with the last round's updates, to the ranks that need them.
     /// **Collective.**
     void propose(const Proposers& proposers) {
         box_.propose(proposers, updates_, n_threads_, proposals_);
@@ -141,8 +143,9 @@ private:
         proposals_.erase(first_update, proposals_.end());
     }
 
-    /// Judges a round. Each thread takes a share of the proposals. It sorts them first, so that
-    /// columns of cells that are near in x are near in memory, which does not affect the verdicts.
+    /// Judges a round. Each thread takes a share of the proposals. It sorts them by x first, for
+    /// which neighbouring columns of cells are near in memory. The order does not affect the
+    /// result.
     void judge() {
         const auto n_shares = static_cast<std::size_t>(n_threads_);
         std::vector<std::vector<std::uint32_t>> refused(n_shares);
@@ -161,7 +164,7 @@ private:
                 if (placed_.overlaps(notice) || overlaps_earlier(notice))
                     refused[k].push_back(notice.id);
                 else
-                    notice.round = Notice::placed; // other threads do not read it
+                    notice.round = Notice::placed; // safe, because other threads do not read it
             }
         }
         proposal_grid_->clear(proposals_, n_threads_);
@@ -185,7 +188,7 @@ private:
         });
     }
 
-    /// Lists the places that also concern other ranks.
+    /// Lists the placed discs that other ranks need, too.
     void note_updates(std::span<const Notice> found) {
         for (const Notice& notice : found) {
             std::size_t n_concerned = 0;
@@ -199,10 +202,10 @@ private:
     int n_threads_;
     InsertionBox box_;
     PlacedDiscs placed_;
-    std::optional<PointGrid> proposal_grid_; ///< while rounds are judged one by one
-    std::vector<std::uint32_t> unplaced_;    ///< other discs on each rank
+    std::optional<PointGrid> proposal_grid_; ///< only while rounds are judged one by one
+    std::vector<std::uint32_t> unplaced_;    ///< each rank has other discs
     RawVector<Notice> proposals_;
-    std::vector<Notice> updates_; ///< places found in the last round that concern other ranks, too
+    std::vector<Notice> updates_; ///< discs placed in the last round that other ranks need, too
 };
 
 } // namespace

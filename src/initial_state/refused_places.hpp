@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two maps of small squares, a bit each, that reject most proposals of random insertion at the
-// price of one read. Where few places are left, nearly all proposals lie well inside of a disc that
-// has its place.
+// Two bit maps of small squares, which reject most proposals of random insertion with one read.
+// When little free space is left, nearly all proposals lie well inside a placed disc.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 
 namespace carrom {
 
-/// Squares in which every centre is nearer to a placed disc than it may be.
+/// Squares in which every position is too close to a placed disc.
 class RefusedPlaces {
 public:
     /// Covers [x_low, x_high] x [0, height] for discs of at least this radius. Squares are an
@@ -35,8 +34,8 @@ public:
         words_.assign(static_cast<std::size_t>(n_columns_) * words_per_column_, 0);
     }
 
-    /// Marks the squares that lie inside of the circle in which no centre may lie. Threads may add
-    /// at once.
+    /// Marks the squares inside the circle around a placed disc in which no centre may lie. Threads
+    /// may call it at once.
     void add(Point place, double radius) {
         const double reach = (radius + smallest_radius_) * per_length_ * (1 - margin);
         const double x = (place.x - x_low_) * per_length_, y = place.y * per_length_;
@@ -54,23 +53,24 @@ public:
         }
     }
 
-    /// Whether a disc of at least the smallest radius overlaps a placed disc there. False says
-    /// nothing.
+    /// Whether a disc of at least the smallest radius overlaps a placed disc at this position. If
+    /// false, nothing is known.
     bool holds(Point place) const {
         const std::uint64_t* const word = word_of(place);
         return word && (*word >> (row_of(place) % 64) & 1) != 0;
     }
-    /// Asks for the memory that `holds` reads, because places lie at random. GCC drops a call that
-    /// only prefetches, unless it is inlined before.
+    /// Prefetches the memory that `holds` reads, because positions are random. GCC drops a call
+    /// that only prefetches, unless it is inlined before.
     [[gnu::always_inline]] void prefetch(Point place) const {
         if (const std::uint64_t* const word = word_of(place)) __builtin_prefetch(word);
     }
 
 private:
-    /// Outweighs the rounding of places in squares, as boxes have less than 10^7 of them.
+    /// Larger than the rounding of positions to squares, because boxes have fewer than 10^7 of
+    /// them.
     static constexpr double margin = 1e-7;
 
-    // Not by std::floor, which is a call on processors of the baseline.
+    // Without std::floor, which is a function call on baseline processors.
     std::int64_t row_of(Point place) const {
         return static_cast<std::int64_t>(place.y * per_length_);
     }
@@ -89,7 +89,8 @@ private:
         std::uint64_t* const words = words_.data() +
                                      static_cast<std::size_t>(column) * words_per_column_;
         for (std::int64_t row = first_row; row < end_row;) {
-            const std::int64_t end = std::min(end_row, (row / 64 + 1) * 64); // in one word
+            // The squares in one word
+            const std::int64_t end = std::min(end_row, (row / 64 + 1) * 64);
             const std::uint64_t bits = ~std::uint64_t{0} >> (64 - (end - row)) << (row % 64);
             std::atomic_ref word(words[row / 64]);
             if ((word.load(std::memory_order_relaxed) & bits) != bits)
@@ -104,8 +105,8 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// The surroundings of a few points, by a hash: a place that is near one of them is near for sure,
-/// and few others are.
+/// The surroundings of a few points, in a hash table. A position near one of them is always found;
+/// few others are.
 class NearFew {
 public:
     NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {
@@ -126,7 +127,8 @@ public:
     }
 
 private:
-    /// Points are at most one reach outside of the box, where std::floor would be a call.
+    /// Without std::floor. Points are at most one reach outside of the box, so one offset is
+    /// enough.
     std::int64_t cell(double length) const {
         return static_cast<std::int64_t>(length * per_length_ + 2);
     }

@@ -18,7 +18,7 @@ Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // A box that is taller than wide gets the same gas as when it lies down, turned.
+    // A box that is taller than wide gets the same gas as the box turned on its side.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }
@@ -46,7 +46,8 @@ void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs) {
 
 namespace {
 
-/// Masses are divided by the heaviest one, so that sums of any masses stay within range.
+/// Momentum and energy of discs. Masses are divided by the heaviest one, so that sums of any masses
+/// stay in range.
 class Motion {
 public:
     Motion(const SceneParameters& scene, const std::vector<InputDisc>& discs,
@@ -74,7 +75,7 @@ public:
         return {x / total_, y / total_};
     }
 
-    /// The mean of m v^2 over the mean of m. **Collective.**
+    /// The mean of m v^2 divided by the mean of m. **Collective.**
     double mean_square(const std::vector<InputDisc>& discs) const {
         const double largest = largest_component(discs);
         return sum_over(discs, 2 * largest * largest,
@@ -84,7 +85,7 @@ public:
                total_;
     }
 
-    /// The mass of all discs, over the heaviest one.
+    /// The mass of all discs, relative to the heaviest one.
     double total_mass() const { return total_; }
 
 private:
@@ -97,7 +98,7 @@ private:
         return ranks_.max(largest);
     }
 
-    /// `largest` bounds the size of a term.
+    /// Sums a term over all discs of all ranks; `largest` bounds the size of a term.
     template <class Term>
     double sum_over(const std::vector<InputDisc>& discs, double largest, const Term& term) const {
         if (largest == 0) return 0;
@@ -126,8 +127,8 @@ void subtract_drift(const SceneParameters& scene, std::vector<InputDisc>& discs,
     }
 }
 
-/// The factor for speeds. With a temperature, drawn discs have speeds of sqrt(heaviest
-/// / m) before it is applied, so that all species have one kT on average.
+/// The factor for speeds. With a temperature, discs have been drawn with speeds proportional to
+/// sqrt(heaviest / m), so that all species have the same kT on average.
 double scale_of(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                 const Motion& motion) {
     const double root = std::sqrt(motion.mean_square(discs));
@@ -141,7 +142,7 @@ double scale_of(const SceneParameters& scene, const std::vector<InputDisc>& disc
 
 namespace {
 
-/// To all discs together.
+/// Gives drawn velocities to all discs together.
 void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
                  const Communicator& communicator) {
     const Motion motion(scene, discs, communicator);
@@ -169,7 +170,7 @@ void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& 
     for (const DiscGroup& group : scene.groups) {
         const auto first = std::ranges::lower_bound(discs, end, {}, &InputDisc::id);
         const auto last = std::ranges::lower_bound(discs, end += group.count, {}, &InputDisc::id);
-        if (group.count == 0) continue; // all its discs are frozen
+        if (group.count == 0) continue; // because all its discs are frozen
         of_group.n_discs = group.count;
         of_group.temperature = scene.temperature;
         of_group.speed = group.speed.value_or(scene.speed);

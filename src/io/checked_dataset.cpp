@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t longest_path = 4096;
 constexpr double largest_chunk = 256 << 20;
-constexpr double largest_ratio = 1100; ///< deflate makes at most 1032 bytes of one
+constexpr double largest_ratio = 1100; ///< deflate makes at most 1032 bytes of one byte
 
 bool is_known_type(hid_t type) {
     const H5T_class_t kind = H5Tget_class(type);
@@ -56,7 +56,7 @@ void check_segments_of(const Dataset& dataset, hid_t creation, const std::string
         throw FileError(name + " has other parts than this program writes");
 }
 
-/// HDF5 allocates a whole chunk, however little of it is read.
+/// HDF5 allocates a whole chunk, even if little of it is read.
 void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_per_number) {
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int rank = checked(H5Pget_chunk(creation, H5S_MAX_RANK, sizes.data()), name);
@@ -65,15 +65,15 @@ void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_p
     if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
 }
 
-/// Carrom's files have some dozen links, and tables a column each.
+/// Carrom's files have some dozen links, and a file of tables has one for each column.
 constexpr std::size_t most_objects = 100000, deepest_group = 16;
 
-/// Returns the result of a call that fails for damaged files only.
+/// Returns the result of a call that fails only for damaged files.
 template <class Result> Result sound(Result result, const std::string& name) {
     return checked(result, "is damaged: " + name);
 }
 
-/// The files that a data set names as its parts; throws if it has external storage.
+/// Adds the files that a data set names as its parts; throws if it has external storage.
 void add_parts_of(hid_t dataset, const std::string& name, std::set<std::string>& parts) {
     const Properties creation(sound(H5Dget_create_plist(dataset), name));
     if (H5Pget_external_count(creation.id()) != 0)
@@ -88,8 +88,9 @@ void add_parts_of(hid_t dataset, const std::string& name, std::set<std::string>&
     }
 }
 
-/// The files that all data sets of a file name as their parts. Groups wait in a list, so that no
-/// stack grows with the file. Soft links lead to what is found by another link, too.
+/// The files that all data sets of a file name as their parts. A list of groups replaces recursion,
+/// so that the stack does not grow with the file. Targets of soft links are also found through
+/// other links.
 std::set<std::string> parts_named_in(hid_t file) {
     std::set<std::string> parts;
     struct Waiting {
@@ -142,9 +143,9 @@ void refuse_other_files(hid_t file, const std::string& path) {
         if (leads_out) throw FileError(name + " is named as a part, and is not below its folder");
         const std::string part = (std::filesystem::path(folder_of(path)) / relative).string();
         if (std::error_code error; !std::filesystem::exists(part, error) && !error)
-            continue; // whoever needs it reports that it is not there
+            continue; // a function that needs it will report that it is missing
         try {
-            check_heaps(part); // which must be a plain file
+            check_heaps(part); // the part must be a plain file
             const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
             if (!parts_named_in(opened.id()).empty())
                 throw FileError("has numbers in further files");
@@ -160,7 +161,7 @@ void refuse_other_files(hid_t file, const std::string& path) {
 
 void check_storage(const Dataset& dataset, const std::string& name) {
     const Properties creation(checked(H5Dget_create_plist(dataset.id()), name));
-    if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) return; // its parts have been checked
+    if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) return; // because its parts have been checked
     const Space whole(checked(H5Dget_space(dataset.id()), name));
     const auto bytes = static_cast<double>(H5Sget_simple_extent_npoints(whole.id())) *
                        static_cast<double>(H5Tget_size(stored_type(dataset.id()).id()));

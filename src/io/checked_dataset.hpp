@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares what a file says of a data set with what this program writes, before any number of
-// it is read. A child process has shown before that HDF5 survives the file (child_process.hpp).
+// Compares a file's description of a data set with the one that this program writes, before any
+// number of it is read. Before that a child process has tested that HDF5 does not crash on the file
+// (child_process.hpp).
 #pragma once
 
 #include <optional>
@@ -11,21 +12,21 @@
 
 namespace carrom::h5 {
 
-/// The lengths that a data set must have along its axes; no value allows any length.
+/// The lengths that a data set must have along its axes; an empty value allows any length.
 using Shape = std::vector<std::optional<hsize_t>>;
 
-/// Opens a data set for reading. It must have that shape, if one is given, and hold
-/// numbers or a text of fixed length. All of it must lie in this file, or in segments
-/// in the folder of this file that have room for it. Throws FileError otherwise.
+/// Opens a data set for reading. It must have that shape, if one is given, and hold numbers or a
+/// text of fixed length. All of it must lie in this file, or in segments in the folder of this file
+/// that are large enough. Throws FileError otherwise.
 Dataset open_checked(hid_t parent, const std::string& name,
                      const std::optional<Shape>& shape = std::nullopt);
 
 /// The name of a link of a group, by its place in the order of names. Throws FileError.
 std::string name_of_link(hid_t group, hsize_t number);
 
-/// Throws FileError if any numbers of a file lie outside it, except in plain files below its
-/// folder that hold all of their own. HDF5 would open whatever such a file names, wait for a pipe
-/// and return the bytes of any file as numbers.
+/// Throws FileError if any numbers of a file lie outside it, except in plain files below its folder
+/// that contain all of their own numbers. HDF5 would open any file that is named there, wait for a
+/// pipe, and return the bytes of any file as numbers.
 void refuse_other_files(hid_t file, const std::string& path);
 
 /// The number of entries of an ascending column that are <= `last`.

@@ -2,16 +2,16 @@
 // A run's state at the end of a step, in one HDF5 file from which any number of ranks can go on
 // with the same bits.
 //
-// Discs stand in the order of their ids, so the file does not show which ranks wrote it. The stored
-// state is in /carrom/discs, column by column, to the bit. What the run is stands in /carrom/run.
-// The same discs as other programs expect them are in /particles/discs (H5MD; positions at the time
-// of the step, in single precision). Checksums of all bytes are in /carrom/checksums
-// (checksums.hpp).
+// Discs are in the order of their ids, so the file does not depend on the ranks that wrote it. The
+// exact stored state is in /carrom/discs, column by column. The description of the run is in
+// /carrom/run. The same discs in the form that other programs read are in /particles/discs (H5MD;
+// positions at the time of the step, in single precision). Checksums of all bytes are in
+// /carrom/checksums (checksums.hpp).
 //
-// Rank 0 makes the file and takes its room on disk. Then each rank writes its share of the ids
-// through HDF5 and MPI-IO, and reads it so. Price: 80 bytes a disc to disk, and a disc is sent once
-// if it is another rank's; 8 bytes a disc of memory, in collective transfers 80 more. A column
-// beside the states takes 8 bytes a disc on disk and 24 of memory.
+// Rank 0 makes the file and reserves its space on disk. Then each rank writes its share of the ids
+// through HDF5 and MPI-IO, and reads it in the same way. Price: 80 bytes a disc to disk; each disc
+// in another rank's share is sent once; 8 bytes a disc of memory, and 80 more for collective
+// transfers. A column beside the states takes 8 bytes a disc on disk and 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -33,28 +33,31 @@
 
 namespace carrom {
 
-/// The description of the run in a checkpoint. Texts are the scene's own, to read it again.
+/// The description of the run in a checkpoint. It contains the scene's text, from which a restart
+/// reads the scene again.
 struct CheckpointHeader {
     std::string program_version;
-    std::string scene_name, scene_text, scene_overrides; ///< overrides: one `key=value` a line
+    /// scene_overrides: lines of the form `key=value`
+    std::string scene_name, scene_text, scene_overrides;
     std::int64_t scene_lines_before_discs = 0;
     std::int64_t scene_discs_follow = 0;
 
-    double box_size = 0, radius = 0; ///< box_size: along x
-    double box_height = 0;           ///< along y; in the file only if it differs from box_size
+    double box_size = 0, radius = 0; ///< box_size: edge along x
+    double box_height = 0;           ///< edge along y; in the file only if it differs from box_size
     std::string method;              ///< "time-stepped" or "event-driven"
     std::int64_t micro_steps = 1, sync_every = 1;
 
     std::int64_t step = 0, micro_steps_done = 0;
     std::uint64_t n_discs = 0;
     std::uint64_t wall_collisions = 0,
-                  pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
+                  /// Sums of the discs' counters; a collision of a pair counts once
+        pair_collisions = 0;
     std::string state_hash;
     Frame frame; ///< the frame of the discs' coordinates; in the file only if it moves
-    std::vector<Species>
-        species; ///< if a file of discs had them, because the scene's text does not; else empty
-    SideColumnSet columns; ///< the numbers beside the states; the state hash covers them
-    RecordedSystem shown;  ///< H5MD metadata for other programs; Carrom does not read it
+    std::vector<Species> species; ///< stored only if they come from a file of discs, because the
+                                  ///< scene's text does not contain them
+    SideColumnSet columns;        ///< columns beside the states; the state hash includes them
+    RecordedSystem shown;         ///< H5MD metadata for other programs; Carrom does not read it
 
     Box box() const { return {box_size, box_height}; }
     void set_box(const Box& box) { box_size = box.x, box_height = box.y; }
@@ -70,16 +73,16 @@ struct CheckpointHeader {
 /// there is none. Called on rank 0.
 using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
-/// How the numbers of discs are written to disk.
+/// Settings for writing the numbers of discs.
 struct WriteSettings {
-    int n_threads = 1;          ///< threads of a rank that pack; one more writes
-    bool is_collective = false; ///< MPI-IO chooses ranks that write for all (aggregators)
+    int n_threads = 1;          ///< number of threads that pack; another one writes
+    bool is_collective = false; ///< MPI-IO chooses a few ranks that write for all (aggregators)
 };
 
-/// Writes `discs`, in any distribution, as a whole file or not at all: under another name
-/// first, brought to disk, then renamed. `columns` run along the discs, if the header has
-/// some. Fills in the header's counters and hash. If it fails on any rank, every rank throws
-/// CollectiveError, code 4, and an older file of that name is unchanged. **Collective.**
+/// Writes `discs`, in any distribution, as a whole file or not at all: it is written under another
+/// name, synced to disk, then renamed. `columns` run along the discs, if the header has some. Fills
+/// in the header's counters and hash. If it fails on any rank, every rank throws CollectiveError,
+/// code 4, and an older file of that name is unchanged. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header,
                       std::span<const DiscState> discs, const Communicator& communicator,
                       const WriteSettings& settings = {}, const StoredSamples& samples = {},
@@ -88,12 +91,12 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
 struct Checkpoint {
     CheckpointHeader header;
     DiscStates discs;    ///< this rank's share of the ids, see slabs.hpp
-    SideColumns columns; ///< along the discs
+    SideColumns columns; ///< columns of these discs
     StoredSamples samples;
 };
 
-/// Reads a checkpoint. If it is damaged in any way, of version 0.1, or no checkpoint, every
-/// rank throws CollectiveError, code 2, with the reason after the path. **Collective.**
+/// Reads a checkpoint. If the file is damaged, of version 0.1, or not a checkpoint, every rank
+/// throws CollectiveError, code 2, with the reason after the path. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
 /// Reads all bytes of a checkpoint and checks them by its checksums; returns its

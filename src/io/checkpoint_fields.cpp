@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *box_height_name = "box_height", *scene_path = "/carrom/scene";
 
-/// Only for a frame that moves.
+/// Visits the frame, if it moves.
 template <class SomeFrame, class Visit> void visit_frame(SomeFrame& frame, const Visit& visit) {
     visit("frame_x", frame.x);
     visit("frame_y", frame.y);
@@ -28,13 +28,13 @@ template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, con
     visit("period_y", frame.periods.y);
 }
 
-/// Only for images that move.
+/// Visits the images, if they move.
 template <class SomeFrame, class Visit> void visit_images(SomeFrame& frame, const Visit& visit) {
     visit("image_offset", frame.periods.offset);
     visit("image_speed", frame.periods.speed);
 }
 
-/// The part of a header that a recording keeps.
+/// Visits the part of a header that a recording stores.
 template <class Header, class Visit> void visit_recorded(Header& header, const Visit& visit) {
     visit_header(header, [&](std::string_view name, auto& value) {
         if (name.starts_with("scene_") || name == "n_discs") visit(name.data(), value);

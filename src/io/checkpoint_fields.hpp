@@ -28,7 +28,8 @@ inline std::string path_of(SideColumn column) {
     return std::string("/carrom/discs/") + info_of(column).name;
 }
 
-/// Calls `visit(name, value)` for each dataset of /carrom/run that all checkpoints have: one value.
+/// Calls `visit(name, value)` for each dataset of /carrom/run that all checkpoints have. Each holds
+/// one value.
 template <class Header, class Visit> void visit_header(Header& header, const Visit& visit) {
     visit("program_version", header.program_version);
     visit("scene_name", header.scene_name);
@@ -49,12 +50,12 @@ template <class Header, class Visit> void visit_header(Header& header, const Vis
     visit("state_hash", header.state_hash);
 }
 
-/// A number of each disc that measurements or trajectories need to go on.
+/// A number of each disc that measurements or trajectories need after a restart.
 struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
-    double most; ///< the most that measurements can go on with; in sides of the box if `in_sides`
+    double most; ///< the largest valid value; in edges of the box if `in_sides`
     bool in_sides = false;
 };
 inline constexpr double largest_double = std::numeric_limits<double>::max();

@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// "folder/checkpoint-000000001000.h5"
+/// The path, such as "folder/checkpoint-000000001000.h5".
 std::string checkpoint_path(const std::string& folder, std::int64_t step);
 
 struct FoundFile {
@@ -24,11 +24,10 @@ struct FoundFile {
 /// Throws FileError if the folder cannot be listed, because then its contents are unknown.
 std::vector<FoundFile> find_checkpoints(const std::string& folder);
 
-/// Whether `checkpoint_path` could give this name of a file.
+/// Whether the path could come from `checkpoint_path`.
 bool is_named_as_checkpoint(const std::string& path);
 
-/// Makes the folder if there is none. Returns the problem that keeps files from being
-/// written there, if there is one.
+/// Makes the folder if there is none. Returns the problem if files cannot be written there.
 WriteProblem write_problem_of_folder(const std::string& folder);
 
 } // namespace carrom

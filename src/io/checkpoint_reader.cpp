@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 first reads a file's metadata in a child process, because HDF5 may crash on
-// forged ones. Then it checks all bytes but the numbers of discs by their checksum, so
-// that HDF5 on all ranks meets only bytes that have been checked. The ranks check and
-// read the numbers by H5Dread through MPI-IO, each its share.
+// Rank 0 first reads a file's metadata in a child process, because HDF5 may crash on forged
+// metadata. Then it checks all bytes except the numbers of discs by their checksum, so that HDF5 on
+// all ranks uses only checked bytes. Each rank checks and reads its share of the numbers by H5Dread
+// through MPI-IO.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,8 +34,8 @@ constexpr const char* stop_path = "/carrom/stop";
 constexpr const char* effects_path = "/carrom/effects";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
-/// Refuses headers that no writer of this program would write. A file with right
-/// checksums that has one was made by something else.
+/// Throws for headers that this program never writes. A file with such a header and right checksums
+/// was made by another program.
 void check_header(const CheckpointHeader& header) {
     const Frame& frame = header.frame;
     const std::array finite = {frame.x,
@@ -63,7 +63,7 @@ void check_header(const CheckpointHeader& header) {
 struct Contents {
     CheckpointHeader header;
     Checksums sums;
-    StoredSamples samples; ///< without places
+    StoredSamples samples; ///< without the discs' first places
 };
 
 bool is_listed(const Checksums& sums, const std::string& path) {
@@ -102,7 +102,7 @@ void check_disc_data(const Contents& contents) {
             throw FileError(data.path + " has not got as many discs as the file says");
 }
 
-/// Files of version 0.1 began with a text; HDF5 would find no fault with them.
+/// Files of version 0.1 began with a text, which HDF5 accepts.
 void refuse_old_format(const std::string& path) {
     constexpr std::string_view family = "carrom checkpoint, format ";
     std::string front(family.size(), '\0');
@@ -139,12 +139,12 @@ Contents contents_of(const std::string& path) {
     return contents;
 }
 
-/// Checks and reads the contents; adds a word about what HDF5 finds wrong to its errors.
+/// Checks and reads the contents. If HDF5 reports an error, a text is added to it.
 Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
     } catch (const MachineError&) {
-        throw; // the file may be whole
+        throw; // because the file may be undamaged
     } catch (const FileError& error) {
         const std::string text = error.what();
         throw FileError(text.starts_with("is ") ? text : "is damaged: " + text);
@@ -179,7 +179,7 @@ void broadcast(Contents& contents, const Communicator& communicator) {
     }
 }
 
-/// A checkpoint whose bytes have their checksums, open on all ranks.
+/// A checkpoint whose checksums are right, open on all ranks.
 class WholeFile {
 public:
     /// Throws CollectiveError on every rank if the file is damaged. **Collective.**
@@ -200,7 +200,7 @@ public:
         check_numbers();
     }
 
-    /// This rank's share of the rows of a data set, 8 bytes each. Not collective; throws FileError.
+    /// This rank's rows of a data set, 8 bytes each. Not collective; throws FileError.
     template <class Number>
     void read(const std::string& path, std::span<Number> numbers, std::uint64_t begin,
               hid_t type) const {

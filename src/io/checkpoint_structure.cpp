@@ -122,7 +122,7 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
             return vector_of(shown.vx * k, shown.vy * k);
         });
     if (!header.shown.species.empty()) {
-        // A search in a list of species, because a table of all discs takes memory.
+        // Searches the list of species, because a table of all discs takes memory.
         const auto number_of = [ends = ends_of(header.shown.species)](const DiscState& disc) {
             return std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin();
         };
@@ -171,7 +171,8 @@ void complete(const std::string& path, const StateSums& sums) {
     file.close("cannot be written");
     for (std::size_t k = 0; k < all.data.size(); ++k)
         all.data[k].checksum = sums[first_checksum + k];
-    all.others = checksum_of_others(path, all.left_out()); // a file open to be written says so
+    // Because a file that is open for writing contains a mark of it
+    all.others = checksum_of_others(path, all.left_out());
     file = h5::open_file(path, h5::Access::write);
     h5::overwrite(file.id(), checksums_path, all.text());
     file.close("cannot be written");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A checkpoint's HDF5 file with its whole structure and without its numbers.
+// Creates a checkpoint's HDF5 file with its whole structure but without its numbers.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@
 
 namespace carrom {
 
-/// A data set with one row for each disc, and the function that turns discs into its bytes.
+/// A data set with one row for each disc, and the function that converts discs to its bytes.
 struct DiscTarget {
     std::string path;
-    hid_t type; ///< the numbers' type
+    hid_t type; ///< type of the numbers
     std::uint64_t bytes_per_row = 0;
-    std::string unit; ///< for other programs; empty for data sets that they do not read
+    std::string unit; ///< unit for other programs; empty if they do not read the data set
     std::function<void(std::span<const DiscState>, std::byte*)> put;
 };
 
@@ -41,9 +41,9 @@ struct SideOfPieces {
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SideOfPieces& columns);
 
-/// Sums over a state that are known only after all discs: sums of pairs of words, which threads
-/// and ranks may add up in any order. They are the collisions of discs with walls (`low`) and
-/// with discs (`high`; a pair counts twice), the state's hash, and the targets' checksums.
+/// Sums over a state that are known only after all discs: sums of pairs of words, which threads and
+/// ranks may add in any order. They are the collisions of discs with walls (`low`) and with discs
+/// (`high`; a pair counts twice), the state's hash, and the targets' checksums.
 using StateSums = std::vector<StateHash>;
 inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 
@@ -52,8 +52,8 @@ inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_c
 void create_structure(const std::string& path, CheckpointHeader header,
                       const StoredSamples& samples, const std::vector<DiscTarget>& targets);
 
-/// Fills these in, last the checksum of all other bytes, and brings the file to disk.
-/// Called on one rank; throws FileError.
+/// Fills in the counters, the hash and the checksums, last the checksum of all other bytes, and
+/// syncs the file to disk. Called on one rank; throws FileError.
 void complete(const std::string& path, const StateSums& sums);
 
 } // namespace carrom

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All ranks fill in the numbers of discs (checkpoint.hpp). The places no longer move, so no write
-// changes HDF5's metadata. A rank's pieces begin at pages of their own, so that nodes whose caches
-// know nothing of each other do not share any.
+// All ranks write the numbers of discs (checkpoint.hpp). The places of data sets are fixed, so no
+// write changes HDF5's metadata. A rank's pieces begin at pages of their own, because caches of
+// different nodes are not coherent.
 //
-// For independent transfers rank 0 alone opens the file by HDF5, when it makes and completes it. It
-// says where the numbers are, and ranks write them there. So HDF5's mark of an open file is written
-// by one rank, and no call on the file waits for another rank: each sees its own failure, and then
-// all agree. With one handle for all, HDF5 1.10 waits for ever where rank 0 cannot write that mark
-// when all close the file. On many ranks some of them write for all (most_writers): a rank sends
-// discs to each writer.
+// For independent transfers rank 0 alone opens the file by HDF5, when it makes and completes it.
+// HDF5 reports where the numbers are in the file, and ranks write them there. So HDF5's mark of an
+// open file is written by one rank, and no call waits for another rank: each rank detects its own
+// failure, and then all agree. With one handle for all ranks, HDF5 1.10 waits for ever if rank 0
+// cannot write that mark when all close the file. If there are many ranks, some of them write for
+// all (most_writers), and each rank sends discs to each writer.
 //
 // Collective transfers need one handle for all ranks. A rank that fails leaves the others waiting
 // inside HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
@@ -40,7 +40,7 @@ constexpr std::uint64_t bytes_of_structure = 1 << 20;
 constexpr int most_writers = 64;
 static_assert(Pieces::least_rows % rows_per_block == 0, "pieces are made of whole blocks");
 
-/// Ends all ranks where HDF5 does not come back from closing a file that ranks share.
+/// Ends all ranks if HDF5 does not return from closing a file that ranks share.
 class Deadline {
 public:
     Deadline() {
@@ -64,21 +64,21 @@ private:
     struct sigaction before_{};
 };
 
-/// This rank's packed rows, one buffer for each target.
+/// This rank's packed rows, in one buffer for each target.
 struct Batch {
     std::uint64_t first = 0, n_rows = 0;
     std::vector<std::vector<std::byte>> buffers;
 };
 
-/// This rank's view of the file. It remembers the first failure and writes nothing after it.
+/// This rank's access to the file. After the first failure, which it stores, it writes nothing.
 class RankWriter {
 public:
-    /// A rank that is no writer opens nothing. **Collective.**
+    /// A rank that is not a writer opens nothing. **Collective.**
     RankWriter(const std::string& path, const std::vector<DiscTarget>& targets, bool is_collective,
                bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
           places_(is_collective ? std::vector<std::uint64_t>() : find_places()) {
-        on_all_ranks([&] { // a failure is known from here on
+        on_all_ranks([&] { // from here on all ranks know of a failure
             if (is_writer || is_collective) bytes_.emplace(path_, O_WRONLY);
         });
         if (!is_collective) return;
@@ -89,7 +89,7 @@ public:
         });
     }
 
-    /// Not collective, but only the thread that may call MPI calls it.
+    /// Not collective, but only the thread that may call MPI may call it.
     void write(const Batch& batch) {
         if (!failure_.empty()) return;
         try {
@@ -112,8 +112,8 @@ public:
             });
     }
 
-    /// Brings this rank's bytes to disk, because each node has its own cache. Then
-    /// closes the file. **Collective.**
+    /// Syncs this rank's bytes to disk, because each node has its own cache. Then closes the file.
+    /// **Collective.**
     void finish() {
         on_all_ranks([&] {
             if (!failure_.empty()) throw FileError(failure_);
@@ -154,9 +154,9 @@ private:
     std::string path_;
     const std::vector<DiscTarget>& targets_;
     const Communicator& communicator_;
-    std::vector<std::uint64_t> places_; ///< by target
+    std::vector<std::uint64_t> places_; ///< for each target
     std::optional<Descriptor> bytes_;
-    h5::SharedFile file_; ///< for collective transfers, and its data sets
+    h5::SharedFile file_; ///< for collective transfers, with its data sets
     std::vector<h5::Dataset> datasets_;
     std::string failure_;
     std::uint64_t n_batches_ = 0;
@@ -172,9 +172,9 @@ void add(std::span<const DiscState> discs, const SideOfPieces& side, StateSums& 
     });
 }
 
-/// Takes a piece apart into the targets' bytes, behind what is in the batch. Threads share the
-/// blocks. Meanwhile this thread, which alone may call MPI, does `first_of_all`. They wait for each
-/// other asleep: ranks may share their cores.
+/// Converts a piece to the targets' bytes, and appends them to the batch. Threads share the blocks.
+/// Meanwhile this thread, the only one that may call MPI, calls `first_of_all`. Waiting threads
+/// sleep, because ranks may share cores.
 template <class Act>
 void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPieces& side,
           const std::vector<DiscTarget>& targets, Batch& batch, StateSums& sums, int n_threads,
@@ -210,7 +210,7 @@ void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPie
     std::vector<std::jthread> threads; // joined at the end
     try {
         for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
-    } catch (const std::system_error&) { // no more threads are to be had: those at work do it all
+    } catch (const std::system_error&) { // if no more threads can start, those at work do all of it
     }
     first_of_all();
     pack_blocks();
@@ -294,11 +294,11 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
                               2 * header.shown.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);
-        ::unlink(partial.path().c_str()); // left by a run that was killed
+        ::unlink(partial.path().c_str()); // a file that a killed run has left
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
-    // Numbers beside the discs lie on all ranks, each with those of its own piece of the ids.
+    // Numbers beside the discs are distributed over the ranks, by pieces of ids.
     const bool have_numbers = header.columns != SideColumnSet{} || samples.have_first_places ||
                               samples.have_lengths || samples.have_velocities ||
                               samples.have_images;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checksums of a checkpoint, so that no flipped byte goes unnoticed.
 //
-// They stand in the file as a text, /carrom/checksums, with lines like those of sha256sum: one for
-// each data set of discs, one for "all other bytes", one for "the lines above".
+// They are stored in the file as a text, /carrom/checksums, with lines like those of sha256sum: one
+// for each data set of discs, one for "all other bytes", one for "the lines above".
 //
 // A data set's checksum is the sum, modulo 2^64 in each half, of the XXH3-128 of its blocks of 1024
-// rows, each with its number as seed. A sum has no order, so threads and ranks hash their shares
-// side by side. The second last line is the XXH3-128 of the file without those data sets and
-// without this text. HDF5 itself says where they are.
+// rows, each with its number as seed. The order of a sum does not matter, so threads and ranks hash
+// their shares at the same time. The second last line is the XXH3-128 of the file without those
+// data sets and without this text. HDF5 reports where they are in the file.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ inline constexpr const char* checksums_path = "/carrom/checksums";
 /// The number of rows that are hashed at a time. The last block of a data set may be shorter.
 inline constexpr std::uint64_t rows_per_block = 1 << 10;
 
-/// The share of one block in its data set's checksum.
+/// The contribution of one block to its data set's checksum.
 StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block);
 
 /// Adds up each sum over all ranks. **Collective.**
@@ -56,7 +56,7 @@ private:
     std::unique_ptr<XXH3_state_s, Delete> state_;
 };
 
-/// A data set with a row for each disc, its bytes in the file, and their checksum.
+/// A data set with a row for each disc: where its bytes are in the file, and their checksum.
 struct DiscData {
     std::string path;
     std::uint64_t rows = 0, bytes_per_row = 0;
@@ -66,8 +66,8 @@ struct DiscData {
 
 struct Checksums {
     std::vector<DiscData> data;
-    StateHash others; ///< checksum of all other bytes
-    ByteRange place;  ///< where the text is
+    StateHash others; ///< checksum of all other bytes of the file
+    ByteRange place;  ///< where the text is in the file
 
     /// The length of the text does not depend on the sums.
     std::string text() const;
@@ -79,16 +79,16 @@ struct Checksums {
 /// throws FileError if the text is not one of Carrom.
 Checksums read_checksums(hid_t file);
 
-/// Whether the file's bytes hold the text of checksums or a name in /carrom/run, wherever
-/// its structure leads. Only checkpoints have these, in different pages; damage of one link
-/// can hide both from HDF5. Reads the whole file. Called on one rank; throws FileError.
+/// Whether the file's bytes hold the text of checksums or a name in /carrom/run, wherever its
+/// structure leads. Only checkpoints have these. They are in different pages, but damage of one
+/// link can hide both from HDF5. Reads the whole file. Called on one rank; throws FileError.
 bool has_traces_of_checkpoint(const std::string& path);
 
 /// The checksum of a file without `left_out`. Called on one rank; throws FileError.
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);
 
-/// This rank's share of a data set's checksum, read through the file's driver. Not collective;
-/// throws FileError.
+/// The contribution of this rank's rows to a data set's checksum. The rows are read through the
+/// file's driver. Not collective; throws FileError.
 StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator);
 
 } // namespace carrom

@@ -20,9 +20,9 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-constexpr unsigned patience_seconds = 50;  ///< for a process that waits without using the processor
-constexpr time_t least_of_loop = 3;        ///< seconds of the processor; sound files take less
-constexpr std::size_t longest_text = 4000; ///< a pipe takes this much at once
+constexpr unsigned patience_seconds = 50;  ///< for a process that waits without using a processor
+constexpr time_t least_of_loop = 3;        ///< processor time in seconds; undamaged files need less
+constexpr std::size_t longest_text = 4000; ///< a pipe takes this many bytes at once
 constexpr int code_of_machine = 3;         ///< of a child that ends with a MachineError
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
@@ -32,7 +32,7 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// The child must not act for the program: no signal handlers, no core file.
+/// The child must not act for the program, so it gets no signal handlers and no core file.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);
@@ -73,7 +73,7 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that inspects it");
     const pid_t child = ::fork();
     if (child == 0) {
-        ::close(ends[0]); // leaves room for a file, if few may be open
+        ::close(ends[0]); // so that a file can be opened even if the limit is low
         inspect_and_exit(inspect, ends[1]);
     }
     ::close(ends[1]);
@@ -85,7 +85,7 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     const ssize_t length = ::read(ends[0], answer.data(), answer.size());
     ::close(ends[0]);
     if (child < 0) throw MachineError("no process that inspects it can be started");
-    // On a crowded machine the alarm comes before a loop has used up its seconds.
+    // On a busy machine the alarm may come before a loop has used its time.
     const bool has_waited = used.ru_utime.tv_sec + used.ru_stime.tv_sec < least_of_loop;
     if (WIFSIGNALED(status) &&
         (WTERMSIG(status) == SIGKILL || (WTERMSIG(status) == SIGALRM && has_waited)))

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every collision of a run in one HDF5 file, in the total order over all ranks.
 //
-// Columns of /carrom/collisions: step (the one it happens in, from 1), time (in steps, from the
-// start), p, q (-1: a wall), impulse. Box, radii and masses stand in /particles/discs. Rank 0
-// writes what the ranks send in their order; see Trajectory for why, and for errors.
+// Columns of /carrom/collisions: step (in which the collision happens, from 1), time (in steps,
+// from the start), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. Rank
+// 0 writes the rows that the ranks send in their order; see Trajectory for the reason and for
+// errors.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct LoggedCollision {
 /// The steps whose collisions a log has: all up to `last`, except for the gaps.
 struct LoggedSteps {
     std::int64_t last = 0;
-    std::vector<std::int64_t> gaps; ///< the first and the last step of each
+    std::vector<std::int64_t> gaps; ///< the first and the last step of each gap
 };
 
 class SegmentedFile;
@@ -38,19 +39,19 @@ public:
                  const Communicator& communicator);
     ~CollisionLog();
 
-    /// See Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up
-    /// to `step` that are not in it become a gap, which the file names. **Collective.**
+    /// See Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to `step`
+    /// that are not in it become a gap, which the file lists. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
-    /// The step up to which the file went before `go_on` has cut it back, on rank 0; -1 if unknown.
+    /// The last step of the file before `go_on` has cut it back, on rank 0; -1 if unknown.
     std::int64_t recorded_before() const { return recorded_before_; }
     void commit();
 
     /// The first and the last step of each gap, on rank 0.
     const std::vector<std::int64_t>& gaps() const { return steps_.gaps; }
 
-    /// Appends the collisions of all ranks up to `step`, those of rank 0 first. They
-    /// must be later than all before. **Collective.**
+    /// Appends the collisions of all ranks up to `step`, those of rank 0 first. They must be later
+    /// than all collisions in the file. **Collective.**
     void append(std::span<const LoggedCollision> mine, std::int64_t step);
 
 private:

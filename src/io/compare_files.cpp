@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;
 
-/// Collects differences of numbers; reports the first one that is found.
+/// Collects differences of numbers, and keeps a text about the first one.
 class Differences {
 public:
     /// `where()` is called only for a difference.

@@ -40,7 +40,7 @@ bool is_text_beside(std::string_view name) {
            numbers.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
-/// Whether this process may open some more files; else `errno` has the reason.
+/// Whether this process can open `n` more files; otherwise `errno` has the reason.
 bool has_free_files(std::size_t n_parts = 0) {
     constexpr std::size_t n_for_one = 8;
     std::vector<int> files;
@@ -129,7 +129,7 @@ void Descriptor::sync() const {
 }
 
 void Descriptor::start_sync() const {
-    ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint only; `sync` reports failures
+    ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // only a hint; `sync` reports failures
 }
 
 bool leads_to(const std::string& path, int number) {
@@ -146,7 +146,7 @@ void check_room(const std::string& folder, std::uint64_t bytes) {
     struct statvfs status{};
     if (::statvfs(folder.c_str(), &status) != 0) fail_with_errno("its file system cannot be asked");
     const std::uint64_t room = std::uint64_t{status.f_bavail} * status.f_frsize;
-    // Some file systems do not know it and report 0 of 0.
+    // Some file systems do not support this and report 0 of 0.
     if (status.f_blocks > 0 && room < bytes)
         throw FileError(
             fmt::format("No space left on device: {} bytes are needed, {} are free", bytes, room));
@@ -168,13 +168,13 @@ void refuse_special(const std::string& path) {
 
 namespace {
 
-/// Paths by handle, each with a slash at its end.
+/// Paths of held folders by their handle, each with a slash at its end.
 std::map<int, std::string>& held_folders() {
     static std::map<int, std::string> all;
     return all;
 }
 
-/// The rest of a path below a held folder, which may be written "folder//name".
+/// The part of a path behind a held folder; it may be written "folder//name".
 const char* below(const std::string& path, std::size_t n_letters_of_folder) {
     const std::size_t first = path.find_first_not_of('/', n_letters_of_folder);
     return path.c_str() + std::min(first, path.size());
@@ -198,7 +198,7 @@ void rename_durably(const std::string& from, const std::string& to) {
     std::string held;
     for (const auto& [number, path] : held_folders())
         if (to.starts_with(path) && from.starts_with(path)) folder = number, held = path;
-    // Where a folder has taken this one's name, `from` lies in that, and is not found.
+    // If another folder has taken this one's name, `from` is in that folder, and is not found here.
     const std::size_t n = held.size();
     const bool is_done = ::renameat(folder, held.empty() ? from.c_str() : below(from, n), folder,
                                     held.empty() ? to.c_str() : below(to, n)) == 0;

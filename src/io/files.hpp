@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of the file system beyond writing: room, durability, names. Each throws
-// FileError if it fails.
+// Calls of the file system except writing: free space, durability, names. Each throws FileError if
+// it fails.
 //
-// These calls are this rank's own. `on_all` and `on_root` turn their exceptions into
-// errors on all ranks.
+// Each rank makes these calls on its own. `on_all` and `on_root` turn their exceptions into errors
+// on all ranks.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A problem of this machine, such as too many open files. Nothing follows for the file, which
-/// may be whole, so another one must not be taken for it.
+/// A problem of this machine, such as too many open files. It does not mean that the file is
+/// damaged, so an older file must not be used instead.
 class MachineError : public FileError {
 public:
     using FileError::FileError;
@@ -48,11 +48,11 @@ public:
     int number() const { return number_; }
 
     std::uint64_t size() const;
-    /// Reads up to the end of `bytes` or of the file; returns how many.
+    /// Reads up to the end of `bytes` or of the file; returns the number of bytes read.
     std::size_t read(std::span<std::byte> bytes, std::uint64_t offset) const;
     void write(std::span<const std::byte> bytes, std::uint64_t offset) const;
     void sync() const;
-    /// Asks the system to begin to bring written bytes to disk; does not wait.
+    /// Starts writing dirty pages to disk; does not wait.
     void start_sync() const;
 
 private:
@@ -61,21 +61,21 @@ private:
 
 /// Whether the path leads to the open file `number`, not to another one that has taken its name.
 bool leads_to(const std::string& path, int number);
-/// Throws MachineError unless this process may open as many more files as HDF5 and MPI-IO need
-/// for one with this many parts. They do not always say that this is why they have failed, and
-/// HDF5 gives fill values for parts that it cannot open.
+/// Throws MachineError unless this process may open as many more files as HDF5 and MPI-IO need for
+/// a file with this many parts. Otherwise they fail without naming the reason, and HDF5 returns
+/// fill values for parts that it cannot open.
 void require_free_files(std::size_t n_parts = 0);
 
-/// Throws if the file system reports less room than this.
+/// Throws if the file system reports less free space than this.
 void check_room(const std::string& folder, std::uint64_t bytes);
-/// Allocates the blocks of a file, so that a full disk shows now. Does nothing if the
-/// file system cannot do this.
+/// Allocates the blocks of a file, so that a full disk is an error now and not later. Does nothing
+/// if the file system cannot do this.
 void reserve(const std::string& path);
-/// Throws if a rename to `path` would replace anything but a plain file or a link, such as
-/// a device, a pipe or a folder, or if the system would see another name, cut at a NUL.
+/// Throws if a rename to `path` would replace anything but a plain file or a link, such as a
+/// device, a pipe or a folder, or if the path contains a NUL, at which the system would cut it.
 void refuse_special(const std::string& path);
-/// The folder that a path names now. While this exists, `rename_durably` gives names below `path`
-/// in this folder alone, whatever takes the path's name meanwhile. For the thread that writes.
+/// The folder that a path names now. While this exists, `rename_durably` renames files below `path`
+/// only in this folder, even if something else takes the path's name. For the thread that writes.
 class HeldFolder {
 public:
     explicit HeldFolder(const std::string& path);
@@ -93,8 +93,8 @@ void rename_durably(const std::string& from, const std::string& to);
 /// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";
 
-/// A file that will be renamed. Its owner removes it at the end unless it was, because
-/// half a file is useless and takes room.
+/// A file that will be renamed. Unless that happened, its destructor removes it, because half a
+/// file is useless and takes space.
 class UnfinishedFile {
 public:
     UnfinishedFile(std::string path, bool is_mine) : path_(std::move(path)), is_mine_(is_mine) {}
@@ -108,28 +108,27 @@ private:
     bool is_mine_;
 };
 
-/// A name that nobody can guess, of a file that `remove_unfinished` removes if a killed program
-/// has left it.
+/// A name that nobody can guess. `remove_unfinished` removes such files after a program was killed.
 std::string name_beside();
-/// Replaces a file by a new one, as a whole or not at all. `write` makes it under a
-/// name that nobody can guess, and brings it to disk.
+/// Replaces a file by a new one, as a whole or not at all. `write` makes it under a name that
+/// nobody can guess, and syncs it to disk.
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write);
 void replace_file(const std::string& path, const std::string& text);
-/// Removes files that killed writers have left in a folder. No other writer may be at work.
+/// Removes the files that killed writers have left in a folder. No other writer may be running.
 void remove_unfinished(const std::string& folder);
 std::string folder_of(const std::string& path);
 
-/// The text of an error, and what helps if too few files may be open.
+/// The text of an error, with advice if the limit of open files is too low.
 std::string with_remedy(const FileError& error);
 /// The text of an error after `path`, with its remedy. If the machine is the cause, a `code` for
 /// bad input becomes that of a rank that failed.
 std::string described(const FileError& error, const std::string& path, ExitCode& code);
 
 /// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with
-/// `code` and that rank's text after `path`; see `described`. **Collective.** With at most one
-/// collective call in `act`, no rank is left behind; should it happen all the same, the failed rank
-/// ends the run after half a minute (see `agree`).
+/// `code` and that rank's text after `path`; see `described`. **Collective.** If `act` makes at
+/// most one collective call, no rank waits for ever. If one does all the same, the failed rank ends
+/// the run after half a minute (see `agree`).
 template <class Act>
 void on_all(const Communicator& communicator, const std::string& path, ExitCode code,
             const Act& act) {
@@ -142,7 +141,7 @@ void on_all(const Communicator& communicator, const std::string& path, ExitCode 
     agree(communicator, failure.empty(), failure, code);
 }
 
-/// Runs `act` on rank 0 alone, and fails on all ranks like on_all. **Collective.**
+/// Runs `act` on rank 0 only, and fails on all ranks like on_all. **Collective.**
 template <class Act>
 void on_root(const Communicator& communicator, const std::string& path, ExitCode code,
              const Act& act) {

@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// The place of a column's numbers: component `place` of `width` numbers in each row of a data set.
+/// Where a column's numbers are: component `place` of `width` numbers in each row of a data set.
 struct ColumnSource {
     std::string column, dataset;
     hsize_t width = 1, place = 0;
@@ -70,7 +70,7 @@ std::vector<double> read_block(hid_t file, const std::string& path, const h5::Ro
     return numbers;
 }
 
-/// Throws FileError where any frame has edges that no box has.
+/// Throws FileError if a frame has invalid edges.
 Box box_of_last_frame(hid_t file, std::size_t n_frames) {
     const h5::Dataset dataset = h5::open_checked(file, h5md::edges_path, h5::Shape{n_frames, 3});
     h5::check_storage(dataset, h5md::edges_path);
@@ -84,7 +84,7 @@ Box box_of_last_frame(hid_t file, std::size_t n_frames) {
     return {edges[3 * n_frames - 3], edges[3 * n_frames - 2]};
 }
 
-/// The words of an attribute, which are equally long, side by side.
+/// The words of an attribute, which have equal lengths, one after the other.
 std::string letters_of(hid_t file, const char* object, const char* name, hssize_t n_words) {
     const h5::Attribute attribute(
         h5::checked(H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), name));
@@ -120,7 +120,7 @@ void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
         throw FileError("has an origin that is no finite number");
 }
 
-/// Radii and masses are for other programs, and must be what bodies can have.
+/// Checks radii and masses, which are for other programs.
 void check_bodies(hid_t file, const FileSummary& summary) {
     for (const char* path : {radii_path, masses_path}) {
         if (!h5::has(file, path)) continue;
@@ -133,7 +133,8 @@ void check_bodies(hid_t file, const FileSummary& summary) {
     }
 }
 
-/// Whether the disc of row `i` of a frame has left the box: such discs rest beyond an open side.
+/// Whether the disc in row `i` of a frame has left the box: such discs rest outside of an open
+/// side.
 bool has_departed(const Rows& rows, std::size_t i, const FileSummary& summary) {
     const auto number = [&](const char* column) { return rows[summary.place_of(column)][i]; };
     const double x = number("x"), y = number("y");
@@ -161,9 +162,9 @@ std::size_t FileSummary::place_of(std::string_view column) const {
 
 struct FrameFile::State {
     h5::File file;
-    CheckpointHeader header;           ///< for a checkpoint
-    std::vector<ColumnSource> sources; ///< for a recording's columns
-    std::vector<FileSegment> segments; ///< for a recording
+    CheckpointHeader header;           ///< only for a checkpoint
+    std::vector<ColumnSource> sources; ///< only for the columns of a recording
+    std::vector<FileSegment> segments; ///< only for a recording
 };
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
@@ -329,7 +330,7 @@ void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_
     }
 }
 
-/// Adding +0 turns -0 into +0, so that two states of the same hash give the same output.
+/// Adding +0 turns -0 into +0, so that two states with the same hash give the same output.
 void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) const {
     const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contents of Carrom's files for one rank, block by block: tables of numbers with a row
-// for each disc of a frame, or for each collision. A checkpoint is a file of one frame.
+// Reads Carrom's files on one rank, block by block: tables of numbers with a row for each disc of a
+// frame, or for each collision. A checkpoint is a file of one frame.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace carrom {
 
 enum class FileKind { checkpoint, trajectory, collisions };
 
-/// The box is that of the last frame.
+/// The box is the box of the last frame.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
-    /// Whether the file has checksums of all its bytes. All files of this version have.
+    /// Whether the file has checksums of all its bytes, as all files of this version do.
     bool has_checksums = false;
     /// The columns that the file has, in the scene's units. For discs: x, y, vx, vy,
     /// pair_collisions, wall_collisions, then the side columns (side_columns.hpp).
     std::vector<std::string> columns;
-    std::uint64_t n_rows = 0;         ///< discs, or collisions
-    std::size_t bytes_per_number = 8; ///< for a trajectory's positions and velocities
+    std::uint64_t n_rows = 0;         ///< number of rows: discs, or collisions
+    std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities
     std::vector<std::int64_t> steps;  ///< the steps of the frames
-    std::string state_hash;           ///< only checkpoints have one
-    std::vector<std::int64_t> gaps;   ///< for a log: the first and last step of each gap
+    std::string state_hash;           ///< hash of a checkpoint; empty for other files
+    std::vector<std::int64_t> gaps;   ///< of a log: the first and last step of each gap
 
-    /// The place of a column, or of the end if there is no such column.
+    /// The index of a column, or the number of columns if there is no such column.
     std::size_t place_of(std::string_view column) const;
     bool has(std::string_view column) const { return place_of(column) < columns.size(); }
 };
@@ -37,11 +37,11 @@ struct FileSummary : RecordedSystem {
 /// Numbers by column, then by row.
 using Rows = std::vector<std::vector<double>>;
 
-/// All functions throw InputError naming the file. Not collective.
+/// All functions throw an InputError that names the file. Not collective.
 class FrameFile {
 public:
-    /// Does not find damage of checkpoints that HDF5 does not see; call `check_damage` before. A
-    /// child process has opened the file before and read from all its parts (child_process.hpp).
+    /// Does not detect damage of checkpoints that HDF5 ignores; call `check_damage` before. A child
+    /// process must have opened the file and read from all its parts before (child_process.hpp).
     explicit FrameFile(const std::string& path);
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;
@@ -60,8 +60,8 @@ public:
     /// With positions as the run shows them to users.
     void read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
-    /// The rows of the discs of a frame that have left the box by an open side, ascending. The
-    /// frame has velocities. Reads it only if the box has such a side.
+    /// The rows, ascending, of the discs of a frame that have left the box through an open side.
+    /// The frame must have velocities. It is read only if the box has such a side.
     std::vector<std::uint64_t> find_departed(std::size_t frame) const;
 
 private:
@@ -80,7 +80,7 @@ private:
 /// The first difference between two files of one kind, and the largest one.
 struct FileDifference {
     bool is_same = true;
-    std::string first;  ///< "step 10, disc 17, vx: 0.25 and 0.5"
+    std::string first;  ///< for example "step 10, disc 17, vx: 0.25 and 0.5"
     double largest = 0; ///< over all numbers
     std::string largest_in;
 };

@@ -30,7 +30,7 @@ void write_metadata(hid_t file, const RecordedSystem& system) {
     h5::write_attribute(units.id(), "system", std::string("SI"));
 }
 
-/// `box` in a group of particles, with its sides.
+/// Writes the group `box` with its edges into a group of particles.
 void create_box(hid_t parent, const RecordedSystem& system) {
     const h5::Group box = h5::create_group(parent, "box");
     h5::write_attribute(box.id(), "dimension", std::array<std::int32_t, 1>{3});
@@ -42,8 +42,8 @@ void create_box(hid_t parent, const RecordedSystem& system) {
                                                  boundary(system.is_periodic_y), "none"});
 }
 
-/// Writes values by disc, without step and time (H5MD 1.1, "time-independent data").
-/// Equal values of one species follow each other, so they are small when deflated.
+/// Writes values by disc, without step and time (H5MD 1.1, "time-independent data"). Equal values
+/// of one species follow each other, so deflate makes them small.
 template <class Number>
 void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Number common,
                  const std::vector<Number>& values, const std::string& unit = "") {

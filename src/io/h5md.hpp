@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The parts of H5MD 1.1 (de Buyl, Colberg, Hoefling 2014) that checkpoints and recordings share:
-// discs in a box whose third edge is 1, because H5MD's readers know three dimensions only.
+// discs in a box whose third edge is 1, because H5MD's readers expect three dimensions.
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@
 namespace carrom::h5md {
 
 inline constexpr const char *discs_path = "/particles/discs/",
-                            *collisions_path = "/carrom/collisions/",   ///< not H5MD's
-                                *gaps_path = "/carrom/collisions/gaps"; ///< first, last step; ...
+                            *collisions_path = "/carrom/collisions/",   ///< not part of H5MD
+                                *gaps_path = "/carrom/collisions/gaps"; ///< first step, last step,
+                                                                        ///< and so on
 inline constexpr const char *step_path = "/particles/discs/box/edges/step",
                             *time_path = "/particles/discs/box/edges/time",
                             *edges_path = "/particles/discs/box/edges/value";
@@ -21,17 +22,17 @@ inline constexpr const char *step_path = "/particles/discs/box/edges/step",
 /// The table of species; absent if all discs are equal.
 inline constexpr const char* shown_species_path = "/parameters/species";
 
-/// Writes /h5md, /parameters, and /particles/discs with the box; the caller adds its `edges`.
+/// Writes /h5md, /parameters, and /particles/discs with the box; the caller adds the box's `edges`.
 void write_system(hid_t file, const RecordedSystem& system);
 
-/// Writes radius, mass and species by disc. If discs are equal these are fill values,
-/// which take no room.
+/// Writes radius, mass and species by disc. If discs are equal, these are fill values, which take
+/// no space.
 void write_bodies(hid_t file, const RecordedSystem& system);
 
 std::array<double, 3> edges_of(const RecordedSystem& system);
 
-/// The unit of a length to the power `lengths` times a time to the power `times`, in
-/// the words of H5MD's module `units`. Empty if the scene names no units for it.
+/// The unit of length^`lengths` times time^`times`, in the notation of H5MD's module `units`. Empty
+/// if the scene names no units.
 std::string unit_of(const RecordedSystem& system, int lengths, int times);
 void write_unit(hid_t dataset, const std::string& unit);
 

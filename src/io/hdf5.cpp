@@ -18,12 +18,12 @@ namespace carrom {
 
 void start_io() {
     std::signal(SIGXFSZ, SIG_IGN);
-    // Readers open recordings that grow, and runs have their own lock.
+    // No locks by HDF5, because readers open recordings that grow, and runs have their own lock.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5dont_atexit();
-    H5open();                         // started before MPI, so that it does not hook into MPI's end
-    H5Lunregister(H5L_TYPE_EXTERNAL); // no link of a file leads into another one
-    H5PLset_loading_state(0);         // no filter of a file loads a library
+    H5open(); // before MPI starts, so that HDF5 does not register an action for MPI's end
+    H5Lunregister(H5L_TYPE_EXTERNAL); // forbids links into other files
+    H5PLset_loading_state(0);         // forbids filters that load libraries
 }
 
 std::string hdf5_version() {
@@ -38,26 +38,27 @@ namespace carrom::h5 {
 
 namespace {
 
-constexpr std::size_t longest_text = std::size_t{1} << 28; // scenes end at 2^26
-constexpr unsigned most_links = 64;                        // a group in Carrom's files
+// Because scenes have at most 2^26 characters
+constexpr std::size_t longest_text = std::size_t{1} << 28;
+constexpr unsigned most_links = 64; // of a group in Carrom's files
 
-/// The innermost entries of the error stack have the system's words.
+/// The innermost entries of the error stack contain the system's text.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
     if (number < 2 && error->desc != nullptr && *error->desc != '\0')
         all += std::string(all.empty() ? "" : "; ") + error->desc;
-    std::replace(all.begin(), all.end(), '\n', ' '); // a time of day ends in one
+    std::replace(all.begin(), all.end(), '\n', ' '); // HDF5's time of day ends in a line break
     return 0;
 }
 
-/// Otherwise HDF5 would print its stack of errors to standard error, on every rank.
+/// Otherwise HDF5 would print its error stack to standard error on every rank.
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 /// Time stamps are left out, so that equal contents give equal bytes.
 void leave_out_times(const Properties& creation) { set(creation, H5Pset_obj_track_times, false); }
 
-/// Groups that keep the order of their members are of the newer kind, whose metadata,
-/// links included, have HDF5's own checksums.
+/// Groups that keep the order of their members have the newer format, whose metadata HDF5 protects
+/// by checksums.
 void as_checked_group(const Properties& creation) {
     leave_out_times(creation);
     set(creation, H5Pset_link_creation_order, unsigned{H5P_CRT_ORDER_TRACKED});
@@ -95,7 +96,7 @@ void write_and_close(Dataset dataset, const std::string& name, hid_t type, const
     dataset.close(name);
 }
 
-/// Rows of a data set, and memory for them without gaps.
+/// Rows of a data set, and contiguous memory for them.
 struct Selection {
     Space memory, file;
 };
@@ -133,7 +134,7 @@ Properties properties(hid_t kind) {
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
     leave_out_times(creation);
-    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED}); // like groups
+    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED}); // as for groups
     return creation;
 }
 
@@ -167,14 +168,14 @@ void create_file(const std::string& path, const std::function<void(hid_t file)>&
         build(file.id());
         file.close("cannot be written");
     } catch (...) {
-        file.abandon(); // closing would try to write again
+        file.abandon(); // because closing would try to write again
         throw;
     }
 }
 
 File open_alone(const std::string& path, Access access) {
     be_quiet();
-    const Descriptor plain(path, O_RDONLY); // HDF5 would wait for the other end of a pipe
+    const Descriptor plain(path, O_RDONLY); // because HDF5 would wait for the other end of a pipe
     if (access == Access::read && !check_seal(path)) check_heaps(path);
     if (H5Fis_hdf5(path.c_str()) == 0)
         throw FileError(
@@ -194,7 +195,7 @@ File open_file(const std::string& path, Access access) {
 }
 
 SharedFile::SharedFile(const std::string& path, Access access, const Communicator& communicator) {
-    if (native(communicator) == MPI_COMM_NULL) { // the program has no MPI
+    if (native(communicator) == MPI_COMM_NULL) { // because the program runs without MPI
         file_ = open_file(path, access);
         return;
     }
@@ -208,7 +209,8 @@ SharedFile::SharedFile(const std::string& path, Access access, const Communicato
 
 bool has(hid_t file, const std::string& path) {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-        // An error is no answer: HDF5 finds links of some damaged groups when it is asked again.
+        // An error does not mean that the object is missing: HDF5 finds links of some damaged
+        // groups in a second call.
         const std::string part = path.substr(0, end);
         if (checked(H5Lexists(file, part.c_str(), H5P_DEFAULT), part) == 0) return false;
         if (end == std::string::npos) return true;
@@ -264,7 +266,7 @@ void write_any_length(hid_t object, const std::string& name, const std::string& 
     write_attribute(object, name, text_type(H5T_VARIABLE).id(), space({}), &letters);
 }
 
-/// Small writes reach the file when the data set is closed.
+/// HDF5 writes small data to the file when the data set is closed.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values) {
     write_and_close(create_dataset(parent, name, type, dimensions, dataset_creation()), name, type,
@@ -296,7 +298,7 @@ void read_scalar(hid_t parent, const std::string& name, std::string& text) {
         throw FileError(name + " is not a text of ours");
     text.resize(H5Tget_size(type.id()));
     read_single(parent, name, type.id(), text.data());
-    text.resize(text.find_last_not_of('\0') + 1); // the padding
+    text.resize(text.find_last_not_of('\0') + 1); // removes the padding
 }
 
 std::vector<hsize_t> dimensions_of(hid_t dataset) {

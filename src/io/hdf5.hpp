@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5's C interface with errors that throw and handles that close themselves. Nothing outside this
-// module sees it.
+// HDF5's C interface with errors that throw and handles that close themselves. Only this module
+// uses it.
 //
 // A throw on one rank alone would leave the others waiting, so a collective call stands alone in
 // the body of an `on_all` (files.hpp), which brings the ranks together again.
@@ -45,12 +45,13 @@ public:
 
     hid_t id() const { return id_; }
 
-    /// Objects that have been written to are closed by this: some failures show only here.
+    /// Closes the object. Call it for objects that have been written to, because some failures
+    /// appear only here.
     void close(std::string_view what) {
         if (id_ >= 0) checked(close_function(std::exchange(id_, -1)), what);
     }
 
-    /// Leaves the object open for good.
+    /// Never closes the object.
     void abandon() { id_ = -1; }
 
 private:
@@ -74,7 +75,7 @@ void set(const Properties& list, const Set& set_values, Values... values) {
 }
 /// For a new data set without a time stamp, so that equal contents give equal bytes.
 Properties dataset_creation();
-/// For a data set that gets its place in the file at once, without numbers yet.
+/// For a new data set whose space in the file is allocated at once, without numbers yet.
 Properties allocated_creation();
 /// A data space of these dimensions; one number if there are none.
 Space space(std::span<const hsize_t> dimensions);
@@ -82,14 +83,14 @@ Space space(std::span<const hsize_t> dimensions);
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
-/// A file that joins others is read only if these are plain files below its folder.
+/// Opens a file. If it joins other files, these must be plain files below its folder.
 File open_file(const std::string& path, Access access);
-/// Opens a file whose parts are of no interest, or are checked by the caller.
+/// Opens a file without checking the files that it joins.
 File open_alone(const std::string& path, Access access);
 
-/// A file that ranks have open through MPI-IO, each to read or write its own rows.
-/// After a failure nothing collective is called on it, so it then stays open until the
-/// program's end, unless it was closed.
+/// A file that ranks have open through MPI-IO, each to read or write its own rows. After a failure
+/// no collective function may be called for it, so it then stays open until the program's end,
+/// unless it was closed before.
 class SharedFile {
 public:
     SharedFile() = default;
@@ -99,21 +100,22 @@ public:
     SharedFile(SharedFile&&) = default;
     SharedFile& operator=(SharedFile&&) = default;
     hid_t id() const { return file_.id(); }
-    /// To be called once all ranks are known to be well. **Collective.**
+    /// Call it when all ranks are known to have succeeded. **Collective.**
     void close() { file_.close("cannot be closed"); }
 
 private:
     File file_;
 };
 
-/// Whether an object exists at an absolute path. HDF5 must be asked for every group on
-/// the way.
+/// Whether an object exists at an absolute path. Every group on the way is tested, because HDF5
+/// fails if one is missing.
 bool has(hid_t file, const std::string& path);
-/// Makes the groups on the way, too.
+/// Also makes the missing groups of the path.
 Group create_group(hid_t parent, const std::string& name);
 Dataset create_dataset(hid_t parent, const std::string& name, hid_t type,
                        std::span<const hsize_t> dimensions, const Properties& creation);
-/// For writing. A data set for reading may be damaged: see checked_dataset.hpp.
+/// Opens a data set for writing. For reading see checked_dataset.hpp, because the data set may be
+/// damaged.
 Dataset open_dataset(hid_t parent, const std::string& name);
 /// The type of the numbers or the text in a data set.
 Type stored_type(hid_t dataset);
@@ -144,7 +146,7 @@ void write_scalar(hid_t parent, const std::string& name, const Number& number) {
 }
 void write_scalar(hid_t parent, const std::string& name, const std::string& text);
 
-/// Replaces one value; a text by one of the same length.
+/// Replaces one value, or a text by another one of the same length.
 void overwrite(hid_t parent, const std::string& name, std::uint64_t number);
 void overwrite(hid_t parent, const std::string& name, const std::string& text);
 
@@ -158,23 +160,23 @@ void read_scalar(hid_t parent, const std::string& name, std::string& text);
 /// The dimensions of a dataset.
 std::vector<hsize_t> dimensions_of(hid_t dataset);
 
-/// A range of rows. They run along a data set's only axis, or along the second one if
-/// the first is that of frames.
+/// A range of rows. Rows are along the data set's only axis, or along its second axis if the first
+/// one counts frames.
 struct RowRange {
     std::uint64_t begin = 0, end = 0, frame = 0;
 };
 
 std::uint64_t n_rows_of(hid_t dataset);
 
-/// Reads rows, at least one, of a data set. Not collective: a rank's rows are one
-/// large piece of the file, so MPI-IO has nothing to gather.
+/// Reads rows, at least one, of a data set. Not collective, because a rank's rows are one large
+/// piece of the file, which MPI-IO need not gather.
 void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers);
 
-/// Independent: each rank writes when it comes to it. Collective: all ranks write
-/// together, and MPI-IO may let a few of them write large pieces for all.
+/// Independent: each rank writes when it is ready. Collective: all ranks write together, and MPI-IO
+/// may let a few of them write large pieces for all.
 enum class Transfer { independent, collective };
 
-/// Writes this rank's rows of a data set, perhaps none. **Collective** if `transfer` is.
+/// Writes this rank's rows of a data set, which may be none. **Collective** if `transfer` is.
 void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 

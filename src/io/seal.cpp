@@ -16,7 +16,8 @@ namespace carrom {
 
 namespace {
 
-constexpr std::string_view mark = "carrom, checked:"; // then a checksum of 16 bytes: the file's end
+// Then 16 bytes of checksum, which end the file
+constexpr std::string_view mark = "carrom, checked:";
 constexpr std::size_t end_size = mark.size() + sizeof(StateHash);
 
 constexpr std::string_view heap_signature = "GCOL";
@@ -43,14 +44,14 @@ std::vector<std::byte> end_of_index(const Descriptor& file) {
     return end;
 }
 
-/// HDF5 writes lengths with 8 bytes, the lowest one first.
+/// HDF5 stores lengths in 8 bytes, the lowest one first.
 std::uint64_t length_at(std::string_view bytes) {
     std::uint64_t length = 0;
     for (std::size_t k = 8; k-- > 0;) length = length << 8 | static_cast<unsigned char>(bytes[k]);
     return length;
 }
 
-/// Whether HDF5 would come to the end of a heap's objects. Free room is object 0.
+/// Whether HDF5 would reach the end of a heap's objects. Free space is object 0.
 bool has_end(std::string_view heap) {
     if (heap.size() < heap_header) return true;
     const std::uint64_t size = length_at(heap.substr(place_of_size));
@@ -61,7 +62,7 @@ bool has_end(std::string_view heap) {
         const std::uint64_t length = length_at(object.substr(place_of_size));
         const bool is_free_room = object[0] == 0 && object[1] == 0;
         if (is_free_room && length == 0) return false;
-        if (length > object.size()) return true; // HDF5 finds this by itself
+        if (length > object.size()) return true; // HDF5 detects this itself
         place += is_free_room ? length
                               : object_header + (length + alignment - 1) / alignment * alignment;
     }

@@ -2,9 +2,8 @@
 // Checks of a small HDF5 file's bytes before HDF5 reads them, because HDF5 may hang on damage.
 //
 // A file that joins segments ends with a seal: a mark and the XXH3-128 of all bytes before. So any
-// damage of it is found in milliseconds. Where the damage has hit the seal itself, or another
-// program has written the file, `check_heaps` finds the one damage on which HDF5 is known to loop
-// without end.
+// damage is found in milliseconds. If the seal itself is damaged, or another program has written
+// the file, `check_heaps` detects the one damage on which HDF5 is known to loop for ever.
 #pragma once
 
 #include <optional>
@@ -14,18 +13,20 @@
 
 namespace carrom {
 
-/// Appends the mark and the checksum to a file that joins segments, and brings it to disk.
+/// Appends the mark and the checksum to a file that joins segments, and syncs it to disk.
 void seal_index(const std::string& path);
 
-/// The checksum at the end of a file that joins segments; none of other files. It is not compared.
+/// The checksum at the end of a file that joins segments, without comparing it; nothing for other
+/// files.
 std::optional<StateHash> seal_of(const std::string& path);
 
-/// Returns whether the file ends with a seal. Throws FileError if its bytes do not fit the seal.
+/// Returns whether the file ends with a seal. Throws FileError if the seal does not match its
+/// bytes.
 bool check_seal(const std::string& path);
 
 /// Throws FileError if a global heap of HDF5, which has the names of segments, holds an object
-/// without a size: HDF5 up to 2.0 would read it again and again. Files above 16 MiB are not
-/// searched, because files of Carrom that have such heaps are smaller.
+/// without a size: HDF5 up to 2.0 would read it for ever. Files above 16 MiB are not searched,
+/// because files of Carrom that have such heaps are smaller.
 void check_heaps(const std::string& path);
 
 } // namespace carrom

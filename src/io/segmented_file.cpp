@@ -87,7 +87,7 @@ bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
     return true;
 }
 
-/// Segments without the file that joins them are what somebody's run has recorded.
+/// Throws if there are segments without a joining file, because they are the recording of some run.
 void SegmentedFile::refuse_segments() const {
     const std::string name = segment_name(path_, 1);
     std::error_code error;
@@ -127,7 +127,7 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
         throw FileError("has other columns than this run records; see output.trajectory.fields");
 }
 
-/// Drops the rows beyond. The last segment that is left is written to next.
+/// Cuts off the rows behind `n`. The last remaining segment is written to next.
 void SegmentedFile::cut(std::uint64_t n_rows) {
     is_cut_ = n_rows < n_rows_;
     std::vector<FileSegment>& segments = index_.segments;
@@ -159,8 +159,8 @@ void SegmentedFile::make_segment() {
     segment.room = std::max<std::uint64_t>(1, wanted / bytes_per_row);
     const std::string path = segment_path(path_, segment.name);
     std::error_code error;
-    std::filesystem::create_directory(folder_of(path), error); // the run's folder must be there
-    ::unlink(path.c_str());                                    // left by a run that was killed
+    std::filesystem::create_directory(folder_of(path), error); // the run's folder must exist
+    ::unlink(path.c_str());                                    // a file that a killed run has left
     h5::create_file(path, [&](hid_t file) {
         for (const RecordedColumn& column : columns_) {
             const h5::Dataset dataset = h5::create_dataset(file, column.path, column.type,
@@ -220,7 +220,7 @@ void SegmentedFile::write_virtual(hid_t file, const RecordedColumn& column) cons
                     "cannot join segments");
         first += segment.rows;
     }
-    // Readers must not see zeros if a segment is missing.
+    // The fill value is NaN, so that readers do not get zeros if a segment is missing.
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     const std::int64_t none = -1;
     if (H5Tget_class(column.type) == H5T_FLOAT)
@@ -236,7 +236,7 @@ void SegmentedFile::commit() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] { commit_here(); });
 }
 
-/// Syncs the last segment and its name in the folder; earlier ones are on disk.
+/// Syncs the last segment and its name in the folder; earlier ones are already on disk.
 void SegmentedFile::sync_segment() const {
     if (segments().empty()) return;
     const std::string path = segment_path(path_, segments().back().name);
@@ -248,7 +248,7 @@ void SegmentedFile::sync_segment() const {
     Descriptor(folder_of(path), O_RDONLY | O_DIRECTORY).sync();
 }
 
-/// Somebody else's file in the place of the small one would be lost when that is renewed.
+/// Throws if another program's file has taken the small file's name, because it would be replaced.
 void SegmentedFile::refuse_other_file() const {
     std::error_code error;
     if (seal_ && std::filesystem::exists(path_, error) && seal_of(path_) != seal_)
@@ -266,11 +266,11 @@ void SegmentedFile::commit_here() {
         });
         seal_index(beside);
         const auto seal = seal_of(beside);
-        refuse_other_file(); // at the last moment, because another file may come meanwhile
+        refuse_other_file(); // immediately before, because another file may appear at any time
         seal_ = seal;
     });
     is_cut_ = false;
-    // Segments that the small file does not name belong to no recording.
+    // Removes segments that the small file does not list, because they belong to no recording.
     for (std::size_t k = segments().size() + 1;; ++k)
         if (::unlink(segment_path(path_, segment_name(path_, k)).c_str()) != 0) return;
 }

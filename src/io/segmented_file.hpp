@@ -2,14 +2,14 @@
 // A recording that grows while a run goes on: rows in segment files, joined by one small file.
 //
 // Readers open run/trajectory.h5. Its columns are HDF5 virtual datasets over the segments
-// run/trajectory/0001.h5, 0002.h5 and so on. A segment gets all its structure and room when it is
-// made. Later only numbers are written there: HDF5 itself would rewrite the superblock, which a
-// kill could damage.
+// run/trajectory/0001.h5, 0002.h5 and so on. A segment gets its whole structure and space when it
+// is made. Later only numbers are written there, because HDF5 itself would rewrite the superblock,
+// which a kill could damage.
 //
-// A commit brings the numbers to disk and replaces the small file by rename. The small file
-// holds the number of rows that count and checksums of all bytes; its own checksum follows its
-// last byte, where HDF5 does not read. Readers need no lock. Segments double in size; room
-// that is not used takes no space on disk. Rank 0 has the file, and all ranks know its state.
+// A commit syncs the numbers to disk and replaces the small file by rename. The small file contains
+// the number of valid rows and checksums of all bytes; its own checksum follows its last byte,
+// where HDF5 does not read. Readers need no lock. Each segment is twice as large as the one before;
+// its unused part takes no space on disk. Rank 0 has the file, and all ranks know its state.
 #pragma once
 
 #include <cstddef>
@@ -27,17 +27,17 @@
 
 namespace carrom {
 
-/// A row has `row` numbers along each axis; one number where there is no axis.
+/// A row has `row` numbers along each axis, or one number if there is no axis.
 struct RecordedColumn {
     std::string path;         ///< path of the data set in the file that readers open
-    hid_t type;               ///< 4 or 8 bytes, little-endian, also in memory
-    std::vector<hsize_t> row; ///< {} or {discs} or {discs, components}
-    std::string unit = {};    ///< the numbers' unit, if it is known (h5md.hpp)
+    hid_t type;               ///< type of 4 or 8 bytes, little-endian, also in memory
+    std::vector<hsize_t> row; ///< shape of a row: {} or {discs} or {discs, components}
+    std::string unit = {};    ///< unit of the numbers, if known (h5md.hpp)
 };
 
 class SegmentedFile {
 public:
-    /// Makes the parts of the small file that are no columns, with their groups.
+    /// Makes the groups and data sets of the small file that are not columns.
     using Build = std::function<void(hid_t file)>;
 
     /// `communicator` must outlive this.
@@ -49,19 +49,18 @@ public:
     /// was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with an existing file after `check` has accepted it, cut back to the
-    /// rows whose number in the column `step` is at most `last`. Returns false if there is
-    /// none. Reads all bytes, and throws code 2 if columns differ or a byte is damaged.
-    /// Changes nothing on disk: the next commit does, and must come before rows are
-    /// added. **Collective.**
+    /// Continues an existing file after `check` has accepted it, cut back to the rows whose number
+    /// in the column `step` is at most `last`. Returns false if there is no file. Reads all bytes,
+    /// and throws code 2 if columns differ or a byte is damaged. Changes nothing on disk: the next
+    /// commit does, and must come before rows are added. **Collective.**
     bool go_on(const std::string& step, std::int64_t last,
                const std::function<void(hid_t file)>& check);
 
     /// Makes the rows so far permanent and visible to readers. **Collective.**
     void commit();
 
-    /// The rest of an addition is done by rank 0 alone, in an `attempt`. `finish_addition`
-    /// throws its errors, because rank 0 must go on receiving what others send until then.
+    /// Rank 0 does the rest of an addition alone, in an `attempt`. `finish_addition` throws its
+    /// errors later, because rank 0 must first receive everything that other ranks send.
     template <class Act> void attempt(const Act& act) {
         if (!communicator_.is_root() || !failure_.empty()) return;
         try {
@@ -73,9 +72,10 @@ public:
     /// **Collective.**
     void finish_addition();
 
-    /// How many rows can be written before the next `add`, at least 1. May make a segment.
+    /// The number of rows, at least 1, that can be written before the next `add`. May make a
+    /// segment.
     std::uint64_t room();
-    /// Writes numbers of a column's next rows. They count after `add`, for all columns
+    /// Writes numbers of a column's next rows. They become valid by `add`, for all columns
     /// together.
     void write(std::size_t column, std::span<const std::byte> numbers);
     void add(std::uint64_t n_rows);
@@ -102,13 +102,14 @@ private:
     const Communicator& communicator_;
     Index index_;
     std::uint64_t n_rows_ = 0;
-    bool is_cut_ = false;                ///< since the last commit
-    ColumnHashers hashers_;              ///< for the last segment
-    std::vector<std::uint64_t> written_; ///< by column: bytes since the last `add`
-    /// The last segment. It stays open, so that no file that takes its name is written to.
+    bool is_cut_ = false;                ///< whether rows were cut off since the last commit
+    ColumnHashers hashers_;              ///< of the last segment
+    std::vector<std::uint64_t> written_; ///< for each column: bytes since the last `add`
+    /// The last segment. It stays open, so that no other file that takes its name is written to.
     std::unique_ptr<Descriptor> open_;
-    std::uint64_t open_size_ = 0;   ///< in bytes, all its room, which does not change
-    std::optional<StateHash> seal_; ///< the end of the small file, once it is ours
+    std::uint64_t open_size_ = 0; ///< its full size in bytes, which does not change
+    /// Checksum of the small file, as soon as this object has written it
+    std::optional<StateHash> seal_;
     std::string failure_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char *columns_path = "/carrom/recording/columns",
                      *segments_path = "/carrom/recording/segments";
 constexpr std::uint64_t largest_column = std::uint64_t{1} << 60;
-constexpr std::size_t n_fixed = 6; ///< a segment's numbers before the places of its columns
+constexpr std::size_t n_fixed = 6; ///< numbers of a segment that precede the places of its columns
 
 Index read_index(hid_t file, const std::string& path) {
     Index index{h5::read_column<std::uint64_t>(file, columns_path), {}};
@@ -49,7 +49,7 @@ std::string segment_path(const std::string& joining, const std::string& name) {
     return (std::filesystem::path(folder_of(joining)) / name).string();
 }
 
-/// The first bytes to hash differ from column to column.
+/// The first bytes in the hash differ between columns.
 ColumnHashers hashers_of_columns(std::size_t n_columns) {
     ColumnHashers hashers(n_columns);
     for (std::size_t k = 0; k < n_columns; ++k) hashers[k].add(std::as_bytes(std::span(&k, 1)));
@@ -98,7 +98,7 @@ std::optional<Index> read_checked_index(const std::string& path, bool are_rows_w
     for (const FileSegment& segment : index.segments) {
         try {
             const std::string part = segment_path(path, segment.name);
-            std::error_code error; // a part that may not be seen is an error when it is opened
+            std::error_code error; // an inaccessible part is an error when it is opened
             if (!std::filesystem::exists(part, error) && !error)
                 throw FileError(fmt::format("is not there; copy the folder {}/ together with {}",
                                             folder_of(segment.name),

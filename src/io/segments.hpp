@@ -18,25 +18,26 @@
 namespace carrom {
 
 struct FileSegment {
-    std::string name; ///< relative to the folder of the file that joins them
+    std::string name; ///< path relative to the folder of the joining file
     std::uint64_t rows = 0, room = 0;
-    StateHash numbers;                 ///< checksum of the rows that count
+    StateHash numbers;                 ///< checksum of the valid rows
     StateHash structure;               ///< checksum of all bytes that are not numbers
-    std::vector<std::uint64_t> places; ///< where the columns begin
+    std::vector<std::uint64_t> places; ///< offset of each column in the segment
 };
 
 /// The list of segments in the small file.
 struct Index {
-    std::vector<std::uint64_t> row_bytes; ///< bytes of a row, by column
+    std::vector<std::uint64_t> row_bytes; ///< bytes of a row for each column
     std::vector<FileSegment> segments;
 };
 
-/// "trajectory/0001.h5" for "run/trajectory.h5" and 1.
+/// For example "trajectory/0001.h5" for "run/trajectory.h5" and 1.
 std::string segment_name(const std::string& path, std::size_t number);
 /// The path of a segment; `joining` is the path of the joining file.
 std::string segment_path(const std::string& joining, const std::string& name);
 
-/// The hash so far of each column of a segment; their digests add up to the segment's.
+/// The present hash of each column of a segment; the sum of their digests is the segment's
+/// checksum.
 using ColumnHashers = std::vector<Hasher>;
 ColumnHashers hashers_of_columns(std::size_t n_columns);
 StateHash sum_of(const ColumnHashers& hashers);
@@ -49,9 +50,9 @@ StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
 
 void write_index(hid_t file, const Index& index);
 
-/// The index of a file that joins segments; none if its last bytes show that it is no
-/// such file. Checks the file's own bytes and the structure of its segments, and all
-/// their rows if `are_rows_wanted`. Throws FileError, naming the segment.
+/// The index of a file that joins segments; nothing if its last bytes show that it is another kind
+/// of file. Checks the file's own bytes and the structure of its segments, and all their rows if
+/// `are_rows_wanted`. Throws FileError, naming the segment.
 std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted);
 
 } // namespace carrom

@@ -10,11 +10,12 @@
 
 namespace carrom {
 
-/// Replaces `path` by a whole file, from one process. Returns the problem, or empty.
+/// Writes the whole file and replaces `path` by it, in one process. Returns the problem, or an
+/// empty text.
 std::string write_table_file(const std::string& path, std::span<const MeasuredTable> tables);
 
-/// Whether a file is one of tables. Others of that name are somebody's, as those are that cannot be
-/// read.
+/// Whether a file contains tables of Carrom. Other files of that name, and files that cannot be
+/// read, belong to somebody else and must not be replaced.
 bool is_table_file(const std::string& path);
 
 } // namespace carrom

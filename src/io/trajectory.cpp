@@ -20,18 +20,18 @@ namespace carrom {
 
 namespace {
 
-/// Discs that rank 0 collects at a time. More of them on many ranks, because each rank sends a
-/// message each time: so a frame takes as many messages on 256 ranks as on 16.
+/// The number of discs that rank 0 collects at a time. It grows with the number of ranks, because
+/// each rank sends a message each time, so a frame needs as many messages on 256 ranks as on 16.
 std::uint64_t discs_at_a_time(int n_ranks) {
     constexpr std::uint64_t least = std::uint64_t{1} << 16, most = std::uint64_t{1} << 20;
     return std::clamp(least / 16 * static_cast<std::uint64_t>(n_ranks), least, most);
 }
 
-/// Where a disc's numbers are among its words. A vector's third component is 0.
+/// The index of each number in a disc's words. A vector's third component is 0.
 enum Place : std::size_t {
     position = 0,
     velocity = 3,
-    collisions = 6, ///< with walls, then with discs
+    collisions = 6, ///< collisions with walls, then with discs
     psi6 = 8,
     neighbours = 10,
     image = 11,
@@ -39,15 +39,15 @@ enum Place : std::size_t {
     n_words = side_columns + n_side_columns
 };
 
-/// A disc's numbers at the time of the frame, in words. Real numbers are sent by their bits.
+/// A disc's numbers at the time of the frame, as words. Real numbers are sent as their bits.
 using DiscWords = std::array<std::uint64_t, n_words>;
 
-/// A field of a frame: `width` words of each disc from `place` on.
+/// A field of a frame: `width` words of each disc, from index `place` on.
 struct Field {
     std::string name;
     std::size_t place;
     hsize_t width;
-    hid_t type; ///< in the file; whole numbers keep their lowest bytes
+    hid_t type; ///< type in the file; whole numbers lose their highest bytes
     std::string unit;
 };
 
@@ -100,7 +100,7 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     }
 }
 
-/// Which words of a disc are collected: those of the layout's fields that are not always 0.
+/// The words of a disc that are collected: those of the layout's fields that are not always 0.
 class CollectedWords {
 public:
     explicit CollectedWords(const std::vector<Field>& fields) {
@@ -113,7 +113,7 @@ public:
     }
 
     std::size_t n() const { return places_.size(); }
-    /// Appends the words that are collected.
+    /// Appends the collected words of a disc.
     void append(const DiscWords& words, std::vector<std::uint64_t>& to) const {
         for (const std::size_t place : places_) to.push_back(words[place]);
     }
@@ -129,7 +129,7 @@ private:
     std::array<std::size_t, n_words> slots_{};
 };
 
-/// Collects the discs of all ranks on rank 0, slab after slab of ids.
+/// Collects the discs of all ranks on rank 0, by slabs of ids.
 class SlabStream {
 public:
     SlabStream(std::span<const DiscState> discs, const SideSpans& columns,
@@ -144,11 +144,11 @@ public:
                   [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     }
 
-    /// Returns the collected words of the ids [begin, end), which follow those of the last call;
-    /// nothing on other ranks. **Collective.**
+    /// Returns the collected words of the ids [begin, end), which must follow the ids of the last
+    /// call; nothing on other ranks. **Collective.**
     std::span<const std::uint64_t> next(std::uint64_t begin, std::uint64_t end) {
         const std::size_t width = collected_.n();
-        std::vector<std::uint64_t> mine; // of each disc the id, and then its words
+        std::vector<std::uint64_t> mine; // for each disc its id, and then its words
         for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) {
             mine.push_back(discs_[order_[next_]].id);
             collected_.append(shown(order_[next_]), mine);
@@ -206,7 +206,7 @@ private:
     std::span<const DiscState> discs_;
     SideSpans columns_;
     std::span<const BondOrder> orders_;
-    std::span<const DiscImage> images_; ///< those with ids to come
+    std::span<const DiscImage> images_; ///< those with larger ids
     double clock_;
     const TrajectoryLayout& layout_;
     const CollectedWords& collected_;
@@ -300,7 +300,7 @@ void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, dou
 
 void Trajectory::commit() {
     file_->commit();
-    // All frames are described each time, so this must be often enough but not take long.
+    // Each time all frames are described, so this must be frequent enough but not take long.
     if (communicator_.any(communicator_.is_root() &&
                           steps_.size() >= n_described_ + n_described_ / 4 + 1))
         describe();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of a run at regular steps as H5MD, discs in the order of their ids.
+// Frames of a run at regular steps as H5MD, with discs in the order of their ids.
 //
-// Frames stream through rank 0 in slabs of ids. So they are safe from kills and readable while the
-// run goes on (SegmentedFile), at the price of one rank's speed to the disk. Beside the file lies
-// an XDMF description for ParaView and VisIt.
+// Frames stream through rank 0 in slabs of ids. So they survive kills and can be read during the
+// run (SegmentedFile), but one rank's speed to the disk limits them. An XDMF description for
+// ParaView and VisIt is written beside the file.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,13 @@ namespace carrom {
 
 struct TrajectoryLayout {
     RecordedSystem system;
-    double velocity_unit = 1; ///< turns stored velocities into velocities per step
+    double velocity_unit = 1; ///< converts stored velocities to velocities per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_psi6 = false, has_neighbours = false, has_image = false;
-    SideColumnSet columns; ///< side columns in frames
-    bool is_single = true; ///< float32, else float64
-    CheckpointHeader run;  ///< its scene and species; without a text the file does not name its run
+    SideColumnSet columns; ///< side columns in each frame
+    bool is_single = true; ///< numbers are float32 instead of float64
+    /// Description of the run; if its text is empty, the file does not name its run
+    CheckpointHeader run;
 };
 
 class SegmentedFile;
@@ -45,23 +46,24 @@ public:
     /// CollectiveError, code 4, and the file is as it was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with the file, cut back to frames up to `step`, or with a new one if there is
-    /// none. Reads all of it, and throws code 2 if its layout differs or it is damaged. Nothing
-    /// changes on disk before `commit`, which must come before frames are added. Returns, on
-    /// rank 0, the step of the last frame that is left, or -1. **Collective.**
+    /// Continues the file, cut back to frames up to `step`, or makes a new one if there is none.
+    /// Reads all of it, and throws code 2 if its layout differs or it is damaged. Nothing changes
+    /// on disk before `commit`, which must come before frames are added. Returns on rank 0 the step
+    /// of the last remaining frame, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
-    /// The step of the last frame before `go_on` has cut the file back, on rank 0; -1 without one.
+    /// The step of the last frame before `go_on` has cut the file back, on rank 0; -1 if there was
+    /// none.
     std::int64_t recorded_before() const { return recorded_before_; }
 
-    /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, with the
-    /// layout's columns along them, and orders, if it has psi6 or neighbours. `images`,
-    /// if it has them, are those of a run of ids; the next rank's follow. **Collective.**
+    /// Adds a frame: the discs at `clock`, in any distribution over the ranks, the layout's columns
+    /// along them, and their orders if the layout has psi6 or neighbours. If the layout has images,
+    /// `images` are those of a run of ids, which the next rank's run follows. **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {}, std::span<const BondOrder> orders = {},
                 std::span<const DiscImage> images = {});
 
-    /// Makes all frames so far permanent and visible to readers. Renews the
-    /// description if it is old. **Collective.**
+    /// Makes all frames so far permanent and visible to readers. Writes the XDMF description again
+    /// if it is old. **Collective.**
     void commit();
 
     /// Describes all frames in XDMF, for tools based on VTK. **Collective.**

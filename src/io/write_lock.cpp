@@ -21,7 +21,7 @@ namespace carrom {
 
 namespace {
 
-/// A run that was just killed may not have ended yet.
+/// A run that was just killed may still be ending.
 constexpr std::chrono::milliseconds patience(2000), pause(50);
 
 std::string this_process() {
@@ -47,7 +47,7 @@ WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
 
 WriteLock::~WriteLock() {
     if (file_ < 0) return;
-    if (!is_lost()) ::unlink(path_.c_str()); // before another run can have it
+    if (!is_lost()) ::unlink(path_.c_str()); // before another run can get the lock
     ::close(file_);
 }
 
@@ -58,7 +58,7 @@ WriteLock::WriteLock(WriteLock&& other) noexcept
       problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)),
       folder_(std::move(other.folder_)) {}
 
-/// Returns true if there is nothing to wait for.
+/// Returns true if waiting is useless or unnecessary.
 bool WriteLock::try_once() {
     holder_.clear();
     const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
@@ -77,7 +77,7 @@ bool WriteLock::try_once() {
         ::close(file);
         return holder_.empty();
     }
-    if (!leads_to(path_, file)) { // a holder that ends removes it
+    if (!leads_to(path_, file)) { // a holder removes the file when it ends
         ::close(file);
         return false;
     }

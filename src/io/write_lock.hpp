@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets one run at a time write to a place. Two would remove each other's files and
+// Allows only one run at a time to write to a path. Two runs would remove each other's files and
 // write into the same ones.
 //
-// The lock is flock's, on a small file of its own (HDF5 locks its files itself). The
-// kernel releases it with the process. Lustre shares it between nodes if it is mounted
-// with `flock`. On a file system without locks there is no protection.
+// The lock is flock's, on a small file of its own (HDF5 locks its files itself). The kernel
+// releases it when the process ends. Lustre shares it between nodes if it is mounted with `flock`.
+// On a file system without locks there is no protection.
 #pragma once
 
 #include <memory>
@@ -16,19 +16,20 @@ namespace carrom {
 
 class WriteLock {
 public:
-    /// Takes the lock of `path`, on one rank. If another process has it and keeps it for two
-    /// seconds, `holder` names the process; else it is empty, also if there are no locks.
+    /// Takes the lock of `path`, on one rank. If another process keeps it for two seconds, `holder`
+    /// names that process; otherwise it is empty, also if there are no locks.
     explicit WriteLock(std::string path);
-    /// Releases the lock, and removes the file unless another one has its name.
+    /// Releases the lock, and removes the file unless the name now belongs to another file.
     ~WriteLock();
     WriteLock(WriteLock&& other) noexcept;
     WriteLock& operator=(WriteLock&&) = delete;
 
     const std::string& holder() const { return holder_; }
-    /// Why there can be no lock, for example because the name is a symbolic link; else empty.
+    /// The reason why there can be no lock, for example because the name is a symbolic link;
+    /// otherwise empty.
     const std::string& problem() const { return problem_; }
-    /// Whether the lock is held and its name leads elsewhere: its folder, or it, was moved,
-    /// removed or replaced.
+    /// Whether the lock is held but its name leads elsewhere, because the file or its folder was
+    /// moved, removed or replaced.
     bool is_lost() const;
 
 private:
@@ -36,7 +37,7 @@ private:
 
     std::string path_, holder_, problem_;
     int file_ = -1;                      ///< open while the lock is held
-    std::unique_ptr<HeldFolder> folder_; ///< where the lock lies, while it is held
+    std::unique_ptr<HeldFolder> folder_; ///< the folder of the lock, while it is held
 };
 
 } // namespace carrom

@@ -18,7 +18,7 @@ struct Row {
     std::uint64_t number;
 };
 
-/// Three numbers of each disc, or one.
+/// The numbers of each disc: three, or one.
 std::string numbers(const Row& row, const TrajectoryLayout& layout, const char* element,
                     bool are_vectors) {
     return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}{6}\"><DataItem "
@@ -36,7 +36,7 @@ std::string attribute(const char* name, const char* kind, const std::string& ite
                        name, kind, item);
 }
 
-/// Numbers that all frames share: radius or species.
+/// Numbers that are equal in all frames: radius or species.
 std::string fixed(const std::string& file, const TrajectoryLayout& layout, const char* name,
                   const char* type) {
     return attribute(name, "Scalar",
@@ -49,7 +49,7 @@ std::string fixed(const std::string& file, const TrajectoryLayout& layout, const
 
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
                 std::span<const FileSegment> segments, std::span<const std::int64_t> steps) {
-    if (!layout.has_position) return; // without positions there is nothing to see
+    if (!layout.has_position) return; // a picture needs positions
     const std::string file = std::filesystem::path(path).filename().string();
     std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain><Grid "
                        "Name=\"discs\" GridType=\"Collection\" "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A description of a trajectory in XDMF 2, with which VTK (ParaView, VisIt) opens its segments
-// without a copy. It names segments, because some VTKs have an HDF5 without virtual datasets.
+// without a copy. It refers to the segments, because some versions of VTK have an HDF5 without
+// virtual datasets.
 #pragma once
 
 #include <cstdint>

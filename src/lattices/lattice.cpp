@@ -34,7 +34,7 @@ Shape shape_of(std::uint64_t n_discs, std::uint64_t rows, bool is_staggered,
     return shape;
 }
 
-/// The distance of nearest sites, as a share of the lattice's width.
+/// The distance of nearest sites relative to the lattice's width.
 double nearest_share(const Shape& shape) {
     const double infinity = std::numeric_limits<double>::infinity();
     const double dx = shape.x_spans > 0 ? 1 / shape.x_spans : infinity;
@@ -56,9 +56,9 @@ double free_radius_in_square(const Shape& shape, double side, double radius) {
     return std::isfinite(q) ? (q * span - 2 * radius) / (2 * (1 + q)) : span / 2;
 }
 
-/// Half the gap in a rectangle with edges `length` along and `height` across rows.
-/// Neighbours at the distance d = 2r + 2s span edges less d, so each kind of neighbour gives
-/// an equation for d, and the least d counts. Staggered rows give A d^2 - 2 B d + C = 0.
+/// Half the gap in a rectangle with edges `length` along and `height` across rows. Sites span the
+/// edges minus d, with the distance d = 2r + 2s of neighbours. So each kind of neighbour gives an
+/// equation for d, and the smallest solution counts. Staggered rows give A d^2 - 2 B d + C = 0.
 double free_radius_in(const Shape& shape, double length, double height, double radius) {
     if (length == height) return free_radius_in_square(shape, length, radius);
     double nearest = std::numeric_limits<double>::infinity();
@@ -73,7 +73,8 @@ double free_radius_in(const Shape& shape, double length, double height, double r
         nearest = std::min(nearest, rest / (half + root));
         if (shape.lattice.rows > 2) nearest = std::min(nearest, 2 * height / (2 + shape.y_spans));
     }
-    return std::min({nearest, length, height}) / 2 - radius; // in a tube the walls are nearer
+    // In a narrow tube the walls are nearer
+    return std::min({nearest, length, height}) / 2 - radius;
 }
 
 /// Spreads the sites over the box.
@@ -88,7 +89,7 @@ void place(Shape& shape, const Box& box, double radius) {
     lattice.y0 = shape.y_spans > 0 ? low : height / 2;
 }
 
-/// Tries lattices whose rows lie along that axis, and keeps the widest.
+/// Tries lattices with rows along that axis, and keeps the one with the widest gaps.
 void try_rows_along(Axis axis, std::uint64_t n_discs, const Box& box, double radius,
                     std::optional<Lattice>& widest) {
     const auto [length, height] = turned(axis, box.x, box.y);
@@ -98,7 +99,7 @@ void try_rows_along(Axis axis, std::uint64_t n_discs, const Box& box, double rad
     for (std::uint64_t rows = 1; rows <= most_rows; ++rows) {
         for (const int kind : {0, 1, 2}) {
             if (kind == 2 && (n_discs + rows / 2 + rows - 1) / rows < 2)
-                continue; // odd rows would be empty
+                continue; // because odd rows would be empty
             Shape shape = shape_of(n_discs, rows, kind > 0, kind == 2);
             shape.lattice.axis = axis;
             place(shape, box, radius);
@@ -114,17 +115,17 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, dou
     try_rows_along(longer_axis(box), n_discs, box, radius, widest);
     if (!box.is_square())
         try_rows_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
-    // Neighbours may touch. A rounding error of L that makes them overlap is within
-    // the method's tolerance.
+    // Neighbours may touch. If a rounding error of L makes them overlap, it is within the method's
+    // tolerance.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;
     widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box.longest(),
-                                   0.0); // rounding must not close a gap
+                                   0.0); // because rounding must not make the gap negative
     return widest;
 }
 
 Point lattice_site(const Lattice& lattice, DiscId id) {
     __extension__ using Wide = unsigned __int128;
-    // Empty sites are spread evenly: ids are stretched over the sites.
+    // Empty sites are spread evenly, by scaling ids to sites.
     const auto site = static_cast<std::uint64_t>(static_cast<Wide>(id) * lattice.n_sites() /
                                                  lattice.n_discs);
     std::uint64_t row = 0, column = 0;

@@ -2,12 +2,12 @@
 // A lattice of N discs between the walls with the widest gaps, and a random shake that closes none
 // of them.
 //
-// It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1
-// sites), stretched to fill the box, with every number of rows along the longer side
-// and then along the other one. The lattice whose discs may move farthest wins. Its
-// sites keep a distance s to the walls, half of that to each other, so each disc may
-// be moved by up to s in any direction: no overlap, none outside. Sites in excess of N
-// stay empty, spread evenly. Finding it costs O(sqrt N) in a square, a site O(1).
+// It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
+// stretched to fill the box, with every number of rows along the longer side and then along the
+// other one. The lattice whose discs may move farthest is chosen. Its sites leave a gap s to the
+// walls and 2 s between discs, so each disc may be moved by up to s in any direction without an
+// overlap. Sites in excess of N stay empty, spread evenly. Finding it costs O(sqrt N) in a square,
+// a site O(1).
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ namespace carrom {
 
 struct Lattice {
     std::uint64_t n_discs = 0;
-    std::uint64_t rows = 0, columns = 0; ///< columns: the sites of an even row
+    std::uint64_t rows = 0, columns = 0; ///< columns: number of sites in an even row
     bool is_staggered = false;           ///< odd rows are shifted by half a spacing
-    bool odd_rows_are_shorter = false;   ///< by one site
-    Axis axis = Axis::x;                 ///< rows lie along it; x below means this axis
-    double x0 = 0, y0 = 0;               ///< the first site
-    double dx = 0, dy = 0;               ///< spacings along and between rows
-    double free_radius = 0;              ///< s: how far each disc may move
+    bool odd_rows_are_shorter = false;   ///< odd rows have one site less
+    Axis axis = Axis::x;                 ///< rows run along this axis; x below means this axis
+    double x0 = 0, y0 = 0;               ///< position of the first site
+    double dx = 0, dy = 0;               ///< spacing in a row, and between rows
+    double free_radius = 0;              ///< s: the distance by which each disc may move
 
     std::uint64_t n_sites() const { return rows * columns - (odd_rows_are_shorter ? rows / 2 : 0); }
 };
@@ -46,7 +46,7 @@ Point lattice_site(const Lattice& lattice, DiscId id);
 /// A site, moved to a random place within `free_radius`. Rows lie along `axis`.
 Point shaken(Point site, double free_radius, std::uint64_t seed, DiscId id, Axis axis = Axis::x);
 
-/// The site, shaken: moved to a random place within `free_radius`.
+/// The site, shifted to a random position within `free_radius`.
 Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed);
 
 /// A number coprime to n and near its golden section. Sites taken in such strides mix

@@ -17,7 +17,7 @@ void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
             {{call, 0, fmt::format("has room for {} numbers; it wants {}", size, wanted)}});
 }
 
-/// Calls `put(disc, i)` for each of the own discs, the i-th as the box sees it, by all threads.
+/// Calls `put(disc, i)` for each own disc, the i-th as the box sees it, on all threads.
 template <class Put> void for_each_shown(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

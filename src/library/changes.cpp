@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies of a simulation in memory, and discs that the program changes between steps.
+// Copies of a simulation in memory, and changes of discs by the program between steps.
 //
-// Both go on from the stored state as a restart from a checkpoint does, so they have its promise:
-// the same bits on any number of ranks and threads. A disc that is changed starts anew at the
-// present time; all others keep their stored bits, and so setting what is there already changes
-// nothing. Price: about as much as setting up a run of these discs, and the memory of a second one
-// meanwhile.
+// Both continue from the stored state as a restart from a checkpoint does, so they also have the
+// same bits on any number of ranks and threads. A changed disc starts anew at the present time. All
+// others keep their stored bits, so setting the present values changes nothing. Price: about as
+// much as setting up a run of these discs, and the memory of a second one meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -25,9 +24,9 @@ namespace carrom {
 namespace {
 
 constexpr const char* call_name = "change_discs";
-constexpr std::size_t most_named = 5; ///< problems of discs that a message has from a rank
+constexpr std::size_t most_named = 5; ///< problems of discs that a message lists for each rank
 
-/// Where a disc's centre may be at the present step.
+/// The region of discs' centres at the present step.
 class Room {
 public:
     explicit Room(const Run& run)
@@ -92,7 +91,7 @@ Change change_of(const Disc& disc, const DiscState& shown, double unit, double s
             disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};
 }
 
-/// Makes the disc start anew at the present time. `shown` is how the box saw it.
+/// Makes the disc start anew at the present time. `shown` is the disc as the box saw it before.
 void apply(const Disc& disc, const Change& change, const DiscState& shown, const Frame& frame,
            double time, double unit, DiscState& stored) {
     const double x = stored.x_at(time), y = stored.y_at(time);
@@ -100,7 +99,7 @@ void apply(const Disc& disc, const Change& change, const DiscState& shown, const
     stored.y = change.of_place ? disc.y - frame.y : y;
     stored.tau = time;
     if (!change.of_velocity) return;
-    if (frame.periods.are_moving()) { // the box may see an image with another velocity
+    if (frame.periods.are_moving()) { // because the box may show an image with another velocity
         stored.vx += (disc.vx / unit - shown.vx) / frame.slowing;
         stored.vy += (disc.vy / unit - shown.vy) / frame.slowing;
     } else {
@@ -109,7 +108,7 @@ void apply(const Disc& disc, const Change& change, const DiscState& shown, const
     }
 }
 
-/// Discs in the order of their ids, and what is wrong with them.
+/// The problems of discs in the order of their ids.
 std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vector<Disc>& present,
                                  const Run& run) {
     const auto has_same_id = [](const Disc& a, const Disc& b) { return a.id == b.id; };
@@ -137,11 +136,11 @@ std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vect
     return problems;
 }
 
-/// What a call has changed on this rank.
+/// The changes of a call on this rank.
 struct Changed {
     bool places = false, any = false;
-    /// Box lengths between where moved discs flew, outside of a periodic box, and where the box saw
-    /// them. Their stored places are new, so no sync brings them back.
+    /// Box lengths between the stored positions of moved discs, outside of a periodic box, and
+    /// their positions in it. The new stored positions are in the box, so no sync brings them back.
     std::vector<Crossing> crossings{};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a public Scene, which is keys and text, to a checked scene and its first discs.
+// Turns a public Scene, which is keys and text, into a checked scene and its first discs.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@
 
 namespace carrom {
 
-/// Runs `read`. In the problems of its InputError keys are named as the program has
-/// set them, not as options of the command line.
+/// Runs `read`. If it throws InputError, the problems name keys as the program has set them, and
+/// not as options of the command line.
 template <class Read> auto with_named_keys(const Read& read) {
     try {
         return read();

@@ -40,7 +40,8 @@ Session::Session(int fortran_communicator) {
 }
 
 Session::~Session() {
-    if (!has_mpi_ended()) Departure(state_->ranks).leave(); // the program may have ended MPI
+    // Because the program may have ended MPI
+    if (!has_mpi_ended()) Departure(state_->ranks).leave();
 }
 
 std::string Session::mpi_library() { return mpi_version(); }
@@ -55,7 +56,7 @@ int Session::run(const std::function<int()>& body) const {
             const int code = body();
             departure.leave();
             return code;
-        } catch (const std::exception& error) { // the others may wait for this rank
+        } catch (const std::exception& error) { // because other ranks may wait for this one
             departure.leave(error.what());
             throw;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inside of a Session.
+// The State of a Session.
 #pragma once
 
 #include <memory>
@@ -13,9 +13,9 @@
 namespace carrom {
 
 struct Session::State {
-    std::unique_ptr<Mpi> mpi; ///< if the session has started MPI; ends last
+    std::unique_ptr<Mpi> mpi; ///< set if the session has started MPI; destroyed last
     Communicator ranks;
-    Communicator ends = duplicate_of(ranks); ///< where ranks agree on the end of Session::run
+    Communicator ends = duplicate_of(ranks); ///< by which ranks agree on the end of Session::run
 };
 
 inline const Communicator& ranks_of(const Session& session) { return session.state().ranks; }

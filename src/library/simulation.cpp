@@ -23,11 +23,11 @@ namespace carrom {
 
 namespace {
 
-/// At most one crossing a disc comes with each sync, which is 64 steps after the last one if a step
-/// has one micro-step.
+/// Each sync brings back at most one crossing a disc. Syncs are 64 steps apart if a step has one
+/// micro-step.
 constexpr std::int64_t steps_between_readings = 64;
 
-/// Images are of periodic sides at rest alone.
+/// Images can be counted only for periodic sides at rest.
 bool may_count_images(const Options& options, const SceneParameters& scene) {
     return options.counts_images && !scene.effects.are_sheared() &&
            (scene.effects.is_periodic_x() || scene.effects.is_periodic_y());
@@ -35,7 +35,7 @@ bool may_count_images(const Options& options, const SceneParameters& scene) {
 
 /// **Collective.**
 Tuning tuning_of(const Options& options, const Communicator& ranks) {
-    std::vector<Problem> problems; // perhaps on one rank only
+    std::vector<Problem> problems; // these may be on one rank only
     if (options.threads < 0)
         problems.push_back({"Options", 0, fmt::format("{} threads", options.threads)});
     agree_on_problems(ranks, problems);
@@ -75,7 +75,8 @@ Simulation::State::State(SceneParameters checked, RunStart start, const Communic
 }
 
 std::int64_t Simulation::State::ImageReading::next_due(std::int64_t) const {
-    return std::numeric_limits<std::int64_t>::max(); // a step where the run stops anyway will do
+    // Any step at which the run stops anyway is enough
+    return std::numeric_limits<std::int64_t>::max();
 }
 
 bool Simulation::State::ImageReading::act() {
@@ -100,7 +101,7 @@ void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> mos
                                fmt::format("{} pairs of discs would overlap, the deepest by {:.3g}",
                                            totals.overlapping_pairs, totals.deepest_overlap)}});
     }
-    checkpoints_.reset(); // it refers to the run
+    checkpoints_.reset(); // because it refers to the old run
     run_ = std::move(next);
     read_images_often();
     if (wanted_checkpoints_) keep_checkpoints(*wanted_checkpoints_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inside of a public Simulation.
+// The State of a public Simulation.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ struct Simulation::State {
     State& operator=(const State&) = delete;
 
     Run& run() const { return *run_; }
-    /// Goes on with that state at the present step instead. Throws InputError if more pairs than
-    /// `most_overlaps` overlap, and nothing has changed then. **Collective.**
+    /// Replaces the state at the present step by `start`. Throws InputError and changes nothing if
+    /// more than `most_overlaps` pairs overlap. **Collective.**
     void replace(RunStart start, std::optional<std::uint64_t> most_overlaps);
     /// **Collective.**
     void keep_checkpoints(CheckpointOutput wanted);
@@ -35,7 +35,7 @@ struct Simulation::State {
     Tuning tuning;
 
 private:
-    /// Keeps crossings of periodic sides from filling the memory where nobody reads the images.
+    /// Reads crossings of periodic sides regularly, so that they do not fill the memory.
     struct ImageReading final : StepAction {
         explicit ImageReading(Run& of) : run(of) {}
         std::int64_t next_due(std::int64_t) const override;
@@ -47,16 +47,16 @@ private:
 
     void read_images_often();
 
-    std::unique_ptr<Run> run_; ///< another one once discs were changed
+    std::unique_ptr<Run> run_; ///< replaced when discs are changed
     std::optional<ImageReading> image_reading_;
     std::optional<CheckpointOutput> wanted_checkpoints_;
-    std::optional<Checkpoints> checkpoints_; ///< from keep_checkpoints on
+    std::optional<Checkpoints> checkpoints_; ///< set by keep_checkpoints
 };
 
-/// The present state of a run, to go on from in memory. **Collective.**
+/// The present state of a run, from which another run can start. **Collective.**
 RunStart stored_start(Run& run);
 
-/// The scene of a run at its present state, without what was only for its start.
+/// The scene of a run at its present state, without keys that only concern its start.
 SceneParameters scene_to_go_on(const Run& run);
 
 } // namespace carrom

@@ -36,7 +36,7 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const SceneParameters
     return wanted;
 }
 
-/// Returns the simulation's state after all ranks have come to this call. **Collective.**
+/// Returns the simulation's state when all ranks have reached this call. **Collective.**
 const Simulation::State& met(const Simulation& simulation, const char* call,
                              const std::string& path) {
     const Simulation::State& state = simulation.state();
@@ -55,10 +55,10 @@ struct TrajectoryWriter::State {
 
     const Run& run() const { return simulation.run(); }
 
-    const Simulation::State& simulation; ///< its run is another one once discs were changed
+    const Simulation::State& simulation; ///< its run is replaced when discs are changed
     std::string file;
     carrom::Trajectory trajectory;
-    std::int64_t last_step = -1; ///< the last frame's; the same on all ranks
+    std::int64_t last_step = -1; ///< step of the last frame; the same on all ranks
 };
 
 TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::string& path,

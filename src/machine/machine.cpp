@@ -32,19 +32,21 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
-/// Threads for each core where ranks share cores. Two are usual in trials on small machines.
+/// Threads for each core beyond which sharing cores is reported. Two are usual in trials on small
+/// machines.
 constexpr int most_crowded = 2;
-/// Two threads are no matter, however few the discs are.
+/// Up to two threads are accepted for any number of discs.
 constexpr int few_threads = 2;
 
-/// A batch script may set it from a variable that does not exist; then it counts as unset.
+/// The variable OMP_NUM_THREADS. If it is empty it counts as unset, because a batch script may set
+/// it from a variable that does not exist.
 std::string thread_variable() {
     const char* text = std::getenv("OMP_NUM_THREADS");
     return text == nullptr ? "" : text;
 }
 
-/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the
-/// outermost one. Returns 0 if that is no number.
+/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost one.
+/// Returns 0 if it is not a number.
 int threads_from_environment() {
     const std::string text = thread_variable();
     int threads = 0;
@@ -60,17 +62,17 @@ std::string host_name() {
     return name;
 }
 
-/// The number of ranks with this rank's key. **Collective.**
+/// The number of ranks that have the same key as this rank. **Collective.**
 int sharers_of(std::uint64_t key, const Communicator& ranks) {
     std::vector<std::uint64_t> keys(static_cast<std::size_t>(ranks.size()), 0);
     keys[static_cast<std::size_t>(ranks.rank())] = key;
-    ranks.sum(keys); // a sum of one number and zeros: every rank sees every key
+    ranks.sum(keys); // each rank contributes its own key and zeros, so every rank gets all keys
     return static_cast<int>(std::count(keys.begin(), keys.end(), key));
 }
 
 constexpr std::uint64_t without_limit = std::numeric_limits<std::uint64_t>::max();
 
-/// The memory of the node, swap included.
+/// The memory of the node, including swap.
 std::uint64_t memory_of_node() {
     std::ifstream facts("/proc/meminfo");
     std::uint64_t sum = 0;
@@ -80,14 +82,14 @@ std::uint64_t memory_of_node() {
     return sum > 0 ? sum : without_limit;
 }
 
-/// The least limit of this process's control group (version 2, or `memory` of version
-/// 1) and of the groups that contain it.
+/// The smallest limit of this process's control group (version 2, or `memory` of version 1) and of
+/// the groups that contain it.
 std::uint64_t memory_of_control_group() {
     std::uint64_t least = without_limit;
     const auto read_limit = [&least](const std::filesystem::path& path) {
         std::ifstream file(path);
         if (std::uint64_t bytes = 0; file >> bytes)
-            least = std::min(least, bytes); // "max" is no number
+            least = std::min(least, bytes); // "max" is not a number
     };
     std::ifstream groups("/proc/self/cgroup");
     for (std::string line; std::getline(groups, line);) {
@@ -104,8 +106,8 @@ std::uint64_t memory_of_control_group() {
     return least;
 }
 
-/// The stack that OpenMP gives each of its threads, in bytes, if the environment says it; else 0.
-/// Its format is a number, and B, K, M or G; K without any.
+/// The stack in bytes of each OpenMP thread, if the environment sets it; else 0. Its format is a
+/// number and B, K, M or G; K if there is no letter.
 std::size_t stack_of_threads() {
     for (const char* name : {"OMP_STACKSIZE", "GOMP_STACKSIZE"}) {
         const char* const text = std::getenv(name);
@@ -124,10 +126,10 @@ std::size_t stack_of_threads() {
     return 0;
 }
 
-/// Threads that do nothing until all of them have started, or one could not.
+/// Threads that wait until all of them have started, or until one has failed to start.
 class WaitingThreads {
 public:
-    /// A `stack` of 0 bytes is the system's.
+    /// If `stack` is 0, threads have the system's stack.
     WaitingThreads(int n, std::size_t stack) {
         pthread_attr_t attributes;
         pthread_attr_init(&attributes);
@@ -158,7 +160,7 @@ private:
 
 struct AllowedCores {
     int count = 1;
-    std::uint64_t key = 0; ///< equal on two ranks that may use the very same cores of the same node
+    std::uint64_t key = 0; ///< equal on ranks of a node that may use the same cores
 };
 
 AllowedCores allowed_cores() {
@@ -216,8 +218,8 @@ void check_threads(int threads, const Communicator& ranks) {
 }
 
 std::string limit_in_the_way() {
-    constexpr rlim_t least_memory = 128 << 20; // Open MPI and two threads take 105 MiB
-    constexpr rlim_t least_files = 24;         // Open MPI and a run without a folder take 17
+    constexpr rlim_t least_memory = 128 << 20; // Open MPI with two threads takes 105 MiB
+    constexpr rlim_t least_files = 24;         // Open MPI and a run without a folder open 17 files
     const auto limit_of = [](auto kind) {
         rlimit limit{};
         return getrlimit(kind, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
@@ -235,7 +237,7 @@ std::string limit_in_the_way() {
 
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks) {
-    // Where threads are bound, only OpenMP knows the cores that they may use together.
+    // If threads are bound, only OpenMP knows the cores that they may use together.
     const int cores = std::max(1, omp_get_num_procs());
     const int sharers = sharers_of(allowed_cores().key, ranks);
     const std::uint64_t own = n_discs / static_cast<std::uint64_t>(ranks.size());
@@ -270,7 +272,8 @@ std::uint64_t memory_per_rank(const Communicator& ranks) {
 }
 
 std::uint64_t peak_resident_bytes() {
-    // Not getrusage: its ru_maxrss survives exec and may be that of a large parent process.
+    // Without getrusage, because its ru_maxrss survives exec and may be that of a large parent
+    // process.
     std::ifstream status("/proc/self/status");
     constexpr std::string_view label = "VmHWM:";
     for (std::string line; std::getline(status, line);)

@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// Samples are at least this many micro-steps apart in long runs.
+/// In long runs samples are at least this many micro-steps apart.
 constexpr std::int64_t usual_interval = 64;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -35,8 +35,8 @@ void BlockAverages::begin() {
     first_step_ = block_step_ = sample_step_ = run_.system.step();
     interval_.emplace(run_.system, run_.ranks);
     present_ = {};
-    // Each sample costs some nanoseconds a disc, and another window of the event-driven
-    // method if it is between syncs. A run whose energy changes needs more of them.
+    // Each sample costs some nanoseconds a disc, and another window of the event-driven method if
+    // it is between syncs. A run whose energy changes needs more samples.
     const auto wanted = static_cast<std::int64_t>(system_.keeps_energy ? fewest_blocks
                                                                        : most_blocks / 2);
     steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - first_step_) / wanted, 1,
@@ -46,8 +46,8 @@ void BlockAverages::begin() {
     blocks_.clear();
 }
 
-/// A time from sample to sample that is at most `steps`, so that samples come at all times between
-/// two syncs, where that is possible.
+/// A time between samples of at most `steps` for which samples fall on different times between two
+/// syncs, if that is possible.
 std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
     for (std::int64_t less = steps; less > steps / 2; --less)
         if (std::gcd(less * system_.micro_steps, system_.sync_every) ==
@@ -69,7 +69,7 @@ void BlockAverages::sample_if_due() {
         begin();
 }
 
-/// Does not use `state`, because the sums of the simulation have all that averages need.
+/// Does not use `state`, because the simulation's sums contain everything that averages need.
 void BlockAverages::sample(const SampledState& /*state*/) {
     const std::int64_t step = run_.system.step();
     const MotionSample now = interval_->now();
@@ -91,7 +91,7 @@ void BlockAverages::add(std::int64_t step, const Block& block) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
-    // A run may be longer than was announced.
+    // A run may be longer than planned.
     if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 
@@ -125,7 +125,7 @@ void BlockAverages::Block::keep(KeptNumbers& kept) {
     keep_tensor(kept, motion.stress);
 }
 
-/// Averages begin anew after a restart if they are to be over other steps.
+/// Averages begin anew after a restart if they are now over other steps.
 void BlockAverages::keep(KeptNumbers& kept) {
     kept.same(run_.scene.averages_from);
     MotionInterval::Pending pending;
@@ -149,7 +149,7 @@ void BlockAverages::keep(KeptNumbers& kept) {
     if (kept.is_right()) interval_.emplace(run_.system, run_.ranks, pending, last);
 }
 
-/// The blocks are the last numbers, so their count is not stored.
+/// The blocks are the last numbers, so that their count need not be stored.
 void BlockAverages::keep_blocks(KeptNumbers& kept) {
     if (!kept.is_restored())
         for (Block& block : blocks_) block.keep(kept);
@@ -170,14 +170,15 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(step - sample_step_);
     block.motion = integrals_between(system_, before, sample, steps);
-    for (const MotionSample* one : {&before, &sample}) { // these change evenly between two samples
+    // These are assumed to change linearly between two samples
+    for (const MotionSample* one : {&before, &sample}) {
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);
     }
     return block;
 }
 
-/// Whether discs have left by open sides. Averages of those that are there then change.
+/// Whether discs have left through open sides, which changes averages over the others.
 bool BlockAverages::lost_discs() const {
     if (system_.keeps_discs || blocks_.empty()) return false;
     const auto n_in = [](const Block& block) { return block.motion.n_discs / block.steps(); };
@@ -188,7 +189,7 @@ template <class Value>
 Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
     Estimate result;
     result.value = value(whole);
-    if (std::isnan(result.value)) return result; // it is undefined in this scene
+    if (std::isnan(result.value)) return result; // undefined in this scene
     std::vector<double> terms;
     for (const Block& block : blocks_) terms.push_back(value(block));
     const BlockedMean blocked = blocked_mean(terms);
@@ -267,7 +268,7 @@ Averages BlockAverages::averages() const {
         whole, [n](const Block& block) { return 2 * block.pairs / (n * block.steps()); });
     result.mean_free_time = inverse_of(result.collision_frequency);
     if (!system_.keeps_discs) result.collision_frequency = result.mean_free_time = {};
-    // One disc keeps its speed along each axis, so no theory of equilibrium holds for it.
+    // A single disc keeps its speed along each axis, so theories of equilibrium do not hold for it.
     if (system_.is_plain && n > 1) fill_counted_pressures(result, whole, sample);
     result.mean_speed = estimate(whole, [](const Block& b) { return b.speed / b.steps(); });
     result.speed_kurtosis = estimate(whole, [](const Block& b) { return b.kurtosis / b.steps(); });

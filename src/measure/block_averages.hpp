@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The averages of every run, with errors from its history in blocks of equal length in time. It is
-// a measurement that is always on, at times of its own.
+// The averages of every run, with errors from its history in blocks of equal length in time. This
+// measurement is always on, and has its own sampling times.
 //
-// A block is a number of steps. When there are `most_blocks`, each two become one, and blocks are
-// twice as long from then on. The discs are sampled at fixed steps, which do not depend on syncs.
-// Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp), and
-// so are counts of collisions; mean speed and kurtosis are taken to change evenly. Samples are 64
-// micro-steps apart in long runs, closer in runs that are short for an error or whose energy
+// A block is a number of steps. When there are `most_blocks`, each two are joined to one, and later
+// blocks are twice as long. The discs are sampled at fixed steps, which do not depend on syncs.
+// Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp), and so
+// are counts of collisions; mean speed and kurtosis are assumed to change linearly. Samples are 64
+// micro-steps apart in long runs, and closer if a run is too short for an error or if its energy
 // changes. Price of a sample: two passes over the discs, some five nanoseconds a disc.
 #pragma once
 
@@ -27,17 +27,17 @@ class BlockAverages : public Measurement {
 public:
     explicit BlockAverages(MeasuredRun& run);
 
-    /// Begins anew at the present step.
+    /// Starts the averages anew at the present step.
     void begin() override;
     bool has_begun() const { return interval_.has_value(); }
     /// The first step after `step` at which averages begin or a sample is due.
     std::int64_t next_due(std::int64_t step) const;
     void sample_if_due();
-    /// Begins the present interval with the present velocities, because effects have just acted.
+    /// Starts the present interval with the present velocities, because effects have just acted.
     void begin_interval() { interval_->begin(interval_->now()); }
     void sample(const SampledState& state) override;
     void keep(KeptNumbers& kept) override;
-    /// None: a run's report and the library show `averages`.
+    /// No tables, because a run's report and the library show `averages`.
     std::vector<MeasuredTable> tables() const override { return {}; }
 
     /// Averages up to the present step. **Collective.**
@@ -68,15 +68,14 @@ private:
 
     const AveragedSystem& system_;
     std::optional<MotionInterval> interval_; ///< since the last sample, once averages have begun
-    std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0; ///< the beginning, the
-                                                                     ///< beginning of the present
-                                                                     ///< block, and the last sample
+    /// The first step, the first step of the present block, and the step of the last sample
+    std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0;
     Block present_;
     std::int64_t steps_per_sample_ = 1, steps_per_block_ = 1;
     std::vector<Block> blocks_;
 };
 
-/// Gamma(n + 1/2) / Gamma(n), to a few ulp for any n >= 1.
+/// Gamma(n + 1/2) / Gamma(n), exact to a few ulp for any n >= 1.
 double gamma_ratio(double n);
 
 } // namespace carrom

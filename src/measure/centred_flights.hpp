@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Displacements of discs, and their velocities then and now, relative to the centre of mass.
+// Displacements of discs, and their velocities at the beginning and now, relative to the centre of
+// mass.
 //
-// Where nothing stops the discs' common motion along a periodic axis, or something drives it, it
-// would add V^2 t^2 to mean square displacements and V^2 to mean products of velocities, for ever.
-// It is no diffusion, and depends on the frame, so it is subtracted from each disc. A disc that is
-// alone keeps it, because it would be at rest. So do discs that give their momentum to obstacles,
-// walls or a thermostat, because the centre of mass of N such discs diffuses with D / N.
+// If nothing stops the discs' common motion V along a periodic axis, it adds V^2 t^2 to mean square
+// displacements and V^2 to mean products of velocities. This motion is not diffusion and depends on
+// the frame, so it is subtracted from each disc. It is not subtracted from a single disc, which
+// would then be at rest. Nor is it subtracted if discs give momentum to obstacles, walls or a
+// thermostat, because the centre of mass of N such discs diffuses with D / N.
 #pragma once
 
 #include <array>
@@ -24,12 +25,12 @@ struct Flight {
     double mass = 1;
 };
 
-/// Bounds on a component's size, the same on all ranks.
+/// Bounds of the components, the same on all ranks.
 struct FlightBounds {
     double way = 0, velocity = 0;
 };
 
-/// Whether the motion of so many discs along x, and along y, is seen from their centre of mass.
+/// Whether the common motion of `n_discs` discs along x, and along y, is subtracted.
 std::array<bool, 2> is_centred(const SceneParameters& scene, double n_discs);
 
 /// Mean squares of displacements along x and y, and the mean product of velocities, over all ranks'

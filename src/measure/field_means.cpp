@@ -18,15 +18,16 @@ struct Moments {
 
 const double* samples_of(BlockNumbers cell) { return cell.data() + 1 + n_field_moments; }
 
-/// kT along both axes for each disc, from squares about the mean of each sample.
+/// kT along both axes for each disc, from squares relative to the mean of each sample.
 Moments thermal_of(BlockNumbers cell) {
     const double* const sampled = samples_of(cell);
     const double n = sampled[sample_in_pair]; // 0 / 0 is NaN
     return {sampled[sample_flux_xx] / n, sampled[sample_flux_xy] / n, sampled[sample_flux_yy] / n};
 }
 
-/// The sum of m c^2 c / 2 over velocities c about the mean (vx, vy), from that over velocities:
-/// `energy` along the same axis as `v`, whose row of the flux is (along_x, along_y).
+/// The sum of m c^2 c / 2 for velocities c relative to the mean (vx, vy), computed from the same
+/// sum for velocities in the box. `energy` and `v` are along one axis, and (along_x, along_y) is
+/// the row of the flux for it.
 double heat_about(double energy, double v, double along_x, double along_y, double flux, double mass,
                   double vx, double vy) {
     return energy - v * flux / 2 - vx * along_x - vy * along_y + mass * (vx * vx + vy * vy) * v;
@@ -49,7 +50,7 @@ void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums) {
     sums[sample_flux_xx] += of_squares * (xx - m * vx * vx);
     sums[sample_flux_xy] += of_squares * (xy - m * vx * vy);
     sums[sample_flux_yy] += of_squares * (yy - m * vy * vy);
-    if (n < 3) return; // the thermal motion of two discs about their mean carries no heat
+    if (n < 3) return; // the thermal motion of two discs relative to their mean carries no heat
     const double of_heat = n * n / ((n - 1) * (n - 2));
     sums[sample_in_three] += n;
     sums[sample_heat_x] += of_heat * heat_about(sample.value(cell, field_energy_x), vx, xx, xy,
@@ -70,7 +71,7 @@ double common_temperature(std::span<const double> cells) {
 
 namespace {
 
-/// What discs carry about the mean velocity of the block.
+/// Kinetic fluxes relative to the mean velocity of the block.
 struct Kinetic {
     Moments stress;
     double heat_x, heat_y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields of a cell over a block of samples, about the cell's mean velocity in the block.
+// Fields of a cell over a block of samples, relative to the cell's mean velocity in the block.
 //
 // The mean velocity V of a block comes from the same discs, so part of their thermal motion goes
 // with it: kT comes out too low by D kT / n, with n counts of discs in the block and D degrees of
@@ -25,34 +25,34 @@
 
 namespace carrom {
 
-/// Sums over the samples of a block, the same on all ranks. Squares and flows of heat are about
-/// V_k, with the weights that make their means those of all n_k discs.
+/// Sums over the samples of a block, the same on all ranks. Squares and flows of heat are relative
+/// to V_k, with weights that correct for the discs' own part of V_k.
 enum SampleMoment : std::uint8_t {
-    sample_count,   ///< of samples with a disc in the cell
-    sample_drift,   ///< M_k V_k^2
-    sample_in_pair, ///< discs of samples with two or more
+    sample_count,   ///< number of samples with a disc in the cell
+    sample_drift,   ///< sum of M_k V_k^2
+    sample_in_pair, ///< discs in samples with two or more discs
     sample_flux_xx,
     sample_flux_xy,
     sample_flux_yy,
-    sample_in_three, ///< discs of samples with three or more
+    sample_in_three, ///< discs in samples with three or more discs
     sample_heat_x,
     sample_heat_y,
     n_sample_moments
 };
 
-/// Count and moments of a cell in a block, in the order that tables keep.
+/// Number of counts and moments of a cell in a block, in the order in which tables store them.
 inline constexpr std::size_t n_block_numbers = 1 + n_field_moments + n_sample_moments;
 using BlockNumbers = std::span<const double, n_block_numbers>;
 using SampleSums = std::span<double, n_sample_moments>;
 
-/// Adds to `sums` what one sample has in a cell, with the discs of all ranks.
+/// Adds one sample of a cell, with the discs of all ranks, to `sums`.
 void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 
-/// kT from all cells of a table in a block, one after another, weighted by discs.
+/// kT of all cells of a table in a block, weighted by discs; `sums` has one cell after another.
 double common_temperature(std::span<const double> cells);
 
-/// The table's columns from `count` on. `common` is kT of all cells. It is NaN where no sample
-/// holds two discs, and flows of heat are NaN where none holds three.
+/// The table's columns from `count` on. `common` is kT of all cells. Temperatures are NaN if no
+/// sample has two discs, and flows of heat are NaN if no sample has three.
 std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
                               double area);
 

@@ -8,8 +8,8 @@ namespace carrom {
 
 namespace {
 
-/// Usual terms of discs are some 2^50 units, and sums come to 2^75 of these. Those of collisions
-/// are some 2^47 units, so that the largest in a million is below 2^51.
+/// Typical terms of discs are some 2^50 units, and sums of them have up to 2^75 units. Terms of
+/// collisions are some 2^47 units, so that the largest in a million is below 2^51.
 constexpr double headroom = 0x1p75, headroom_of_contacts = 0x1p78;
 constexpr std::size_t words_per_cell = 1 + 4 * n_field_moments;
 
@@ -76,7 +76,7 @@ ExactSum FieldSums::sum_at(std::size_t cell, std::size_t moment) const {
 
 namespace {
 
-/// Each sum is four words of 32 bits, so that carries stay apart.
+/// Each sum is stored as four words of 32 bits, so that carries do not overlap.
 void append_words(const ExactSum& sum, std::vector<std::uint64_t>& words) {
     for (const std::uint64_t word : {sum.low_word(), sum.high_word()}) {
         words.push_back(word & 0xffffffff);

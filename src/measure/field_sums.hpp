@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums over the cells of a grid, for fields such as density, flow and stress.
 //
-// All sums are exact, and ranks are joined only when somebody asks. So they have the same bits on
-// any number of ranks, and the sum over all cells is that of all discs to the last bit. Memory: 490
-// bytes for each cell on each rank.
+// All sums are exact, and the sums of ranks are added only when they are needed. So they have the
+// same bits on any number of ranks, and the sum over all cells is exactly the sum over all discs.
+// Memory: 490 bytes for each cell on each rank.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@
 
 namespace carrom {
 
-/// The sums of each cell. The first eight are over discs, the others over collisions: impulse
-/// times distance, which over time and area is the collisions' part of the pressure tensor, and
-/// energy times distance, which is that of the flow of energy.
+/// The sums of each cell. The first eight are over discs, the others over collisions: impulse times
+/// distance, which divided by time and area is the collisions' part of the pressure tensor, and
+/// energy times distance, which in the same way gives their part of the flow of energy.
 enum FieldMoment : std::uint8_t {
     field_mass,
     field_momentum_x,
@@ -46,19 +46,19 @@ inline constexpr std::size_t n_contact_moments = 5;
 inline constexpr std::size_t n_disc_moments = n_field_moments - n_contact_moments;
 using ContactUnits = std::array<std::int64_t, n_contact_moments>;
 
-/// x and y of a vector, with which GCC and Clang compute at once.
+/// x and y of a vector; GCC and Clang compute both at once.
 using Pair [[gnu::vector_size(16)]] = double;
-/// Whole numbers beside these, of 64 and of 32 bits.
+/// Two integers of 64 bits, and two of 32 bits.
 using PairOfWords [[gnu::vector_size(16)]] = std::uint64_t;
 using PairOfCells [[gnu::vector_size(8)]] = std::int32_t;
 
-/// Stress xx and yy, stress xy twice, and flow of energy.
+/// Stress xx and yy, stress xy in both members, and flow of energy.
 struct ContactTerms {
     Pair normal, shear, flow;
 };
 
-/// Cells in a length, and where the origin lies in widths of cells. The first cell is column 1 and
-/// row 1, so that no place in a cell is negative and rounding towards 0 finds the cell.
+/// The inverse width of cells, and the origin in widths of cells. The first cell is column 1 and
+/// row 1, so that positions in cells are positive and rounding towards 0 finds the cell.
 struct PlacedGrid {
     PlacedGrid(std::size_t n_x, std::size_t n_y, const Extent& box)
         : per_length{static_cast<double>(n_x) / (box.x_high - box.x_low),
@@ -68,7 +68,7 @@ struct PlacedGrid {
     Pair per_length, origin;
 };
 
-/// Column and row; those of a place beyond 2^31 cells are negative.
+/// Column and row; negative for positions beyond 2^31 cells.
 inline PairOfCells cell_at(Pair place) { return __builtin_convertvector(place, PairOfCells); }
 inline bool are_same(PairOfCells a, PairOfCells b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -76,7 +76,7 @@ inline bool are_same(PairOfCells a, PairOfCells b) {
 
 class FieldSums {
 public:
-    /// `speed` and `length` are usual sizes, the same on all ranks: units follow from them.
+    /// `speed` and `length` are typical values, the same on all ranks, from which units follow.
     FieldSums(std::size_t n_cells, double speed, double length);
 
     std::size_t size() const { return counts_.size(); }
@@ -89,7 +89,7 @@ public:
                      energy = (xx + yy) / 2;
         const std::array<double, n_disc_moments> terms = {mass,    px, py,          xx,
                                                           px * vy, yy, energy * vx, energy * vy};
-        // One test is faster than one for each term.
+        // One test of the whole disc is faster than a test for each term.
         const bool is_usual = vx * vx + vy * vy < usual_square_ && mass < usual_mass;
         if (is_usual) [[likely]]
             for (std::size_t k = 0; k < n_disc_moments; ++k)
@@ -97,8 +97,8 @@ public:
         else
             for (std::size_t k = 0; k < n_disc_moments; ++k) sums[k].add(terms[k]);
     }
-    /// What a collision adds, in units of the sums. Minus half of impulse times `velocity` is the
-    /// energy that goes from p to q.
+    /// The terms that a collision adds, in units of the sums. Minus half of impulse times
+    /// `velocity` is the energy that p gives to q.
     ContactTerms terms_of(Pair impulse_of_p, Pair from_p_to_q, Pair velocity) const {
         const Pair twice = sum_of(impulse_of_p * velocity);
         return {impulse_of_p * from_p_to_q * normal_scales_,
@@ -117,56 +117,58 @@ public:
         if (++gathered.n == most_terms) [[unlikely]]
             hand_over(cell);
     }
-    /// Whole units, whose parts add up to them, as `rounded` gives them. The hardest blows are cut
-    /// to 2^62 units.
+    /// The terms in whole units, as `rounded` returns them. The hardest collisions are cut at 2^62
+    /// units.
     static ContactUnits units_of(const ContactTerms& terms);
     void add_contact(std::size_t cell, const ContactUnits& units) {
         for (std::size_t k = 0; k < n_contact_moments; ++k)
             sums_[n_field_moments * cell + field_stress_xx + k].add_units(units[k]);
     }
 
-    /// Adds the sums over discs of as many cells, and leaves those over collisions alone.
+    /// Adds the sums over discs of another object with as many cells. Does not change the sums over
+    /// collisions.
     void add_discs(const FieldSums& other);
     void clear_discs();
     /// Replaces the sums over discs by those of all ranks. **Collective.**
     void join_discs(const Communicator& ranks);
 
-    /// Counts and sums of all ranks. **Collective.**
+    /// The counts and sums of all ranks, as words. **Collective.**
     std::vector<std::uint64_t> joined_words(const Communicator& ranks) const;
-    /// Adds such words, of as many cells. False where they are of another number.
+    /// Adds words of `joined_words`. Returns false if their number is wrong.
     bool add_words(const std::vector<std::uint64_t>& words);
-    /// Adds the cells of `other` that begin at `first`.
+    /// Adds the cells of `other` from number `first` on.
     void add(const FieldSums& other, std::size_t first);
 
     std::uint64_t count(std::size_t cell) const { return counts_[cell]; }
     double value(std::size_t cell, FieldMoment moment) const {
         return sum_at(cell, moment).value();
     }
-    /// The cells of so many species, one species after another, as those of all species.
+    /// For cells of `n` species, one species after another: the sums over all species in each cell.
     FieldSums over_species(std::size_t n_species) const;
-    /// All cells in one.
+    /// All cells in one cell.
     FieldSums total() const { return over_species(size()); }
 
 private:
-    /// A usual term has 50 bits. At 8 times the usual speed and this mass the largest term is 2^11
-    /// times as large.
+    /// Typical terms have 50 bits. At 8 times the typical speed and this mass the largest term is
+    /// 2^11 times as large.
     static constexpr double usual_mass = 4, usual_speeds = 8;
 
     static Pair turned(Pair pair) { return Pair{pair[1], pair[0]}; }
-    /// Both numbers of it are the sum.
+    /// The sum of both numbers, in both places.
     static Pair sum_of(Pair pair) { return pair + turned(pair); }
 
-    /// A double of this size has no fraction: to add it rounds a smaller number to a whole one,
-    /// which then stands in the low bits. That takes a third of the work of a conversion.
+    /// A double of this size has no fraction. So adding it to a smaller number rounds that to a
+    /// whole number, which is then in the low bits. That takes a third of the work of a conversion.
     static constexpr double rounder = 0x1.8p52;
     static constexpr std::uint64_t bits_of_rounder = std::bit_cast<std::uint64_t>(rounder);
-    /// Both numbers rounded to the nearest whole ones, each with `bits_of_rounder` beside it.
+    /// Both numbers rounded to the nearest whole ones, plus `bits_of_rounder` each.
     static PairOfWords rounded(Pair units) { return std::bit_cast<PairOfWords>(units + rounder); }
 
-    /// Terms of collisions that wait in 64 bits, because sums in 128 bits take twice the work. So
-    /// many terms of that size have 62 bits together. Each one brings `bits_of_rounder` along.
+    /// Terms of collisions, summed in 64 bits first, because sums in 128 bits take twice the work.
+    /// The sum of `most_terms` terms of that size has 62 bits. Each term includes
+    /// `bits_of_rounder`.
     struct Gathered {
-        PairOfWords normal{}, shear{}, flow{}; ///< both words of `shear` are the same
+        PairOfWords normal{}, shear{}, flow{}; ///< both words of `shear` are equal
         std::uint64_t n = 0;
     };
     static constexpr double most_gathered = 0x1p51;
@@ -176,12 +178,12 @@ private:
     ExactSum sum_at(std::size_t cell, std::size_t moment) const;
 
     double speed_, length_;
-    std::array<double, n_disc_moments> scales_{}; ///< of the sums of discs
-    /// Those of collisions' sums, with the factors of -1 and 1/2 that terms have.
+    std::array<double, n_disc_moments> scales_{}; ///< scales of the sums over discs
+    /// Scales of the sums over collisions, with the factors of -1 and 1/2 that their terms have.
     Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
-    double usual_square_ = 0; ///< terms of a disc with a lower squared speed have 62 bits
+    double usual_square_ = 0; ///< the terms of a disc with a lower squared speed have 62 bits
     std::vector<std::uint64_t> counts_;
-    std::vector<ExactSum> sums_;     ///< without what is gathered
+    std::vector<ExactSum> sums_;     ///< without the terms in `gathered_`
     std::vector<Gathered> gathered_; ///< of each cell
 };
 
@@ -189,7 +191,7 @@ private:
 /// widths of cells. `from` and `to` are shares of the line, in order; columns and rows may lie
 /// outside the grid.
 template <class Act> void for_each_part_of_line(double u, double v, double du, double dv, Act act) {
-    const auto cell = [](double place) { // std::floor is a call
+    const auto cell = [](double place) { // because std::floor is a function call
         const auto whole = static_cast<std::int64_t>(place);
         return static_cast<double>(whole) > place ? whole - 1 : whole;
     };

@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Syncs bring discs back that fly on through periodic sides. These lengths are part
-/// of their displacement.
+/// Follows the box lengths by which syncs bring discs back, because they are part of the
+/// displacement.
 void Flights::follow() {
     if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.system, run_.ranks);
 }
@@ -23,7 +23,7 @@ std::span<const DiscState> Flights::flown(std::span<const DiscState> shown) {
     return flown_;
 }
 
-/// Flights begin here.
+/// Starts all displacements here.
 void Flights::begin(std::span<const DiscState> discs) {
     const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     std::vector<FirstPlace> places;
@@ -34,7 +34,7 @@ void Flights::begin(std::span<const DiscState> discs) {
     if (lengths_) lengths_->begin_anew();
 }
 
-/// Largest component of a velocity now, or when flights began.
+/// The largest velocity component now, or at the start of the displacements.
 double Flights::fastest_of(std::span<const DiscState> discs) const {
     const double unit = run_.system.velocity_unit();
     double fastest = 0;
@@ -45,7 +45,7 @@ double Flights::fastest_of(std::span<const DiscState> discs) const {
     return run_.ranks.max(fastest);
 }
 
-/// Mean squares of displacements along x and y since then, and the mean product of velocities.
+/// Mean squares of displacements along x and y since the start, and the mean product of velocities.
 std::array<double, 3> Flights::means(std::span<const DiscState> discs, std::uint64_t n_discs) {
     const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()
@@ -75,7 +75,7 @@ std::array<double, 3> Flights::means(std::span<const DiscState> discs, std::uint
     return mean_flights(flights, bounds, run_.scene, run_.ranks);
 }
 
-/// Brings each first place to the rank whose run of ids has it.
+/// Sends each first position to the rank whose run of ids contains it.
 void Flights::place_first(std::span<const FirstPlace> places) {
     const std::uint64_t n = run_.ranks.sum(std::uint64_t{places.size()});
     PieceStream stream(run_.ranks, places, n, [](const FirstPlace& place) { return place.id; });

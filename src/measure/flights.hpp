@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far discs have come since a first sample, on through periodic sides, and what is left of
-// their velocities. First places are kept by id, on any rank (pieces.hpp). Price: 16 bytes a
-// disc, 32 with velocities, and in periodic boxes 16 more; at a sample each disc is sent once.
+// Displacements of discs since a first sample, continued through periodic sides, and the
+// correlation with their first velocities. First positions are stored by id, on any rank
+// (pieces.hpp). Price: 16 bytes a disc, 32 with velocities, and in periodic boxes 16 more; at a
+// sample each disc is sent once.
 #pragma once
 
 #include <array>
@@ -19,11 +20,11 @@ public:
     Flights(MeasuredRun& run, bool have_velocities)
         : run_(run), have_velocities_(have_velocities) {}
 
-    /// To be called before the first step, or at a restart. **Collective.**
+    /// Call it before the first step, or at a restart. **Collective.**
     void follow();
-    /// The discs where they would be if no periodic side had brought them back since the last sync.
+    /// The discs at positions that no periodic side has changed since the last sync.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
-    /// Begins all flights here. **Collective.**
+    /// Starts all displacements here. **Collective.**
     void begin(std::span<const DiscState> flown);
     /// Mean squares of displacements along x and y since the beginning, and the mean
     /// product of velocities. **Collective.**
@@ -42,7 +43,7 @@ private:
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< for this rank's run of ids
     std::vector<std::array<double, 2>> first_velocities_;
-    std::optional<ImageCounts> lengths_; ///< since the beginning, in a periodic box
+    std::optional<ImageCounts> lengths_; ///< of a periodic box, since the beginning
     DiscStates flown_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each disc's place and velocity by id, on through periodic sides and as seen from the centre of
-// mass along these. For whoever compares discs with themselves at other times.
+// Each disc's position and velocity by id, continued through periodic sides, and along periodic
+// axes relative to the centre of mass. For measurements that compare discs with themselves at other
+// times.
 //
 // Discs are kept by runs of ids (pieces.hpp). Price of a sample: each disc is sent once.
 #pragma once
@@ -18,8 +19,8 @@
 
 namespace carrom {
 
-/// Places, and velocities per step, by id. Each is an array of its own, so that loops over discs
-/// run in vectors.
+/// Positions, and velocities per step, by id. Each component is an array, so that loops over discs
+/// are vectorised.
 struct FollowedStates {
     std::vector<double> x, y, vx, vy;
 
@@ -31,17 +32,18 @@ class FollowedDiscs {
 public:
     explicit FollowedDiscs(MeasuredRun& run);
 
-    /// From the present step on. **Collective.**
+    /// Follows discs from the present step on. **Collective.**
     void begin();
-    /// Present states of the discs of this rank's run of ids. **Collective.**
+    /// The present states of this rank's run of ids. **Collective.**
     const FollowedStates& now();
     DiscId first_id() const { return first_id_; }
     std::uint64_t n_discs() const { return n_discs_; }
 
-    /// Box lengths that discs have gone, so that a restart follows them on. **Collective.**
+    /// Stores or restores box lengths that discs have moved, so that a restart can follow them.
+    /// **Collective.**
     void keep(KeptNumbers& kept);
-    /// A number of each disc of this rank's run, stored for all ranks, or taken from what is
-    /// stored. **Collective.**
+    /// Stores a number of each disc of all ranks, or restores those of this rank's run.
+    /// **Collective.**
     void keep(KeptNumbers& kept, std::vector<double>& of_discs) const;
 
 private:
@@ -52,7 +54,7 @@ private:
     std::uint64_t n_discs_ = 0;
     DiscId first_id_ = 0;
     std::size_t n_own_ = 0;
-    double speed_ = 0; ///< by which units of sums are chosen
+    double speed_ = 0; ///< typical speed, from which units of sums follow
     std::optional<ImageCounts> lengths_;
     FollowedStates states_;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The setting by which tables are written to an HDF5 file as well. Quantities with large tables
-// share it.
+// The setting that also writes tables to an HDF5 file. Quantities with large tables share it.
 #pragma once
 
 #include "scene/quantity.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts the box lengths that each disc has flown on beyond a periodic box, for
-// displacements and for H5MD's `image`. A sync brings a disc back by whole lengths, and
-// the engine notes that. Counts are kept by runs of ids (pieces.hpp). Price: 16 bytes a
-// disc, and each disc that has been brought back is sent once whenever counts are read.
+// Counts how many box lengths each disc has moved through periodic sides, for displacements and for
+// H5MD's `image`. A sync brings a disc back by whole lengths, which the engine records. Counts are
+// stored by runs of ids (pieces.hpp). Price: 16 bytes a disc, and whenever counts are read each
+// disc that was brought back since then is sent once.
 #pragma once
 
 #include <span>
@@ -17,31 +17,33 @@
 
 namespace carrom {
 
-/// The own discs where they would be if no sync had brought them back since the last one.
+/// The own discs at positions that no sync has changed since the last one.
 DiscStates flown_on(const DiscSystem& system);
 
 class ImageCounts {
 public:
-    /// Counts from 0 at the present step on. Both arguments must outlive this.
+    /// Counts from 0, from the present step on. Both arguments must outlive this.
     ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks);
     ~ImageCounts();
     ImageCounts(const ImageCounts&) = delete;
     ImageCounts& operator=(const ImageCounts&) = delete;
 
-    /// Goes on from members of stored places. **Collective.**
+    /// Restores the counts from `stored` places; the last two arguments name their members.
+    /// **Collective.**
     void go_on(std::span<const FirstPlace> stored, double FirstPlace::* x, double FirstPlace::* y);
 
-    /// Counts from 0 at the last sync on.
+    /// Counts from 0, from the last sync on.
     void begin_anew();
-    /// Adds box lengths by which own discs have been brought back other than by syncs.
+    /// Adds box lengths by which own discs were brought back outside of syncs.
     void add(std::span<const Crossing> crossings) {
         crossings_.insert(crossings_.end(), crossings.begin(), crossings.end());
     }
 
-    /// The counts of this rank's run of ids at the last sync. To be called often,
-    /// because crossings since the last call take memory. **Collective.**
+    /// The counts of this rank's run of ids at the last sync. Call it often, because crossings
+    /// since the last call take memory. **Collective.**
     std::span<const DiscImage> counts();
-    /// Writes the counts to members of places, which have the same ids or are none. **Collective.**
+    /// Copies the counts into members of `places`, which has the same ids or is empty.
+    /// **Collective.**
     void store(std::vector<FirstPlace>& places, double FirstPlace::* x, double FirstPlace::* y);
     /// The counts of this rank's run of ids at the present step. **Collective.**
     std::vector<DiscImage> now();
@@ -54,7 +56,7 @@ private:
     const Communicator& ranks_;
     Pieces pieces_;
     std::vector<DiscImage> counts_;
-    std::vector<Crossing> crossings_; ///< by own discs, not yet in `counts_`
+    std::vector<Crossing> crossings_; ///< crossings of own discs that are not in `counts_` yet
 };
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of measured curves: a sample of a curve is a vector, and its values have errors from
-// blocks of samples (statistics/blocking.hpp).
+// Errors of measured curves. A sample of a curve is a vector, and its errors come from blocks of
+// samples (statistics/blocking.hpp).
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@
 
 namespace carrom {
 
-/// Keeps blocks as a measurement's last numbers. Checkpoints of Carrom 0.2 have none: the curve
-/// then stays without errors, because no block has the samples before the restart.
+/// Stores blocks behind a measurement's other numbers, or restores them. Checkpoints of Carrom 0.2
+/// have none: the curve then stays without errors, because no block has the samples before the
+/// restart.
 inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && kept.is_at_end()) return;
     std::vector<std::int64_t> words = blocks.words();
@@ -21,7 +22,8 @@ inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && !blocks.set_words(words)) kept.refuse();
 }
 
-/// One standard error of each value; NaN where samples are too few, or not all in the blocks.
+/// One standard error of each value; NaN if there are too few samples, or if blocks do not contain
+/// all of them.
 inline std::vector<double> errors_of(const VectorBlocks& blocks, std::uint64_t n_samples) {
     std::vector<double> errors(blocks.n_values(), std::numeric_limits<double>::quiet_NaN());
     if (blocks.n_samples() != static_cast<std::int64_t>(n_samples)) return errors;

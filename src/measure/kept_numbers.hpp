@@ -15,15 +15,15 @@ namespace carrom {
 
 class KeptNumbers {
 public:
-    /// For storing.
+    /// Makes an empty list, for storing.
     KeptNumbers() = default;
-    /// For restoring. The words must outlive this.
+    /// Takes stored words, for restoring. They must outlive this.
     explicit KeptNumbers(std::span<const std::int64_t> words)
         : is_restored_(true), stored_(words) {}
 
     bool is_restored() const { return is_restored_; }
 
-    /// Stores a number, a vector or an array of them, or a text; or restores it.
+    /// Stores a number, a vector or an array of numbers, or a text; or restores it.
     template <class T> void operator()(T& value) {
         if constexpr (requires { value.resize(1); }) {
             std::int64_t size = static_cast<std::int64_t>(value.size());
@@ -47,8 +47,8 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// A part that begins with its length. `keep` names its numbers. They stay in the one list,
-    /// because a copy of each part would take as much memory again.
+    /// A part that begins with its length. `keep` names its numbers. They are in the same list,
+    /// because a copy of each part would double the memory.
     template <class Keep> void part(const Keep& keep) {
         std::int64_t size = 0;
         const std::size_t begin = words_.size() + 1;
@@ -64,14 +64,14 @@ public:
         keep(its);
         if (!its.is_right() || !its.is_at_end()) refuse();
     }
-    /// A setting on which the sums depend. If the stored one differs the sums are useless.
+    /// A setting on which the sums depend. If the stored setting differs, the sums are useless.
     template <class T> void same(const T& value) {
         T found = value;
         (*this)(found);
         if (found != value) is_other_ = true;
     }
 
-    /// False if stored words are too few or have other settings.
+    /// False if stored words are missing or have other settings.
     bool is_right() const { return !is_other_; }
     bool is_at_end() const { return next_ == stored_.size(); }
     void refuse() { is_other_ = true; }

@@ -30,11 +30,11 @@
 
 namespace carrom {
 
-/// The samples so far, the same on every rank.
+/// Counts of the samples so far, the same on every rank.
 struct SampleCounts {
     std::int64_t first_step = 0, last_step = -1;
     std::uint64_t n_samples = 0;
-    std::uint64_t n_discs = 0; ///< over all samples, inside the box
+    std::uint64_t n_discs = 0; ///< number of discs in the box, summed over all samples
     double area = 0;           ///< sum of the box's area over all samples
 };
 
@@ -46,7 +46,7 @@ struct MeasuredRun {
     const Communicator& ranks;
     SampleCounts counts = {};
 
-    /// The step of a sample; samples are counted from 0.
+    /// The step of a sample; the first sample has the number 0.
     double step_of(std::size_t sample) const {
         return static_cast<double>(counts.first_step +
                                    static_cast<std::int64_t>(sample) * output.every_steps);
@@ -56,14 +56,15 @@ struct MeasuredRun {
     }
 };
 
-/// The state at a sample. Discs are those of this rank, and valid in `Measurement::sample` only.
+/// The state at a sample. It contains the discs of this rank, and is valid only during
+/// `Measurement::sample`.
 struct SampledState {
-    std::span<const DiscState> shown;  ///< by their states as the box sees them
+    std::span<const DiscState> shown;  ///< the discs as the box sees them
     std::span<const DiscState> inside; ///< the shown discs that are in the box
     std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
     Extent box;
-    bool is_first = false; ///< there is no interval before it
-    /// Effects have acted at this step since the interval before it ended.
+    bool is_first = false; ///< the first sample, before which there is no interval
+    /// Whether effects have acted at this step since the end of the interval before it.
     bool follows_effects = false;
 };
 
@@ -81,20 +82,20 @@ public:
     Measurement(const Measurement&) = delete;
     Measurement& operator=(const Measurement&) = delete;
 
-    /// Called before the first sample, at its step; not at a restart that goes on with sums.
+    /// Called before the first sample, at its step, but not at a restart with sums.
     virtual void begin() {}
-    /// Ends the interval since the last sample. Called before `sample`, and where the energy jumps
-    /// at syncs before effects act there: what is integrated over time then has both sides of the
-    /// jump.
+    /// Ends the interval since the last sample. Called before `sample`. If effects change the
+    /// energy at syncs, it is also called before they act, so that integrals over time have the
+    /// values before and after the change.
     virtual void end_interval() {}
     virtual void sample(const SampledState& state) = 0;
-    /// True if a sample has velocities. Where the energy jumps at syncs, samples of these are taken
-    /// before and after effects act, in turns, so that their mean is that over time.
+    /// Whether samples use velocities. If effects change the energy at syncs, such samples are
+    /// taken before and after the effects in turns, so that their mean equals the mean over time.
     virtual bool has_velocities() const { return false; }
-    /// True if a sample moves discs in memory. It is then taken after all others.
+    /// Whether a sample moves discs in memory. It is then taken after all others.
     virtual bool moves_discs() const { return false; }
 
-    /// Names all numbers that a checkpoint keeps, and takes them at a restart.
+    /// Names all numbers that a checkpoint stores; at a restart the same function restores them.
     virtual void keep(KeptNumbers& kept) = 0;
     /// Stores numbers of each disc; most measurements have none.
     virtual void store_discs(StoredSamples& /*stored*/) {}
@@ -107,7 +108,7 @@ public:
     virtual std::optional<MeasuredTable> rows_from(std::size_t /*first*/) const {
         return std::nullopt;
     }
-    /// One line if the samples contradict what the tables take for granted; else empty.
+    /// One line if the samples contradict an assumption of the tables; else empty.
     virtual std::string doubt() const { return {}; }
     virtual std::optional<ThermoColumn> thermo_column() const { return std::nullopt; }
 
@@ -133,13 +134,13 @@ std::unique_ptr<Measurement> make_measurement(MeasuredRun& run, const Measuremen
     return std::make_unique<M>(run);
 }
 
-/// All of them, in the order of the list in CMakeLists.txt.
+/// All quantities, in the order of the list in CMakeLists.txt.
 const std::vector<MeasuredQuantity>& measured_quantities();
 
-/// Parts that tables share.
+/// Functions for several tables. The first adds arrays over all ranks.
 void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
               std::vector<std::uint64_t>& sums);
-/// Counts a place in bins of width 1; places beyond the bins are not counted.
+/// Counts a position in bins of width 1. Positions beyond the bins are not counted.
 void count(std::vector<std::uint64_t>& counts, double place);
 
 } // namespace carrom

@@ -6,7 +6,7 @@ namespace carrom {
 
 namespace {
 
-/// The simulation, which sums stress in the unit that a checkpoint's sums have.
+/// Makes the simulation sum stress in the same unit as a checkpoint's sums.
 DiscSystem& in_unit(DiscSystem& system, double bound) {
     system.begin_stress_sums(bound);
     return system;
@@ -23,7 +23,7 @@ MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks,
                                const Pending& pending, const MotionSample& last)
     : system_(&system), ranks_(&ranks), last_sums_(in_unit(system, pending.bound).stress_sums()),
       last_(last) {
-    if (!ranks.is_root()) return; // only the sum over all ranks matters
+    if (!ranks.is_root()) return; // because only the sum over all ranks matters
     StressSums sums(pending.bound);
     std::size_t next = 0;
     for (ExactSum* part : sums.parts()) {

@@ -19,7 +19,7 @@ namespace carrom {
 
 class MotionInterval {
 public:
-    /// The sums of all ranks since the last sample, in the unit that `bound` gives.
+    /// The sums of all ranks since the last sample; `bound` defines their unit.
     struct Pending {
         static constexpr std::size_t n_words = 8;
 
@@ -27,21 +27,21 @@ public:
         std::array<std::uint64_t, n_words> words{};
     };
 
-    /// The interval begins at the present step. **Collective.**
+    /// Starts the interval at the present step. **Collective.**
     MotionInterval(DiscSystem& system, const Communicator& ranks);
-    /// The interval goes on from a checkpoint's data, before any step. **Collective.**
+    /// Continues an interval from a checkpoint's data, before any step. **Collective.**
     MotionInterval(DiscSystem& system, const Communicator& ranks, const Pending& pending,
                    const MotionSample& last);
 
-    /// The last sample, whose integrals are those of flights since the sync before it.
+    /// The last sample. Its integrals are those of flights since the sync before it.
     const MotionSample& last() const { return last_; }
     /// A sample of the present step. The difference of its integrals from those of `last` is the
     /// integral over the interval. **Collective.**
     MotionSample now() const;
-    /// Begins the next interval with `now`, a sample of the present step.
+    /// Starts the next interval with `now`, a sample of the present step.
     void begin(const MotionSample& now);
 
-    /// The data of a checkpoint, beside `last`. **Collective.**
+    /// The data that a checkpoint stores in addition to `last`. **Collective.**
     Pending pending() const;
 
 private:
@@ -49,7 +49,7 @@ private:
 
     DiscSystem* system_;
     const Communicator* ranks_;
-    StressSums last_sums_; ///< on this rank, at the last sample
+    StressSums last_sums_; ///< sums of this rank at the last sample
     MotionSample last_;
 };
 

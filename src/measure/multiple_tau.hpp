@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pairs of samples a correlation over decades of time takes: the multiple-tau scheme of
+// Chooses the pairs of samples for a correlation over decades of time: the multiple-tau scheme of
 // Ramirez and others, J. Chem. Phys. 133, 154103 (2010), without its averages over time.
 //
 // Level l keeps every 2^l-th sample, the last `points` of them. The first level has lags of 1 to
-// `points` samples, and each further one those of points / 2 + 1 to `points` times 2^l. Origins
-// overlap: each kept sample is one. So lags reach as far as the run, memory grows with the
+// `points` samples, and each further one those of points / 2 + 1 to `points` times 2^l. Each kept
+// sample is an origin, so origins overlap. Lags can be as long as the run, memory grows with the
 // logarithm of its length, and a sample is compared with some 1.5 `points` earlier ones on average.
 // Ramirez averages the samples that a level skips, which blurs lags. Here they are left out, so
 // that each lag is exact, because displacements need that.
@@ -22,7 +22,8 @@ namespace carrom {
 inline constexpr QuantitySetting correlation_points{"correlation_points", 8};
 Key correlation_points_key();
 void check_correlation_points(const SceneDraft& draft);
-/// Warns of a run that has no lag at all. A restart may go on to one, so this is no error.
+/// Warns of a run that has no lag at all. It is not an error, because a restart may continue to
+/// one.
 void warn_without_lags(const SceneDraft& draft);
 
 class MultipleTau {
@@ -31,17 +32,17 @@ public:
     explicit MultipleTau(std::uint64_t points) : points_(points) {}
 
     std::uint64_t points() const { return points_; }
-    /// Before sample `n` is noted; samples count from 0.
+    /// The number of levels before sample `n` is recorded; samples count from 0.
     std::size_t n_levels(std::uint64_t n) const {
         const std::uint64_t half = points_ / 2;
         return n < half ? 1 : static_cast<std::size_t>(std::bit_width(n / half));
     }
-    /// True if level `level` begins with sample `n`: it takes every second point of the one below.
+    /// Whether the first sample of level `level` is sample `n`.
     bool begins(std::size_t level, std::uint64_t n) const {
         return level > 0 && n == (points_ / 2) << level;
     }
     std::size_t n_lags(std::uint64_t n) const { return points_ + (n_levels(n) - 1) * points_ / 2; }
-    /// In samples.
+    /// The lag in samples.
     std::uint64_t lag(std::size_t index) const {
         if (index < points_) return index + 1;
         const std::uint64_t half = points_ / 2, beyond = index - points_;
@@ -53,8 +54,8 @@ public:
     std::size_t slot(std::size_t level, std::uint64_t n) const {
         return static_cast<std::size_t>((n >> level) % points_);
     }
-    /// Calls `act(lag's index, level, slot)` for each earlier sample that sample `n` is to be
-    /// compared with, before it is noted in its own slots.
+    /// Calls `act(lag's index, level, slot)` for each earlier sample with which sample `n` is
+    /// compared. Call it before sample `n` is stored in its own slots.
     template <class Act> void for_each_pair(std::uint64_t n, const Act& act) const {
         for (std::size_t level = 0; level < n_levels(n) && keeps(level, n); ++level) {
             const std::uint64_t first = level == 0 ? 1 : points_ / 2 + 1, kept = n >> level;

@@ -14,17 +14,17 @@ namespace carrom {
 
 namespace {
 
-/// The samples of a run that is as long as planned, at least. A run that a condition may end has
-/// them as close as it can.
+/// The least number of samples in a run of the planned length. If a condition may end the run,
+/// samples are as close as possible.
 constexpr std::int64_t wanted_samples = 32;
-/// Samples are the time apart in which discs go this many radii.
+/// Between samples discs move by about this many radii.
 constexpr double radii_apart = 8;
-/// psi6 of more discs would not be known much better: they would take more time than the rest.
+/// More discs would give psi6 hardly more precisely, and would take more time than everything else.
 constexpr std::uint64_t most_discs = 4096;
 constexpr double longest_interval = 0x1p40;
 constexpr double golden_ratio = 0.6180339887498949;
 
-/// Nothing is asked for.
+/// A scene without quantities.
 const MeasurementOutput no_quantities;
 
 bool watches_order(const SceneParameters& scene) {
@@ -61,7 +61,7 @@ void OrderWatch::start() {
     has_begun_ = true;
 }
 
-/// The golden ratio spreads the shifts evenly, whatever the period of a drive.
+/// The golden ratio spreads the shifts evenly for any period of a drive.
 std::int64_t OrderWatch::step_of_next() const {
     const double next = static_cast<double>(samples_.size() + 1);
     const double shift = next * golden_ratio - std::floor(next * golden_ratio);

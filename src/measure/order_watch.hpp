@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches whether a run is still changing where its averages do not show it: psi6 of dense discs,
-// and the energy of discs that do not conserve it.
+// Detects whether a run is still changing although its averages do not show it: psi6 of dense
+// discs, and the energy of discs that do not conserve it.
 //
-// A melting crystal has almost the pressure of the fluid, while its order falls by half. So psi6
-// is sampled in every run that is denser than `least_watched_packing`, or that measures it anyway.
-// Samples are at least the time apart in which discs at their usual speed go eight radii, and a
-// run as long as planned has some 32. They never exceed `most_samples`: at that number each second
-// one is dropped, and later ones are twice as far apart. Their times are not quite regular, so that
-// a periodic drive cannot look like a trend.
+// A melting crystal has almost the pressure of the fluid, while its order falls by half. So psi6 is
+// sampled in every run that is denser than `least_watched_packing`, or that measures it anyway.
+// Between samples discs at a typical speed move at least eight radii, and a run of the planned
+// length has some 32 samples. At `most_samples` every second one is dropped, and later ones are
+// twice as far apart. Their times are slightly irregular, so that a periodic drive cannot look like
+// a trend.
 //
 // Price of a sample of psi6: a microsecond for each of at most 4096 discs, and an exchange of the
 // halo. That is the time of some five collisions of each disc. Memory: 24 bytes a sample.
@@ -26,12 +26,13 @@
 
 namespace carrom {
 
-/// A number that has been watched over the run.
+/// A number that is watched over the run.
 struct WatchedNumber {
     std::string name; ///< "psi6": the modulus of its mean; "local_psi6": the mean modulus of
                       ///< discs; "energy": of motion, rotation and height
     SampledMean mean;
-    std::array<double, 4> quarters{}; ///< means over the quarters of the run; NaN if it is short
+    /// Means over the quarters of the run; NaN if the run is short
+    std::array<double, 4> quarters{};
 };
 
 class OrderWatch : public StepAction {
@@ -44,11 +45,12 @@ public:
     OrderWatch(const OrderWatch&) = delete;
     OrderWatch& operator=(const OrderWatch&) = delete;
 
-    /// Begins at the present step if averages do, or goes on from a checkpoint. **Collective.**
+    /// Starts at the present step together with the averages, or continues from a checkpoint.
+    /// **Collective.**
     void begin(std::span<const std::int64_t> stored = {});
     std::int64_t next_due(std::int64_t step) const override;
     bool act() override;
-    /// For a checkpoint; empty if nothing is watched.
+    /// The data for a checkpoint; empty if nothing is watched.
     std::vector<std::int64_t> stored();
 
     std::vector<WatchedNumber> watched() const;
@@ -71,7 +73,7 @@ private:
     std::vector<Sample> samples_;
 };
 
-/// The means of the quarters of a series; NaN where it has fewer than eight terms.
+/// The means of the quarters of a series; NaN if it has fewer than eight terms.
 std::array<double, 4> quarters_of(std::span<const double> terms);
 
 } // namespace carrom

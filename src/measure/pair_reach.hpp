@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far correlations of pairs are measured: the setting that g(r) and g6(r) share,
-// and the bins that most tables share.
+// Settings that tables of pairs share: the largest distance, for g(r) and g6(r), and the bins, for
+// most tables.
 #pragma once
 
 #include "measure/measurement.hpp"
@@ -16,11 +16,12 @@ inline std::size_t n_bins_of(const MeasuredRun& run) {
 }
 
 Key largest_distance_key();
-/// Sets the distance if the scene does not: at most half the room of centres, in the
-/// smallest box of the run.
+/// Sets the distance if the scene does not: at most half of the smallest edge for centres of discs
+/// during the run.
 void check_largest_distance(const SceneDraft& draft);
-/// After a restart walls may move in less or further than before. A stored distance that was
-/// not set by the scene holds if there is room for it; otherwise this throws InputError.
+/// After a restart walls may move by another distance than planned before. A stored distance that
+/// was not set by the scene stays valid if the box is large enough; otherwise this throws
+/// InputError.
 void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& distance);
 
 } // namespace carrom

@@ -15,16 +15,16 @@ namespace carrom {
 
 class PressureSampler {
 public:
-    /// For each interval `pressures` has this many numbers: xx, xy, yy, kT and N kT / A.
+    /// Number of values for each interval in `pressures`: xx, xy, yy, kT and N kT / A.
     static constexpr std::size_t n_numbers = 5;
 
-    /// Begins at the present step. **Collective.**
+    /// Starts at the present step. **Collective.**
     PressureSampler(DiscSystem& system, const Communicator& ranks)
         : system_(&system), interval_(system, ranks) {}
 
-    /// Adds an interval of `steps` steps, and begins the next one. **Collective.**
+    /// Adds an interval of `steps` steps, and starts the next one. **Collective.**
     void sample(double steps);
-    /// Begins the present interval with the present velocities, because effects have just acted.
+    /// Starts the present interval with the present velocities, because effects have just acted.
     /// **Collective.**
     void begin_interval() { interval_.begin(interval_.now()); }
     const std::vector<double>& pressures() const { return pressures_; }
@@ -34,12 +34,12 @@ public:
     double temperature() const; ///< at the last sample
     // Means over the last interval:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
-    /// Energy of motion; it is known until a restart, and not between sheared sides.
+    /// Kinetic energy. It is unknown after a restart, and between sheared sides.
     double mean_energy() const { return mean_energy_; }
-    /// Time integral of the last interval's stress times area, with all momentum flux; per step.
+    /// Time integral of stress times area over the last interval, with all momentum flux; per step.
     const Tensor& last_integral() const { return last_integral_; }
 
-    /// Stores the data of `sampler`, or makes a sampler of stored data before any step.
+    /// Stores the data of `sampler`, or makes a sampler from stored data before any step.
     /// **Collective.**
     static void keep(KeptNumbers& kept, std::optional<PressureSampler>& sampler, DiscSystem& system,
                      const Communicator& ranks);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t format = 3;
 
-/// A scene without [output.measurements] asks for this.
+/// The measurements of a scene without [output.measurements].
 const MeasurementOutput nothing;
 
 } // namespace
@@ -38,7 +38,8 @@ Sampler::~Sampler() {
     if (does_energy_jump(run_.scene.effects)) run_.system.engine().call_before_effects({});
 }
 
-/// Sums with other settings are useless. Each measurement compares its own settings, too.
+/// Throws if the stored sums have other settings, because they would be useless. Each measurement
+/// also compares its own settings.
 void Sampler::keep_settings(KeptNumbers& kept) const {
     kept.same(format);
     kept.same(names_);
@@ -65,7 +66,7 @@ void Sampler::go_on_measuring(const StoredSamples& stored) {
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     KeptNumbers kept(stored.sums);
     keep_settings(kept);
-    StoredSamples asked; // its flags say which numbers of each disc are kept
+    StoredSamples asked; // its flags select the stored numbers of each disc
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;
@@ -102,8 +103,8 @@ void Sampler::sample_if_due() {
     if (run_.scene.measurements) measure_if_due();
 }
 
-/// What effects do at a sync would be only half of what acts between two syncs, so both states
-/// there have to be seen.
+/// The state after effects shows only one of the two values at a sync, so the state before is
+/// sampled, too.
 void Sampler::sample_before_effects() {
     const std::int64_t step = run_.system.step();
     if (run_.system.micro_steps_done() % run_.scene.micro_steps != 0) return;
@@ -126,8 +127,8 @@ void Sampler::end_intervals() {
     for (const auto& measurement : measurements_) measurement->end_interval();
 }
 
-/// Every second one of the samples at syncs. It follows from the count of samples alone, so that it
-/// is the same after a restart.
+/// Whether this is one of every second sample at syncs. It follows from the number of samples
+/// alone, so that it is the same after a restart.
 bool Sampler::is_turn_before_effects() const {
     const std::int64_t apart = run_.output.every_steps * run_.scene.micro_steps,
                        samples_between = run_.scene.sync_every /

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The measurements of a run: its averages, which are always on, and the quantities of
-// `[output.measurements]`, which are sampled at regular steps. A run that asks for no quantity has
-// no memory and no work in any kernel for them. The quantities are in quantities/, and
-// docs/reference/measurements.md has the price of each.
+// `[output.measurements]`, which are sampled at regular steps. A run without such quantities pays
+// nothing for them. The quantities are in quantities/, and docs/reference/measurements.md has the
+// price of each.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +24,17 @@ namespace carrom {
 /// An action between steps that samples what is due.
 class Sampler : public StepAction {
 public:
-    /// Samples from the present step on if the scene's `from_step` has come. All
-    /// arguments must outlive this. **Collective.**
+    /// Samples from the present step on, or from the scene's `from_step`. All arguments must
+    /// outlive this. **Collective.**
     Sampler(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
     ~Sampler() override;
 
-    /// Goes on from a checkpoint's data; to be called before anything is sampled.
-    /// Sampling begins anew if there are none, or if `from_step` is still to come; averages also do
-    /// if they are to be over other steps. Throws InputError on every rank if the sums of a
-    /// quantity have other settings. **Collective.**
+    /// Continues from a checkpoint's data; call it before anything is sampled. Sampling begins anew
+    /// if there are no data, or if `from_step` is later. Averages begin anew also if the scene now
+    /// averages over other steps. Throws InputError on every rank if the sums of a quantity have
+    /// other settings. **Collective.**
     void go_on(const StoredSamples& stored);
 
     /// The first step after `step` at which a sample is due.
@@ -48,15 +48,14 @@ public:
 
     /// Averages since the run's start, or since `average_anew`. **Collective.**
     Averages averages() const { return averages_.averages(); }
-    /// Forgets all averages so far, for example those before a gas has come to
-    /// equilibrium. **Collective.**
+    /// Starts all averages anew, for example when a gas has come to equilibrium. **Collective.**
     void average_anew() { averages_.begin(); }
 
     /// **Collective.**
     StoredSamples stored() const;
     /// Tables of all samples; none before the first one. All ranks get the same.
     std::vector<MeasuredTable> tables() const;
-    /// A line for each quantity whose samples contradict what its tables take for granted.
+    /// A line for each quantity whose samples contradict an assumption of its tables.
     std::vector<std::string> doubts() const;
     /// Tables that grow by a row at each sample, from row number `first` on; none if
     /// there are no such rows.
@@ -75,11 +74,11 @@ private:
     void keep_counts(KeptNumbers& kept) const;
 
     mutable MeasuredRun run_;
-    mutable BlockAverages averages_; ///< `keep` takes and gives numbers
+    mutable BlockAverages averages_; ///< mutable, because `keep` both stores and restores
     Measurements measurements_;      ///< the quantities
     std::vector<std::string> names_; ///< names of the quantities, in their order
     bool has_begun_ = false;
-    // At this step what comes before effects has been done:
+    // The steps at which these actions were last done before effects:
     std::int64_t averaged_before_ = -1, ended_before_ = -1, sampled_before_ = -1;
 };
 

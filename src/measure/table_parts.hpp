@@ -13,7 +13,7 @@ inline double edge(double low, double high, std::size_t k, std::size_t n) {
     return low + (high - low) * static_cast<double>(k) / static_cast<double>(n);
 }
 
-/// A density of probability: counts over the number of all values and over the bins' width.
+/// A probability density: counts divided by the number of all values and the width of the bins.
 inline double share(std::uint64_t count, std::uint64_t all, double width) {
     return static_cast<double>(count) / (static_cast<double>(all) * width);
 }

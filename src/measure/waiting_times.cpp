@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// A variance takes at least this many origins.
+/// A variance needs at least this many origins.
 constexpr double fewest_late_origins = 8;
 constexpr std::size_t most_octaves = 64, most_lags = 1000;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What quantities of walls share: sums over collisions with the four sides of the box, tables of
-// them over time, and rules. The sums are exact, so neither the order of collisions nor the rank
-// that carries them out affects them.
+// Functions that quantities of walls share: sums over collisions with the four sides of the box,
+// tables of them over time, and rules. The sums are exact, so neither the order of collisions nor
+// the rank that carries them out affects them.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ public:
         for (std::size_t side = 0; side < 4; ++side) all[side] = joined(side, ranks).value();
         return all;
     }
-    /// Two words of each side, over all ranks. **Collective.**
+    /// Two words for the sum of each side, over all ranks. **Collective.**
     std::vector<std::uint64_t> words(const Communicator& ranks) const {
         std::vector<std::uint64_t> all;
         for (std::size_t side = 0; side < 4; ++side) {
@@ -57,8 +57,8 @@ private:
     std::array<ExactSum, 4> sums_;
 };
 
-/// A quantity of collisions with the sides of the box. Its samples are what each side has given
-/// since the sample before.
+/// A quantity of collisions with the sides of the box. Each sample is the impulse or energy that
+/// each side has given to discs since the last sample.
 class WallMeasurement : public Measurement, public WallFollower {
 public:
     using Measurement::Measurement;
@@ -68,35 +68,35 @@ public:
     std::vector<MeasuredTable> tables() const override;
 
 protected:
-    /// Follows collisions from now on, with empty sums.
+    /// Follows collisions from now on, beginning with empty sums.
     void follow();
     /// Empties the sums since the last sample; their unit follows from `speed_scale_`.
     virtual void clear() = 0;
     virtual MeasuredTable history() const = 0;
     virtual MeasuredTable means_of(const MeasuredTable& history) const = 0;
 
-    double speed_scale_ = 0;    ///< sets the units of sums
-    std::vector<double> given_; ///< what the four sides have given in each interval
+    double speed_scale_ = 0;    ///< typical speed, from which units of sums follow
+    std::vector<double> given_; ///< given by the four sides in each interval
 };
 
-/// The length of a side at a step. Between walls that swing it is the mean.
+/// The length of a side at a step, or its mean between walls that swing.
 double length_of_side(const SceneParameters& scene, std::size_t side, double step);
 
-/// A row for each interval between samples: its first and its last step, and what each side was
-/// given over its length and that time; NaN for a periodic side. `given` has `per_interval` numbers
-/// of each interval, one of each side after another.
+/// A row for each interval between samples: its first and last step, then for each side the given
+/// amount divided by the side's length and the time; NaN for a periodic side. `given` has
+/// `per_interval` numbers for each interval, in the order of sides.
 std::vector<std::vector<double>> rows_over_time(const MeasuredRun& run,
                                                 std::span<const double> given,
                                                 std::size_t per_interval);
 
 struct MeanAndError {
     double mean = 0;
-    double error = 0; ///< one standard error; NaN where there are too few intervals
+    double error = 0; ///< one standard error; NaN if there are too few intervals
 };
-/// Means of each column of `rows_over_time` but the two steps.
+/// Means of all columns of `rows_over_time` except the two steps.
 std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
 
-/// Walls are there at all times and on at least two sides.
+/// The rule that walls exist at all times and on at least two sides.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_walls(std::string_view quantity) {
     return {{.one = quantity,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wave vectors that structure factors share: those of a periodic box up to a length, in bins
-// of their lengths, with the setting and the rules that come with them.
+// The wave vectors of structure factors: those of a periodic box up to a length, in bins of their
+// lengths, with the setting and the rules that belong to them.
 #pragma once
 
 #include <span>
@@ -15,9 +15,10 @@ namespace carrom {
 inline constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
 
 Key largest_wavenumber_key();
-/// At least one wave vector, and at most a million, because each is evaluated for each disc.
+/// There must be at least one wave vector, and at most a million, because each is evaluated for
+/// each disc.
 void check_wavenumber(const SceneDraft& draft);
-/// Wave vectors are those of a box that is periodic all round and whose images are at rest.
+/// The rule that the box is periodic along both axes and that its images are at rest.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_waves(std::string_view quantity) {
     return {
@@ -50,9 +51,9 @@ public:
 
     /// The number of vectors in each bin.
     std::vector<double> counts() const;
-    /// Each bin's mean of `numbers`, one for each vector; NaN in a bin without any.
+    /// The mean of `numbers`, one for each vector, in each bin; NaN in an empty bin.
     std::vector<double> means(std::span<const double> numbers) const;
-    /// This rank's part of the modes of some discs, added over ranks. **Collective.**
+    /// The density modes of some discs: this rank's terms added over all ranks. **Collective.**
     DensityModes modes(const MeasuredRun& run, std::span<const DiscState> discs) const;
 
 private:

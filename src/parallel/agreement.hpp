@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How ranks learn that one of them has failed: every rank throws, or none does.
+// How ranks learn that one of them has failed: either every rank throws, or none does.
 //
 // This is for set-up, input and output, not for the step. Price when all is well: one
 // reduction.
@@ -16,14 +16,15 @@
 namespace carrom {
 
 /// Throws CollectiveError on every rank, with text and code of the lowest rank that is not `ok`, if
-/// there is one. A rank that is not `ok` and waits for the others in vain, because they wait for it
-/// in something that it has left, prints its text after `patience_seconds` and aborts all ranks
+/// there is one. If the other ranks do not come, because they wait for the failed rank in an
+/// operation that it has left, it prints its text after `patience_seconds` and aborts all ranks
 /// with its code. **Collective.**
 void agree(const Communicator& communicator, bool ok, const std::string& text,
            ExitCode code = ExitCode::collective_failure, double patience_seconds = 30);
 
 /// Throws InputError with the problems of all ranks, in rank order, on every rank, if any rank has
-/// one. Beyond `most` problems a last one says how many were left out. **Collective.**
+/// one. If there are more than `most` problems, the last one is the number of those left out.
+/// **Collective.**
 void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
                        std::size_t most = 1000);
 

@@ -51,7 +51,7 @@ Communicator::Handle::~Handle() {
 
 Communicator Communicator::world(std::size_t max_message) {
     MPI_Comm comm = duplicate_of(MPI_COMM_WORLD);
-    // Another part of the program may have started MPI with another choice.
+    // Another part of the program may have chosen another error handler.
     if (comm != MPI_COMM_NULL) abort_on_errors_of(comm);
     return Communicator(std::make_shared<Handle>(comm, max_message));
 }
@@ -72,7 +72,7 @@ int Communicator::size() const { return handle_->size; }
 Traffic Communicator::traffic() const { return handle_->traffic; }
 MPI_Comm native(const Communicator& communicator) { return communicator.handle().comm; }
 
-// Adding +0 turns -0 into +0, because the ranks' order would decide which zero a reduction returns.
+// Adding +0 turns -0 into +0, because the sign of a zero would depend on the order of ranks.
 double Communicator::max(double value) const {
     return reduce(*handle_, value, MPI_DOUBLE, MPI_MAX) + 0.0;
 }
@@ -118,14 +118,14 @@ void Communicator::sum(ExactSum& value) const {
     for (std::size_t k = 0; k < 3; ++k) limbs[k + 1] += limbs[k] >> 32;
     const std::uint64_t low = (limbs[0] & limb) | (limbs[1] << 32);
     const std::uint64_t high = (limbs[2] & limb) | (limbs[3] << 32);
-    // The sum can only be added to, so the other ranks' share is added.
+    // Words can only be added to the sum, so only the other ranks' share is added.
     value.add_words(low - own_low, high - own_high - (low < own_low ? 1 : 0));
 }
 
 std::uint64_t Communicator::sum_before(std::uint64_t value) const {
     ++handle_->traffic.collectives;
     if (handle_->is_alone()) return 0;
-    std::uint64_t result = 0; // MPI leaves it as it is on rank 0
+    std::uint64_t result = 0; // MPI does not set it on rank 0
     MPI_Exscan(&value, &result, 1, MPI_UINT64_T, MPI_SUM, handle_->comm);
     return rank() == 0 ? 0 : result;
 }

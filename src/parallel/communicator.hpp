@@ -4,9 +4,9 @@
 //
 // Values are sent as bytes, so they must be trivially copyable; all ranks run the same program.
 // Data of any size is split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator
-// share one MPI communicator, which is a duplicate of the world's: its tags never meet those of
-// another owner. Every reduction gives all ranks the same bits for any number of ranks: no
-// floating-point sums but exact ones are offered.
+// share one MPI communicator, which is a duplicate of the world's: its messages never mix with
+// those of another owner. Every reduction gives all ranks the same bits for any number of ranks,
+// because floating-point sums are exact.
 #pragma once
 
 #include <concepts>
@@ -22,7 +22,7 @@ namespace carrom {
 
 class ExactSum;
 
-/// What may travel as bytes. `bool` may not: a vector of it is no array.
+/// Types that can be sent as bytes. `bool` cannot, because a vector of it is not an array.
 template <class T>
 concept Message = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
                   !std::same_as<T, bool>;
@@ -39,14 +39,15 @@ class Communicator {
 public:
     static constexpr std::size_t largest_message = std::size_t{1} << 30;
 
-    /// All ranks of the run; this process alone where MPI has not been started. **Collective.**
-    /// Must not outlive `Mpi`.
-    /// Data above `max_message` bytes (the same on all ranks) is split; tests make it small.
+    /// All ranks of the run, or this process alone if MPI has not been started. **Collective.**
+    /// Must not outlive `Mpi`. Data above `max_message` bytes (the same on all ranks) is split;
+    /// tests make it small.
     static Communicator world(std::size_t max_message = largest_message);
     /// A duplicate of the communicator that MPI knows by this Fortran number (MPI_Comm_c2f).
     /// **Collective** over its ranks.
     static Communicator of_fortran(int number);
-    /// This rank and no other: what is collective over it involves nobody else. Not collective.
+    /// This rank alone. Functions that are collective over it involve no other rank. Not
+    /// collective.
     static Communicator of_this_rank();
 
     int rank() const;
@@ -61,12 +62,12 @@ public:
     std::int64_t min(std::int64_t value) const;
     std::uint64_t max(std::uint64_t value) const;
     std::uint64_t min(std::uint64_t value) const;
-    std::uint64_t sum(std::uint64_t value) const; ///< wraps
+    std::uint64_t sum(std::uint64_t value) const; ///< wraps around
     void sum(std::span<std::uint64_t> values)
-        const;                       ///< element-wise, in place, wraps; same length on all ranks
-    void sum(ExactSum& value) const; ///< in place; same bound on all ranks
+        const; ///< element-wise, in place, wraps around; the same length on all ranks
+    void sum(ExactSum& value) const; ///< in place; the same bound on all ranks
     std::uint64_t sum_before(
-        std::uint64_t value) const; ///< over the ranks below this one; 0 on rank 0
+        std::uint64_t value) const; ///< sum over the ranks below this one; 0 on rank 0
     bool any(bool value) const;
     bool all(bool value) const;
 
@@ -98,7 +99,7 @@ public:
 
     Traffic traffic() const;
 
-    struct Handle; ///< known to this module only
+    struct Handle; ///< defined only in this module
     Handle& handle() const { return *handle_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any rank to any rank, and all ranks to rank 0 in bounded memory.
+// Messages from any rank to any rank, and from all ranks to rank 0 in bounded memory.
 //
 // send_to_owners announces sizes with one MPI_Alltoall of 8 bytes per pair of ranks, then sends
 // only the messages that are not empty. The announcement grows with the number of ranks (some 30 us
@@ -20,23 +20,23 @@
 namespace carrom {
 
 namespace detail {
-/// How many bytes each rank will send here, given how many go to each. **Collective.**
+/// Returns how many bytes each rank will send here, from the numbers of bytes that go to each rank.
+/// **Collective.**
 std::vector<std::uint64_t> announce(const Communicator& communicator,
                                     std::span<const std::uint64_t> bytes_to);
-/// Moves parcels of known sizes: parcel k of `out` goes to rank k, and parcel k of
+/// Sends and receives parcels of known sizes: parcel k of `out` goes to rank k, and parcel k of
 /// `in` comes from rank k.
 void move_parcels(const Communicator& communicator, std::span<const std::span<const std::byte>> out,
                   std::span<const std::span<std::byte>> in);
 /// Returns every rank's number on rank 0, and nothing on the others. **Collective.**
 std::vector<std::uint64_t> gather_to_root(const Communicator& communicator, std::uint64_t value);
-/// Sends one piece of a stream. The sender waits until it is being received, so that
-/// pieces do not pile up.
+/// Sends one piece of a stream. Waits until it is being received, so that pieces do not pile up.
 void send_piece(const Communicator& communicator, std::span<const std::byte> piece);
 void receive_piece(const Communicator& communicator, int sender, std::span<std::byte> piece);
 } // namespace detail
 
-/// Sends out[k] to rank k (this one included; empty lists cost nothing) and returns what came,
-/// grouped by sender in rank order. `out` has size() lists. **Collective.**
+/// Sends out[k] to rank k (this one included; empty lists cost nothing) and returns the items that
+/// arrive, grouped by sender in rank order. `out` has size() lists. **Collective.**
 template <Message T>
 Received<T> send_to_owners(const Communicator& communicator,
                            const std::vector<std::vector<T>>& out) {
@@ -60,9 +60,10 @@ Received<T> send_to_owners(const Communicator& communicator,
     return in;
 }
 
-/// Hands everyone's items to `consume(std::span<const T>)` on rank 0, in rank order, in chunks of 1
-/// to `max_chunk` items; rank 0 holds one chunk at a time, the other ranks wait for their turn. If
-/// `consume` throws, the exception must end the run: the others are still sending. **Collective.**
+/// Passes the items of all ranks to `consume(std::span<const T>)` on rank 0, in rank order, in
+/// chunks of 1 to `max_chunk` items; rank 0 holds one chunk at a time, the other ranks wait for
+/// their turn. If `consume` throws, the exception must end the run: the others are still sending.
+/// **Collective.**
 template <Message T, class Consume>
 void stream_to_root(const Communicator& communicator, std::span<const T> mine, Consume&& consume,
                     std::size_t max_chunk) {

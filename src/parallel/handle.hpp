@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inside of a Communicator, and sending of data of any size in messages of limited
+// The implementation of a Communicator, and sending of data of any size in messages of limited
 // size.
 //
 // Every byte that goes from one rank to another goes through `start_send`, so it is split and
@@ -18,14 +18,14 @@
 
 namespace carrom {
 
-/// Tags in use. Those from `first_free` on are given to neighbour exchanges, round and
-/// round.
+/// Tags in use. Neighbour exchanges get tags from `first_free` on, again from the first one after
+/// the last.
 namespace tag {
 inline constexpr int any_to_any = 1;
 inline constexpr int stream = 2;
 inline constexpr int departure = 3;
 inline constexpr int first_free = 16;
-inline constexpr int last = 32767; ///< the least that MPI promises
+inline constexpr int last = 32767; ///< the largest tag that every MPI allows
 } // namespace tag
 
 struct Communicator::Handle {
@@ -35,7 +35,7 @@ struct Communicator::Handle {
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
 
-    /// Whether MPI has not been started, so that nothing may be asked of it.
+    /// Whether MPI has not been started, so that none of its functions may be called.
     bool is_alone() const { return comm == MPI_COMM_NULL; }
 
     MPI_Comm comm;
@@ -48,25 +48,25 @@ struct Communicator::Handle {
 
 using Requests = std::vector<MPI_Request>;
 
-/// Starts sending `bytes` in pieces of at most `max_message`, and nothing if there are
-/// no bytes. They must stay until the wait.
+/// Starts sending `bytes` in pieces of at most `max_message`, and nothing if there are no bytes.
+/// They must stay unchanged until the wait.
 void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to,
                 int message_tag, Requests& requests);
 
-/// Starts receiving what `start_send` sends with the same tag and number of bytes.
+/// Starts receiving the bytes that `start_send` sends with the same tag and number of bytes.
 void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int from,
                    int message_tag, Requests& requests);
 
 /// Waits for all of `requests` and empties the list.
 void wait_for(Requests& requests);
 
-/// Waits for `request`; without limit if `failure` is empty. Otherwise this rank has
-/// failed, and the others may be waiting for it in another operation. After
-/// `patience_seconds` it then prints `failure` and aborts all ranks with `code`.
+/// Waits for `request`, without a limit if `failure` is empty. Otherwise this rank has failed, and
+/// other ranks may be waiting for it in another operation. So after `patience_seconds` it prints
+/// `failure` and aborts all ranks with `code`.
 void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
                    int code);
 
-/// Prints a mistake of the program that uses the library, and aborts all ranks with 70.
+/// Prints an error in the use of the library, and aborts all ranks with code 70.
 [[noreturn]] void abort_from_mistake(std::string_view text);
 
 /// From now on an error of MPI in `comm` prints rank and text and aborts all ranks.

@@ -14,11 +14,11 @@ namespace carrom {
 
 /// `Counts` is a struct whose members are all std::uint64_t, so that each number has a name.
 template <class Counts> struct JointReduction {
-    Counts counts{};    ///< wrap when they are added
+    Counts counts{};    ///< may wrap around when added
     double largest = 0; ///< not NaN; -0 may become +0
 };
 
-/// What a message holds; counts that a reduction does not have are 0.
+/// The contents of a message; counts that a reduction does not have are 0.
 struct JointWords {
     std::array<std::uint64_t, 8> counts{};
     double largest = 0;
@@ -27,7 +27,7 @@ struct JointWords {
 /// **Collective.**
 void reduce(JointWords& words, const Communicator& communicator);
 
-/// Replaces the counts by their sums, and the largest value, by those over all ranks.
+/// Replaces the counts by their sums over all ranks, and the largest value by the maximum.
 /// **Collective.**
 template <class Counts>
 void reduce(JointReduction<Counts>& values, const Communicator& communicator) {

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// The variables in which a launcher notes the number of processes, and the number of this one.
+/// The variables in which a launcher stores the number of processes and the number of this one.
 struct LauncherVariables {
     const char *size, *rank;
 };

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the environment says about the launcher of this process.
+// Facts about the launcher of this process, from the environment.
 #pragma once
 
 #include <string>
 
 namespace carrom {
 
-/// Whether a launcher has started this process, perhaps as the first of several.
-/// Processes of a launcher that is not listed here each run alone.
+/// Whether a launcher has started this process. Processes of a launcher that is not listed in the
+/// source each run alone.
 bool has_launcher();
 
-/// Whether this process is alone, or the first of those that its launcher has started.
+/// Whether this process is alone, or the first one that its launcher has started.
 bool is_first_process();
 
-/// A process that the launcher of another MPI library has started with others. They do
-/// not know each other, and each would write the same files.
+/// A process that the launcher of another MPI library has started together with others. Such
+/// processes are not connected, and all of them would write the same files.
 struct LoneProcess {
     std::string problem;  ///< empty if there is no problem
     bool is_first = true; ///< among the processes that the launcher has started
 };
 
-/// `n_ranks` is the number of ranks that MPI knows of.
+/// `n_ranks` is the number of ranks according to MPI.
 LoneProcess lone_process(int n_ranks);
 
 } // namespace carrom

@@ -16,7 +16,7 @@ namespace carrom {
 
 namespace {
 
-/// A rank that has met the others and left at once may arrive ahead of their messages.
+/// A rank that leaves right after a meeting may arrive before the messages of that meeting.
 constexpr std::chrono::seconds grace(10);
 constexpr std::size_t longest_reason = 2000;
 
@@ -28,7 +28,7 @@ int departed_rank(MPI_Comm comm) {
     return is_there != 0 ? status.MPI_SOURCE : -1;
 }
 
-/// Why that rank has departed.
+/// The reason that the departed rank has sent.
 std::string reason_of(int rank, MPI_Comm comm) {
     MPI_Status status;
     MPI_Probe(rank, tag::departure, comm, &status);

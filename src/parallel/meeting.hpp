@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks meet before a call that all of them must make. A rank that calls something else, or
-// has left, then gives a message instead of a hang. Price: one small reduction for each call.
+// Ranks meet before a call that all of them must make. So if a rank calls another function, or has
+// left, the result is a message instead of a hang. Price: one small reduction for each call.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,23 @@ namespace carrom {
 /// A hash that differs if ranks make the same call with different arguments.
 std::uint64_t hash_of_argument(std::string_view text);
 
-/// Returns once all ranks have come to the same call. Throws InputError on every rank
-/// if calls or arguments differ, or if MPI has ended. If a rank has departed, all are aborted with
-/// a message (code 70) after ten seconds. **Collective.**
+/// Returns when all ranks have reached the same call. Throws InputError on every rank if calls or
+/// arguments differ, or if MPI has ended. If a rank has departed, all are aborted with a message
+/// (code 70) after ten seconds. **Collective.**
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
 
-/// Reports to the other ranks that this one leaves, and waits for them at the end.
+/// Tells the other ranks that this one leaves, and waits for them at the end.
 class Departure {
 public:
     /// `communicator` must outlive this.
     explicit Departure(const Communicator& communicator);
-    /// All ranks must have left, or be about to. **Collective.**
+    /// All ranks must have left, or be about to leave. **Collective.**
     ~Departure();
     Departure(const Departure&) = delete;
     Departure& operator=(const Departure&) = delete;
 
-    /// From now on this rank makes no call that others could wait for. They print `reason` if they
-    /// wait for it all the same. Not collective.
+    /// From now on this rank makes no collective call. Ranks that wait for it all the same print
+    /// `reason`. Not collective.
     void leave(const std::string& reason = {});
 
 private:
@@ -41,8 +41,8 @@ private:
     std::unique_ptr<Messages> messages_;
 };
 
-/// A communicator of the same ranks with messages of its own. Ranks that have left agree on their
-/// end there, because the others may still be in a call on the first communicator. **Collective.**
+/// A communicator of the same ranks with separate messages. Ranks that have left agree on their end
+/// through it, because others may still be in a call on the first communicator. **Collective.**
 Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

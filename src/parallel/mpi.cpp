@@ -28,15 +28,15 @@ namespace {
 
 constexpr int abort_code = 70;
 
-int world_rank = 0;          // kept, so that any thread may print it without calling MPI
-bool is_mpi_running = false; // kept for handlers of signals
+int world_rank = 0;          // stored, so that any thread can print it without calling MPI
+bool is_mpi_running = false; // stored for signal handlers
 
-/// What an exit of this process means.
+/// The cause of an exit of this process.
 enum class Exit { regular, of_library, of_abort };
 std::atomic<Exit> exit_now = Exit::regular;
 std::atomic<int> abort_code_now = 0;
 
-/// Ends all ranks, or this process if MPI does not run.
+/// Ends all ranks, or only this process if MPI is not running.
 [[noreturn]] void end_all(int code) {
     abort_code_now = code;
     exit_now = Exit::of_abort;
@@ -47,7 +47,7 @@ std::atomic<int> abort_code_now = 0;
 [[noreturn]] void abort_all(const char* kind, std::string_view text, int code = abort_code) {
     std::fflush(stdout);
     std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank,
-                 static_cast<int>(text.size()), text.data()); // there may be no memory left
+                 static_cast<int>(text.size()), text.data()); // because there may be no memory left
     std::fflush(stderr);
     end_all(code);
 }
@@ -56,11 +56,12 @@ void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
 }
 
-/// OpenMP's and MPI's libraries end a process by `exit` with codes of their own, 1 and 2, which are
-/// those of a difference and of a wrong input here.
+/// Libraries of OpenMP and MPI end a process by `exit` with the codes 1 and 2, which here mean a
+/// difference and a wrong input.
 void end_after_library() {
     if (exit_now == Exit::regular) return;
-    if (exit_now == Exit::of_abort) std::_Exit(abort_code_now); // MPI has not come to its own end
+    // Because MPI has not ended regularly
+    if (exit_now == Exit::of_abort) std::_Exit(abort_code_now);
     abort_all("error",
               "MPI's or OpenMP's library has ended the program, perhaps with a message above; "
               "limits of memory or of threads (ulimit -v, ulimit -u), or settings such as "
@@ -68,7 +69,7 @@ void end_after_library() {
               static_cast<int>(ExitCode::collective_failure));
 }
 
-/// The memory may be missing on any thread, in a parallel region, which exceptions must not leave.
+/// Memory may run out on any thread in a parallel region, which exceptions must not leave.
 void on_no_memory() {
     abort_all("out of memory", "take fewer discs, or more ranks on more nodes",
               static_cast<int>(ExitCode::collective_failure));
@@ -84,8 +85,8 @@ void on_mpi_error(MPI_Comm*, int* code,
 
 struct Outcome {
     int code = 0;
-    std::string text; ///< an error that all ranks should have met; empty if the body returned
-    int code_alone = abort_code; ///< if other ranks do not come to the same end in time
+    std::string text; ///< an error on which all ranks should agree; empty if the body returned
+    int code_alone = abort_code; ///< the code if other ranks do not reach the same end in time
 };
 
 Outcome run(const Communicator& communicator, const std::function<int(const Communicator&)>& body) {
@@ -94,8 +95,8 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     } catch (const InputError& error) {
         return {static_cast<int>(ExitCode::bad_input), error.what()};
     } catch (const CollectiveError& error) {
-        // All ranks have agreed on this error. A rank that comes late may still be
-        // removing files on a disk that stalls.
+        // All ranks have agreed on this error, so a late rank is only slow, for example because its
+        // disk stalls.
         const int code = static_cast<int>(error.code());
         return {code, error.what(), code};
     } catch (const std::exception& error) {
@@ -117,20 +118,20 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
     return largest;
 }
 
-/// Sets settings of Open MPI that the user has not set.
+/// Sets parameters of Open MPI unless the user has set them.
 void choose_settings() {
-    // Its own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns
-    // the error.
+    // Open MPI's own MPI-IO hangs in a collective write to a full disk; its ROMIO returns the
+    // error.
     setenv("OMPI_MCA_io", "^ompio", 0);
-    // A process without a launcher starts a daemon, in case it wants to start other processes. It
-    // never does, and the daemon takes 0.4 s. Open MPI 5 and MPICH start none.
+    // Without a launcher Open MPI starts a daemon for further processes, which Carrom never starts.
+    // The daemon takes 0.4 s. Open MPI 5 and MPICH start none.
     if (has_launcher()) return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    // Such processes use one folder of the same name for what they share with others,
-    // which they do not need. Two that start at once would fail to make it.
+    // All such processes would make a folder of the same name for data shared with others, which
+    // they do not need. If two start at once, one of them would fail.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-    // They exchange no messages. If libraries of fast networks are installed,
-    // searching for these takes 0.2 s.
+    // Such processes send no messages. If libraries of fast networks are installed, initialising
+    // these takes 0.2 s.
     setenv("OMPI_MCA_pml", "ob1", 0);
 }
 
@@ -144,7 +145,7 @@ void start_mpi(int* argc, char*** argv) {
     std::set_new_handler(on_no_memory);
     if (provided < MPI_THREAD_FUNNELED)
         abort_all("error", "this MPI library does not allow threads");
-    abort_on_errors_of(MPI_COMM_WORLD); // duplicates inherit it
+    abort_on_errors_of(MPI_COMM_WORLD); // duplicates inherit the handler
     abort_on_errors_of(MPI_COMM_SELF);
 }
 
@@ -192,7 +193,7 @@ std::string mpi_version() {
     int length = 0;
     MPI_Get_library_version(text.data(), &length);
     std::string name(text.data(), static_cast<std::size_t>(length));
-    name.resize(std::min(name.find_first_of(",\n"), name.size())); // details follow
+    name.resize(std::min(name.find_first_of(",\n"), name.size())); // followed by details
     std::replace(name.begin(), name.end(), '\t', ' ');
     return name;
 }
@@ -216,7 +217,7 @@ void abort_from_signal(std::string_view text, int code) {
     static std::atomic<int> last_code; // any thread may run the handler
     last_code = code;
     std::signal(SIGALRM, [](int) { std::_Exit(last_code); });
-    sigset_t alarms; // blocked where the caller handles one
+    sigset_t alarms; // they may be blocked in the caller's handler
     ::sigemptyset(&alarms);
     ::sigaddset(&alarms, SIGALRM);
     ::sigprocmask(SIG_UNBLOCK, &alarms, nullptr);
@@ -233,7 +234,8 @@ Mpi::Mpi(int& argc, char**& argv, Start start) {
 Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 
 Mpi::~Mpi() {
-    if (is_mpi_running && !has_mpi_ended()) MPI_Finalize(); // the program may have ended MPI
+    // Because the program may have ended MPI
+    if (is_mpi_running && !has_mpi_ended()) MPI_Finalize();
     is_mpi_running = false;
     exit_now = Exit::regular;
 }
@@ -241,8 +243,7 @@ Mpi::~Mpi() {
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds) {
     const Outcome outcome = run(communicator, body);
-    // Rank 0 prints for all. If it has not met the error, the rank that waits in vain
-    // prints it.
+    // Rank 0 prints for all. If it does not have the error, the rank that waits for it prints it.
     if (communicator.is_root() && !outcome.text.empty()) {
         std::fflush(stdout);
         std::fprintf(stderr, "%s\n", printable(outcome.text, true).c_str());

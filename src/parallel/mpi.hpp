@@ -11,13 +11,13 @@
 
 namespace carrom {
 
-/// Until `Mpi` ends, all ranks end with code 3 and a message if a library calls `exit`, as OpenMP's
-/// and MPI's do where they have too little memory. To be called by a program before `Mpi` begins.
+/// Until `Mpi` ends, all ranks end with code 3 and a message if a library calls `exit`, as OpenMP
+/// and MPI do if they have too little memory. A program calls it before it makes `Mpi`.
 void guard_exit();
 
-/// Holds MPI open. Only the thread that made it talks to other ranks (MPI_THREAD_FUNNELED,
+/// Starts MPI and ends it. Only the thread that made it may call MPI (MPI_THREAD_FUNNELED,
 /// checked). From then on an MPI error or a failed `ensure` prints rank and text and aborts all
-/// ranks; where memory runs out, on any thread, the code is 3. One per program.
+/// ranks; if memory runs out on any thread, the code is 3. One per program.
 class Mpi {
 public:
     enum class Start {
@@ -33,21 +33,20 @@ public:
     Mpi& operator=(const Mpi&) = delete;
 };
 
-/// Whether MPI has been started; true after its end as well.
+/// Whether MPI has been started; also true after its end.
 bool has_mpi_started();
-/// Whether MPI has come to its end. It cannot be started again.
+/// Whether MPI has ended. It cannot be started again.
 bool has_mpi_ended();
 
-/// Takes part in a run of MPI that another part of the program has started: a failed `ensure`
-/// aborts all ranks from now on. Throws InputError where threads are not allowed
-/// (MPI_THREAD_FUNNELED).
+/// Uses an MPI that another part of the program has started. From now on a failed `ensure` aborts
+/// all ranks. Throws InputError if threads are not allowed (MPI_THREAD_FUNNELED).
 void join_mpi();
 
-/// The library's name and version, "Open MPI v4.1.4". Needs no started MPI.
+/// The library's name and version, such as "Open MPI v4.1.4". MPI need not be started.
 std::string mpi_version();
 
-/// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the
-/// program. Should MPI not come to an end within ten seconds, this process does, with `code`.
+/// Prints `text` unchanged and ends all ranks with `code`. For handlers of signals that end the
+/// program. If MPI does not end within ten seconds, this process ends itself with `code`.
 [[noreturn]] void abort_from_signal(std::string_view text, int code);
 
 /// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and

@@ -12,15 +12,15 @@ namespace carrom {
 
 namespace {
 
-/// The head of a first message. The number of the exchange shows it when two ranks
-/// disagree on being neighbours.
+/// The head of a first message. The number of the exchange reveals two ranks that disagree about
+/// being neighbours.
 struct Header {
     std::uint64_t n_bytes = 0;
     std::uint64_t exchange = 0;
 };
 
-/// A little less than the size up to which common MPI libraries send at once, without
-/// asking the receiver (4096 in shared memory).
+/// Slightly less than the size up to which common MPI libraries send at once, without a handshake
+/// (4096 in shared memory).
 constexpr std::size_t first_message_bytes = 3968;
 
 } // namespace
@@ -48,7 +48,7 @@ struct NeighbourExchange::State {
     std::uint64_t n_begun = 0;
     std::vector<int> neighbours;
     std::vector<std::span<const std::byte>> parcels;
-    RawVector<std::byte> firsts; ///< the first messages to receive, then those to send
+    RawVector<std::byte> firsts; ///< buffers of the first messages: received ones, then sent ones
     std::vector<std::size_t> offsets;
     Requests receives, sends;
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchange with a few known ranks. Halo, migration and verdicts of neighbouring strips
-// travel by it.
+// Exchange with a few known ranks. It carries halos, migrating discs and decisions between
+// neighbouring strips.
 //
-// Both sides know that they are neighbours, the receiver does not know how much comes. The first
-// few kilobytes travel with the size in one message whose receive is posted in advance; only what
-// does not fit follows in further ones, straight from and into the arrays. So a tiny exchange costs
-// one short message per neighbour and no probing, and ranks that are not neighbours do not wait for
+// Both sides know that they are neighbours, but the receiver does not know the amount of data. The
+// first few kilobytes are sent with the size in one message whose receive is posted in advance; the
+// rest follows in further messages, straight from and into the arrays. So a tiny exchange costs one
+// short message per neighbour and no probing, and ranks that are not neighbours do not wait for
 // each other.
 #pragma once
 
@@ -34,7 +34,7 @@ public:
     /// Sends out[k] to neighbours[k], and replaces `in` by what they send, grouped in the order of
     /// `neighbours`. The list holds ranks, each once, in any order; it may be empty and may change
     /// from call to call. What a rank sends to itself is copied, without a message. If a lists b, b
-    /// must list a in the same call. **Collective**: also ranks without neighbours take part, at no
+    /// must list a in the same call. **Collective**: ranks without neighbours take part, too, at no
     /// cost.
     template <Message T>
     void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,
@@ -43,8 +43,8 @@ public:
         in.offsets = append(neighbours, out, in.items);
     }
 
-    /// As exchange, but appends what comes to `values`, so that it need not be copied. Returns
-    /// where each neighbour's items begin in what was appended, and their number. **Collective.**
+    /// Like exchange, but appends the arriving items to `values`, which saves a copy. Returns where
+    /// each neighbour's items begin in what was appended, and their number. **Collective.**
     template <class Items, class Values>
     std::vector<std::size_t> append(std::span<const int> neighbours, const std::vector<Items>& out,
                                     Values& values) {

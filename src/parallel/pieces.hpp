@@ -2,11 +2,11 @@
 // Records with ids 0 .. n-1 that lie in any order on any ranks, brought into order piece by piece.
 //
 // The ids are cut into pieces of a power of two; each rank owns a run of whole pieces. A counting
-// sort says which records are of which piece; then, round after round, each rank is given its next
-// piece in order. So the whole is never held twice, and a piece is in cache when its rank takes it
-// apart. Records travel for several rounds at once, so that ranks rarely wait for each other.
-// Price: 4 bytes a record, each record read three times on its rank and sent once if it is
-// another's, and room for the records of some pieces.
+// sort finds the piece of each record; then, round after round, each rank gets its next piece in
+// order. So the records never exist twice, and a piece is in cache when its rank uses it. Records
+// are sent for several rounds at once, so that ranks rarely wait for each other. Price: 4 bytes a
+// record, each record read three times on its rank and sent once if it is another's, and room for
+// the records of some pieces.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@
 
 namespace carrom {
 
-/// Cuts the ids into pieces, and gives each rank a run of pieces. Runs are as equal as
-/// pieces allow, longer ones first. With fewer owners than ranks, every so-many-th rank has a run:
-/// each rank sends records to all owners, so that their number bounds the number of messages.
+/// Cuts the ids into pieces, and gives each rank a run of pieces. Runs are as equal as pieces
+/// allow, longer ones first. If there are fewer owners than ranks, the owners are spread evenly
+/// over the ranks. Each rank sends records to all owners, so fewer owners mean fewer messages.
 class Pieces {
 public:
     static constexpr std::uint64_t least_rows = 1 << 10, most_rows = 1 << 15;
@@ -40,14 +40,14 @@ public:
     std::uint64_t count() const { return (n_ + rows_ - 1) / rows_; }
     std::uint64_t rows() const { return rows_; }
     std::uint64_t of(std::uint64_t id) const { return id / rows_; }
-    /// The first id of a piece. Piece count() begins at n.
+    /// The first id of a piece. For the piece count() it is n.
     std::uint64_t begin(std::uint64_t piece) const { return std::min(piece * rows_, n_); }
-    /// The first piece of a rank. Rank `n_ranks` begins at count().
+    /// The first piece of a rank. For the rank `n_ranks` it is count().
     std::uint64_t first_of(int rank) const {
         const auto n_before = (std::int64_t{rank} * n_owners_ + n_ranks_ - 1) / n_ranks_;
         return slab_begin(static_cast<int>(n_before), count(), n_owners_);
     }
-    /// The largest number of pieces of a rank.
+    /// The largest number of pieces of any rank.
     std::uint64_t n_rounds() const { return first_of(1); }
 
 private:
@@ -75,9 +75,9 @@ public:
 
     const Pieces& pieces() const { return pieces_; }
 
-    /// Goes on to this rank's piece of the next round and returns it in order, empty if this rank
-    /// has no more: its first id is `begin()`. Good until the next call. Must be called n_rounds()
-    /// times by every rank. **Collective.**
+    /// Returns this rank's piece of the next round in order, whose first id is `begin()`; empty if
+    /// this rank has no more pieces. Valid until the next call. Must be called n_rounds() times by
+    /// every rank. **Collective.**
     std::span<const T> next() {
         const int me = communicator_.rank();
         const std::uint64_t mine = pieces_.first_of(me) + round_;
@@ -103,7 +103,7 @@ public:
 private:
     static constexpr std::uint64_t rounds_per_exchange = 8;
     static constexpr std::size_t records_ahead =
-        64; ///< prefetched, because they lie anywhere in memory
+        64; ///< prefetched, because the records are scattered in memory
 
     void sort_by_piece() {
         first_in_order_.assign(pieces_.count() + 1, 0);
@@ -188,7 +188,7 @@ private:
     std::vector<std::uint8_t> is_placed_;
     std::vector<std::vector<T>> out_;
     Received<T> received_;             ///< from each sender in the order of pieces
-    std::vector<std::size_t> n_taken_; ///< by sender
+    std::vector<std::size_t> n_taken_; ///< by sender: number of items already used
 };
 
 } // namespace carrom

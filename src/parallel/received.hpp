@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Items that came from several ranks, in one array, grouped by sender.
+// Items that arrived from several ranks, in one array, grouped by sender.
 #pragma once
 
 #include <cstddef>

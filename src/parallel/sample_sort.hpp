@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distributed sort of records in any distribution over the ranks.
 //
-// Each rank sorts its own, and every so-many-th record of all becomes a sample. Rank 0 sorts the
-// samples and cuts them into slices, and each record travels once (Shi and Schaeffer 1992). Samples
-// are shared out by count, so a skewed start does not skew the cuts. Price: n log n / ranks
-// comparisons, one any-to-any exchange, and about 64 samples per slice on rank 0. With distinct
-// records a slice exceeds its share by less than ranks / 64 of it, by far less on data that is not
-// made for it.
+// Each rank sorts its own records, and a fixed share of all records become samples. Rank 0 sorts
+// the samples and cuts them into slices, and each record is sent once (Shi and Schaeffer 1992). The
+// number of samples of a rank is proportional to its records, so an uneven distribution does not
+// bias the cuts. Price: n log n / ranks comparisons, one any-to-any exchange, and about 64 samples
+// per slice on rank 0. With distinct records a slice exceeds its share by less than ranks / 64 of
+// it, by far less on data that is not made for it.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +94,7 @@ std::vector<T> sample_sort(const Communicator& communicator, std::vector<T> reco
         out[slice].assign(begin, end);
         begin = end;
     }
-    std::vector<T>().swap(records); // `= {}` would keep its memory
+    std::vector<T>().swap(records); // because `= {}` would keep the vector's memory
     return detail::merge_groups(send_to_owners(communicator, out), less);
 }
 

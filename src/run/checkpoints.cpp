@@ -21,14 +21,15 @@ namespace carrom {
 namespace {
 
 constexpr double seconds_between_agreements = 0.5;
-/// A rank with more discs keeps no copy of them.
+/// A rank with more discs makes no copies.
 constexpr double most_copied = 1e6;
-/// Times between copies: each takes some 20 ns a disc, and the measurements' data as much again.
+/// Time between copies: each takes some 20 ns a disc, and about as long again for the measurements'
+/// data.
 constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
-/// Times that a step gets after a request to stop. A step without a copy of its
-/// beginning gets the time that it seems to need, up to what batch systems allow.
+/// Time in seconds for a step after a request to stop. If there is no copy of an earlier state, the
+/// step gets the time that it probably needs, up to the limit of batch systems.
 constexpr double patience = 1, most_patience = 20;
-constexpr double longest_stretch = 1e15; // steps
+constexpr double longest_stretch = 1e15; // in steps
 
 } // namespace
 
@@ -38,13 +39,13 @@ Checkpoints::Checkpoints(Run& run, std::optional<CheckpointOutput> wanted)
     kept_ = earlier_checkpoints(wanted_->folder, run.scene(), run.step(), ranks_);
     const std::string first = checkpoint_path(wanted_->folder, run.step());
     std::error_code ignored;
-    // A run that has gone on from another folder has none of its first step here.
+    // Writes a checkpoint of the first step here, if the run was continued from another folder.
     if (ranks_.any(ranks_.is_root() && std::filesystem::exists(first, ignored))) {
         last_written_ = run.step();
         kept_.push_back(first);
     }
     if (!ranks_.is_root()) return;
-    remove_unfinished(wanted_->folder); // left by a run that was killed
+    remove_unfinished(wanted_->folder); // files that a killed run has left
 }
 
 std::int64_t Checkpoints::next_due(std::int64_t step) const {
@@ -66,7 +67,8 @@ bool Checkpoints::act() {
     return goes_on;
 }
 
-/// Facts on which all ranks agree: whether any has a signal, and rank 0's clock. **Collective.**
+/// Facts on which all ranks agree: whether any rank has a signal, and the time on rank 0's clock.
+/// **Collective.**
 Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
     std::array<std::uint64_t, 5> sums = {is_stop_requested() ? 1u : 0u, 0, 0, 0, 0};
     const double discs_per_rank = static_cast<double>(run_.scene().n_discs) / ranks_.size();
@@ -133,12 +135,11 @@ std::string Checkpoints::keep(std::int64_t step) {
                        run_.scene().packing() * growth * growth);
 }
 
-/// Repeats the steps from the last stored state to `step`, which have the same bits again.
-/// **Collective.**
+/// Repeats the steps from the last stored state to `step`, with the same bits. **Collective.**
 void Checkpoints::go_over_to(std::int64_t step) {
     if (last_written_ < 0) return;
     SceneParameters scene = run_.scene();
-    scene.accuracy.reset(); // the pilot has chosen
+    scene.accuracy.reset(); // because the pilot has already chosen
     Tuning tuning;
     tuning.threads = run_.n_threads();
     tuning.ends_jams = false;
@@ -151,7 +152,7 @@ void Checkpoints::go_over_to(std::int64_t step) {
 }
 
 void Checkpoints::write() {
-    if (removal_.valid()) removal_.get(); // its room may be needed
+    if (removal_.valid()) removal_.get(); // because its space may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
     note_written(path, run_.step());
@@ -163,7 +164,7 @@ void Checkpoints::note_written(const std::string& path, std::int64_t step) {
     std::erase(kept_, path);
     kept_.push_back(path);
     remove_oldest();
-    stretch_watch_.lap(); // writing does not count for a stretch
+    stretch_watch_.lap(); // so that writing does not count for the stretch
     seconds_since_written_ = 0;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides when a run stores its state, and which of the stored states it keeps.
+// Decides when a run stores its state, and which stored states it keeps.
 //
-// After each stretch of steps ranks agree on two questions: does a batch system want
-// the run to stop, and does wall time ask for a checkpoint? Stretches are kept to half
-// a second if steps are slow. Price: one reduction a stretch, also in a run without
-// checkpoints, because it may be asked to stop.
+// After each stretch of steps ranks agree on two questions: has the batch system requested a stop,
+// and is a checkpoint due by wall time? If steps are slow, a stretch takes half a second. Price:
+// one reduction a stretch, also without checkpoints, because the run may have to stop.
 //
-// A step that takes longer than a second after a request is given up, and leaves no
-// state. So smaller runs keep a copy of a state from shortly before, which is written
-// then. They copy so rarely that it costs about a hundredth of the time.
+// A step that lasts longer than a second after a request is abandoned, and leaves no consistent
+// state. So smaller runs keep a copy of a recent state, which is then written. The copies take
+// about a hundredth of the time.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +27,9 @@ namespace carrom {
 
 class Checkpoints : public StepAction {
 public:
-    /// Stores the state of `run` in the folder of `wanted`. Without `wanted` it only
-    /// sees requests to stop. A run that has gone on from a checkpoint of that folder has one
-    /// of its first step. `run` must outlive this. **Collective.**
+    /// Stores the state of `run` in the folder of `wanted`. Without `wanted` it only handles
+    /// requests to stop. A run that restarted from a checkpoint of that folder has a checkpoint of
+    /// its first step. `run` must outlive this. **Collective.**
     Checkpoints(Run& run, std::optional<CheckpointOutput> wanted);
     ~Checkpoints() {
         if (removal_.valid()) removal_.wait();
@@ -38,21 +37,22 @@ public:
     Checkpoints(const Checkpoints&) = delete;
     Checkpoints& operator=(const Checkpoints&) = delete;
 
-    /// Includes steps that come soon enough to see a request to stop.
+    /// Includes steps that follow soon enough to notice a request to stop.
     std::int64_t next_due(std::int64_t step) const override;
 
-    /// Stores the state if it is time, after the other actions have done their work up
-    /// to there. Returns false if the run is asked to stop before its end; its state
-    /// is stored then, if it has a folder. If storing fails every rank throws, and
-    /// older checkpoints are unchanged. **Collective.**
+    /// Stores the state if a checkpoint is due, after the other actions have made their work
+    /// permanent. Returns false if a stop was requested before the end; the state is then stored,
+    /// if there is a folder. If storing fails every rank throws, and older checkpoints are
+    /// unchanged. **Collective.**
     bool act() override;
 
-    /// After a step that was given up for a request to stop: stores the last state that there
-    /// is a copy of. Returns a sentence on where the run can go on from. **Collective.**
+    /// Call it after a step was abandoned because of a request to stop. Stores the copy of the last
+    /// state, if there is one. Returns a sentence that says from where the run can continue.
+    /// **Collective.**
     std::string write_copy();
 
-    /// After discs have jammed: stores the end of `step`, to which the run comes without a jam.
-    /// Returns a sentence that names the file and the packing in it. **Collective.**
+    /// Call it after discs have jammed. Stores the end of `step`, which the run reaches without a
+    /// jam. Returns a sentence that names the file and the packing in it. **Collective.**
     std::string keep(std::int64_t step);
 
 private:
@@ -76,13 +76,13 @@ private:
     const Communicator& ranks_;
     std::optional<CheckpointOutput> wanted_;
     std::int64_t last_agreed_, last_written_ = -1;
-    std::int64_t stretch_ = 1; ///< until ranks agree again, by rank 0's clock
+    std::int64_t stretch_ = 1; ///< steps until ranks agree again, measured with rank 0's clock
     Stopwatch stretch_watch_;
-    double seconds_since_written_ = 0; ///< on rank 0's clock
-    double seconds_since_copied_ = 0;  ///< on rank 0's clock
-    std::optional<Copy> copy_;         ///< a state before the last one written, or none
-    std::vector<std::string> kept_;    ///< paths, oldest first
-    std::future<void> removal_;        ///< removes older checkpoints, on rank 0
+    double seconds_since_written_ = 0; ///< by rank 0's clock
+    double seconds_since_copied_ = 0;  ///< by rank 0's clock
+    std::optional<Copy> copy_;         ///< copy of a state since the last written one, or none
+    std::vector<std::string> kept_;    ///< paths of the checkpoints, oldest first
+    std::future<void> removal_;        ///< the removal of older checkpoints, on rank 0
 };
 
 } // namespace carrom

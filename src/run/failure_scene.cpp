@@ -21,7 +21,7 @@ double growth_before(const SceneParameters& scene, const CheckFailure& failure) 
     return scene.effects.growth_at(static_cast<double>(failure.step - 1));
 }
 
-/// Text of a scene of one step that begins with the discs around, listed in `discs_file`.
+/// Text of a scene of one step that begins with the surrounding discs, which `discs_file` lists.
 std::string text_around(const SceneParameters& scene, const CheckFailure& failure,
                         const std::string& discs_file) {
     std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:",
@@ -54,7 +54,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
         around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
     around.first_numbers = {};
     around.groups.clear();
-    around.freeze.clear(); // the frozen discs are obstacles
+    around.freeze.clear(); // because the frozen discs are obstacles
     around.frozen.clear();
     if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
     around.steps = 1;

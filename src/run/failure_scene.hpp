@@ -10,14 +10,14 @@
 
 namespace carrom {
 
-/// Writes check_step_S_disc_D.toml and .discs to `folder` ("" for the working folder):
-/// one step, from the begin of the failed step. Returns a sentence on what was
-/// written, or why nothing was. Called on one rank.
+/// Writes check_step_S_disc_D.toml and .discs to `folder` ("" for the working folder): a scene of
+/// one step from the beginning of the failed step. Returns a sentence about the written files, or
+/// why there are none. Called on one rank.
 std::string write_failure_scene(const std::string& folder, const SceneParameters& scene,
                                 const CheckFailure& failure);
 
-/// Lets rank 0 write the discs around the failure to the working folder. Returns the
-/// error to throw on every rank, code 70. **Collective.**
+/// Lets rank 0 write the discs around the failure to the working folder. Returns the error, with
+/// code 70, for every rank to throw. **Collective.**
 CollectiveError reported(const CheckFailure& failure, const SceneParameters& scene,
                          const Communicator& ranks);
 

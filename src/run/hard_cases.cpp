@@ -43,12 +43,12 @@ void refuse_long_flights(const SceneParameters& scene, double speed, double up) 
                                    std::ceil(crossings / most_crossings))}});
 }
 
-/// How far a disc flies in the rounding of a time, which counts from the last sync.
+/// The distance that a disc flies in the rounding error of a time, which counts from the last sync.
 double blurred_flight(const SceneParameters& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
-/// If discs are blurred by a radius, contacts cannot be told from other places.
+/// Throws if rounding moves discs by a radius, because contacts are then meaningless.
 void refuse_blurred_places(const SceneParameters& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;
@@ -62,10 +62,10 @@ void refuse_blurred_places(const SceneParameters& scene, double speed) {
 
 /// The most ranks, at least 1, whose domains have no more discs in their halos than inside. At a
 /// packing of 0.5 a rank fetches discs from up to h = 8 mean distances away: 16 strips of 1250
-/// discs, 8.8 wide, have 1.65 halo discs for each own one (tests/performance/rank_loads.csv). A
-/// strip of width w sees a width of w + 2 h, and a square of side s sees (s + 2 h)^2. So a strip
-/// owns half of what it sees at w = 2 h = 16, and a square at s = 2 h / (sqrt(2) - 1) = 39, with
-/// 1500 discs.
+/// discs, 8.8 wide, have 1.65 halo discs for each own one (tests/performance/rank_loads.csv). With
+/// its halo, a strip of width w covers a width of w + 2 h, and a square of side s covers (s + 2
+/// h)^2. So half of the discs are own discs for a strip of w = 2 h = 16, and for a square of s = 2
+/// h / (sqrt(2) - 1) = 39, with 1500 discs.
 double most_ranks_of(const SceneParameters& scene) {
     constexpr double both_sides = 2 * 8;
     constexpr double least_square = both_sides / (std::numbers::sqrt2 - 1);
@@ -75,8 +75,8 @@ double most_ranks_of(const SceneParameters& scene) {
                      std::floor(n_discs / (least_square * least_square))});
 }
 
-/// The least number of threads, from `least` on, that divides the number of cores, so that no core
-/// is left without a thread.
+/// The smallest number of threads, at least `least`, that divides the number of cores, so that
+/// every core has a thread.
 int threads_that_fill(int n_cores, int least) {
     int threads = least;
     while (n_cores % threads != 0) threads += 1;
@@ -89,11 +89,12 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages) {
     const double speed = largest_speed(system, ranks);
     refuse_blurred_places(scene, speed);
-    const bool is_flow = scene.effects.are_sheared(); // along x, far from what collisions turn up
+    // In a flow along x, which is much faster than the relative motion of discs
+    const bool is_flow = scene.effects.are_sheared();
     refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(system.discs())) : speed);
     const double blur = blurred_flight(scene, speed);
-    // The width of the band before walls: from there on bounces and overlaps show the blur.
-    // Points only have to stay on their side of a wall.
+    // The width of the band before walls: a larger error would affect bounces and overlaps. Points
+    // only have to stay on their side of a wall.
     if (blur <= (scene.are_points ? 0.1 : 1e-8) * scene.radius) return;
     messages.warn(
         "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "
@@ -103,7 +104,8 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
 }
 
 std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads) {
-    constexpr int few_ranks = 8; // so few are rather a test, or all that a small machine has
+    // No warning below 8 ranks, because these are tests or small machines.
+    constexpr int few_ranks = 8;
     const double most_ranks = most_ranks_of(scene);
     if (scene.method != Method::event_driven || n_ranks < few_ranks || n_ranks <= most_ranks)
         return "";

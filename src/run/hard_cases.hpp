@@ -12,14 +12,13 @@
 
 namespace carrom {
 
-/// Warns if discs go noticeably far in the rounding of a time. Throws InputError on
-/// every rank if they cross a box with periodic sides more often than can be counted.
-/// **Collective.**
+/// Warns if discs move noticeably during a rounding error of the time. Throws InputError on every
+/// rank if discs cross a box with periodic sides more often than can be counted. **Collective.**
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages);
 
-/// Warns of discs at the scene's start whose fate rounding or the order of ids decides: they
-/// overlap (in the time-stepped method), touch several others, or slide along each other.
+/// Warns of discs at the scene's start for which rounding or the order of ids decides what happens:
+/// they overlap (in the time-stepped method), touch several others, or slide along each other.
 void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
                          const Messages& messages);
 

@@ -35,20 +35,20 @@ double smallest_radius(const SceneParameters& scene) {
 std::string remedy_of(const SceneParameters& scene) {
     if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
     const double radius = smallest_radius(scene);
-    // Some 2 g T for the longest time T between syncs that the effect takes by default.
+    // About 2 g T for the longest default time T between syncs.
     const double pull = std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
 
-/// Collisions of a disc between two syncs in flows whose contacts last. If they do not, it has some
+/// Collisions of a disc between two syncs in flows whose contacts last. Otherwise there are some
 /// hundred.
 constexpr double most_where_lasting = 30;
-/// For the mean, between two syncs.
+/// Number of intervals between syncs for the mean.
 constexpr std::int64_t intervals_of_flow = 16;
-/// Of the speed at which discs pass each other; a key below that is named.
+/// A larger share of the speed at which discs pass each other is enough; a lower key is reported.
 constexpr double enough = 0.8;
 
-/// To one digit.
+/// Rounded up to one digit.
 double rounded_up(double value) {
     const double digit = std::pow(10, std::floor(std::log10(value)));
     return value > 0 ? std::ceil(value / digit) * digit : 0;
@@ -104,10 +104,11 @@ std::string HeapWarning::text_on_rest(double per_step) const {
 std::string HeapWarning::text_on_flow(double per_step) const {
     const double time = static_cast<double>(scene_.sync_every) /
                         static_cast<double>(scene_.micro_steps);
-    // Where discs cannot flow on they come to rest, and a burst of collisions ends.
+    // If discs cannot flow for ever, they come to rest, and bursts of collisions end.
     if (!may_flow_on(scene_.effects) || !(per_step * time > most_where_lasting)) return {};
-    // A flow may still become faster, and its discs fall over each other by about a radius. Above
-    // the limits the scene would be an error, or impacts would lose more than they should.
+    // The flow may still become faster, and its discs fall over each other by about a radius. The
+    // advice stays below the limits beyond which the scene is an error or impacts lose too much
+    // energy.
     const Gravity& gravity = scene_.effects.gravity;
     const double radius = smallest_radius(scene_),
                  fallen = std::sqrt(2 * std::hypot(gravity.x, gravity.y) * radius),

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warns once of a run whose discs lie on each other and so collide without end, and of one whose
-// contacts should last and do not, because discs flow past each other too fast.
+// Warns once if discs lie on each other and so collide for ever, and if contacts that should last
+// do not, because discs flow past each other too fast.
 //
-// The contact time bounds how often a disc at rest collides: some times in each contact time. Discs
-// that fly collide far less often, because a contact time is much shorter than their flights. So
-// more than one collision of a disc in a contact time, in the mean over the time between two syncs,
-// tells heaps from gases at any speed and density. Where contacts last, a disc collides a few times
-// between two syncs. In a flow with too small a `speed` it has a hundred collisions: discs that
-// meet faster are no lasting contacts, and bounce in the crowd until the next sync. Price: a sum
-// over the discs and the ranks in that time, in scenes with gravity and losses alone.
+// A disc at rest collides a few times in each contact time. A flying disc collides far less often,
+// because its flights are much longer than a contact time. So more than one collision of a disc in
+// a contact time, averaged over the time between two syncs, distinguishes heaps from gases at any
+// speed and density. If contacts last, a disc collides a few times between two syncs. In a flow
+// with too small a `speed` it has about a hundred collisions, because faster contacts do not last,
+// and such discs bounce between their neighbours until the next sync. Price: a sum over discs and
+// ranks at each sync, only in scenes with gravity and losses.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ public:
     HeapWarning(const SceneParameters& scene, const DiscSystem& system, const Communicator& ranks,
                 Messages messages);
 
-    /// Whether discs of the scene may come to rest.
+    /// Whether discs of the scene can come to rest.
     static bool may_warn(const SceneParameters& scene);
 
     std::int64_t next_due(std::int64_t /*step*/) const override {
@@ -37,11 +37,12 @@ public:
     bool act() override;
 
 private:
-    /// The rest of a warning for so many collisions of a disc in a step; empty without a reason.
+    /// The text of a warning for this number of collisions of a disc in a step; empty if there is
+    /// no reason.
     std::string text_on_rest(double per_step) const;
     std::string text_on_flow(double per_step) const; ///< **Collective.**
     double speed_of_passing() const;                 ///< **Collective.**
-    /// Of all discs so far; a pair's counts twice. **Collective.**
+    /// Collisions of all discs so far; a collision of a pair counts twice. **Collective.**
     std::uint64_t n_collisions() const;
 
     const SceneParameters& scene_;

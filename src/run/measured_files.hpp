@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured tables as CSV files: remarks behind `#`, a line of names, then numbers that
-// read back with the same bits.
+// Writes measured tables as CSV files: remarks behind `#`, a line of names, then numbers that read
+// back with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,15 @@ std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 
-/// The files of tables that grow by a line at each sample. A line is in the file by
-/// the end of its step. Files end with whole lines, unless the machine goes down.
+/// The files of tables that grow by a line at each sample. A line is in the file by the end of its
+/// step. Files end with whole lines, unless the machine fails.
 class GrowingFiles {
 public:
     GrowingFiles(const SceneParameters& scene, const Communicator& ranks)
         : scene_(scene), ranks_(ranks) {}
 
-    /// Rank 0 writes the rows that the files lack; the first time it makes new files.
-    /// Throws like `write_tables`, also if a file is not as this has left it. **Collective.**
+    /// Rank 0 appends the rows that are missing in the files; the first call makes the files.
+    /// Throws like `write_tables`, also if another program has changed a file. **Collective.**
     void add_rows_of(const Sampler& sampler);
 
 private:
@@ -38,7 +38,7 @@ private:
     const SceneParameters& scene_;
     const Communicator& ranks_;
     std::size_t n_written_ = 0;
-    std::map<std::string, std::uint64_t> sizes_; ///< in bytes, by path, on rank 0
+    std::map<std::string, std::uint64_t> sizes_; ///< size of each file in bytes, by path, on rank 0
 };
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a run's discs fit into memory. A run of too many would end later without a reason.
+// Checks that a run's discs fit into memory. Otherwise it would end later without a message.
 #pragma once
 
 #include "parallel/communicator.hpp"
@@ -7,8 +7,8 @@
 
 namespace carrom {
 
-/// InputError on every rank if the discs need more memory than a rank has. `bytes_for_crowds` is
-/// what a disc takes beyond one of an even gas, where that is known. **Collective.**
+/// Throws InputError on every rank if the discs need more memory than a rank has.
+/// `bytes_for_crowds`: extra bytes a disc where discs are clustered, if known. **Collective.**
 void check_memory(const SceneParameters& scene, const Communicator& ranks,
                   double bytes_for_crowds = 0);
 

@@ -17,10 +17,10 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_commits = 0.8; ///< so that readers see a run while it goes on
+constexpr double seconds_between_commits = 0.8; ///< so that readers can follow a run
 constexpr double largest_share = 0.02;          ///< share of the time, for commits
 
-/// The total order; q + 1 puts the wall, the largest number there is, before every disc.
+/// The total order. q + 1 puts the wall, which is the largest number, before every disc.
 bool comes_before(const Collision& a, const Collision& b) {
     const auto key = [](const Collision& c) {
         return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1);
@@ -86,7 +86,7 @@ void Recordings::open_log() {
     report_loss(scene_.collisions->file, log_->recorded_before());
 }
 
-/// Reports what a file had of steps that this run does not come to, so does not record again.
+/// Warns of recorded steps after the end of this run, which are lost.
 void Recordings::report_loss(const std::string& file, std::int64_t recorded) const {
     if (recorded > scene_.steps)
         messages_.warn("{}: had steps up to {}, and loses those after step {}, where this run "
@@ -94,7 +94,7 @@ void Recordings::report_loss(const std::string& file, std::int64_t recorded) con
                        file, recorded, scene_.steps);
 }
 
-/// Reports frames that the restart of a run lacks in its trajectory.
+/// Warns of frames that are missing in the trajectory of a restart.
 void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
     const TrajectoryOutput& output = *scene_.trajectory;
     const std::int64_t last_due = last_frame(output, step);
@@ -115,9 +115,9 @@ bool Recordings::act() {
     if (log_) record_collisions(step);
     add_rows();
     ImageCounts* const counts = run_.images();
-    if (counts) static_cast<void>(counts->counts()); // keeps their memory small
+    if (counts) static_cast<void>(counts->counts()); // so that their memory stays small
     if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
-        std::vector<BondOrder> orders; // first, because finding them moves discs in memory
+        std::vector<BondOrder> orders; // first, because it moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
             orders = bond_orders(system);
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};

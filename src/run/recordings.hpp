@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The recordings of a run, if its scene asks for them: a trajectory, the collisions in
-// their total order, and measurements, whose tables are written with each checkpoint
-// and at the end. The table "thermo" is written as it grows.
+// The recordings of a run that its scene requires: a trajectory, the collisions in their total
+// order, and measurements, whose tables are written with each checkpoint and at the end. The table
+// "thermo" is written as it grows.
 //
 // They are committed before each checkpoint, and about once a second for readers.
 #pragma once
@@ -22,25 +22,24 @@
 
 namespace carrom {
 
-/// A collision as the log has it: its step, and its time since the scene's start, in
-/// steps.
+/// A collision as in the log: its step, and its time since the scene's start, in steps.
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
 
 class Recordings : public StepAction {
 public:
-    /// A restart opens the files, checks them and writes nothing yet: it throws code 2 if it
-    /// cannot go on with them. From then on the simulation logs its collisions here. All
-    /// arguments must outlive this, and this the run's stepping. **Collective.**
+    /// A restart opens the files and checks them, but writes nothing yet; it throws code 2 if it
+    /// cannot continue them. From then on the simulation logs its collisions here. All arguments
+    /// must outlive this object, which must outlive the run's steps. **Collective.**
     Recordings(Run& run, const Messages& messages);
 
-    /// Cuts the files back to the present step in a restart, else makes new ones with the
-    /// present step as a first frame. Comes before all steps. **Collective.**
+    /// In a restart, cuts the files back to the present step; otherwise makes new files with the
+    /// present step as the first frame. Call it before any step. **Collective.**
     void begin();
 
     std::int64_t next_due(std::int64_t step) const override;
     /// Records the present step. If recording fails every rank throws. **Collective.**
     bool act() override;
-    /// Makes the recordings so far permanent. **Collective.**
+    /// Makes everything recorded so far permanent. **Collective.**
     void commit() override;
 
     /// Commits at the end of the run, as all actions do. **Collective.**
@@ -63,8 +62,8 @@ private:
     std::optional<CollisionLog> log_;
     GrowingFiles growing_;
     Stopwatch since_asked_;
-    double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
-    std::vector<Collision> collisions_; ///< this rank's, since it last recorded some
+    double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< by rank 0's clock
+    std::vector<Collision> collisions_; ///< collisions of this rank that are not recorded yet
 };
 
 } // namespace carrom

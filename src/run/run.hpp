@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run of a scene: its simulation, its measurements, and the actions between steps.
 //
-// The program and the library make and step runs alike. They differ in the actions
-// that they add: the program adds lines of text, recordings and checkpoints; the
-// library adds checkpoints if it is asked for some.
+// The program and the library make and step runs in the same way. They differ in the actions that
+// they add: the program adds lines of text, recordings and checkpoints; the library adds
+// checkpoints on request.
 #pragma once
 
 #include <cstdint>
@@ -28,48 +28,48 @@ namespace carrom {
 
 class Run {
 public:
-    /// Begins at step 0, or goes on from a stored state. Lets a pilot choose method and
-    /// micro-steps if the scene has `time.accuracy`. Throws InputError on every rank for a scene
-    /// whose numbers cannot be resolved. Takes the first sample if it is due. **Collective.**
+    /// Begins at step 0, or continues from a stored state. A pilot chooses method and micro-steps
+    /// if the scene has `time.accuracy`. Throws InputError on every rank if the scene's numbers
+    /// cannot be resolved. Takes the first sample if it is due. **Collective.**
     Run(SceneParameters scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
         const Messages& messages = {});
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    const SceneParameters& scene() const { return scene_; } ///< with the pilot's choice
+    const SceneParameters& scene() const { return scene_; } ///< includes the pilot's choice
     const Communicator& ranks() const { return ranks_; }
-    int n_threads() const { return n_threads_; } ///< on this rank
+    int n_threads() const { return n_threads_; } ///< threads of this rank
     bool is_restart() const { return is_restart_; }
     DiscSystem& system() { return system_; }
     const DiscSystem& system() const { return system_; }
     std::int64_t step() const { return system_.step(); }
 
-    /// The averages, and the measurements that the scene asks for.
+    /// The averages and the scene's measurements.
     Sampler& sampler() { return sampler_; }
     const Sampler& sampler() const { return sampler_; }
-    /// Order and energy, if the run has some that may change unseen.
+    /// Order and energy, if they may change although the averages do not show it.
     const OrderWatch& watch() const { return watch_; }
-    /// Counts for a trajectory that shows images, or as the start asks for them; else null. They
-    /// go on from a checkpoint that has some.
+    /// Counts of box lengths for a trajectory with images, or because the start requires them;
+    /// otherwise null. They continue from a checkpoint that has them.
     ImageCounts* images() { return images_ ? &*images_ : nullptr; }
     bool has_earlier_images() const { return has_earlier_images_; }
 
-    /// From now on calls `action` between steps, after those added before. It must
-    /// outlive stepping.
+    /// From now on calls `action` between steps, after the actions that were added before. It must
+    /// outlive the run's steps.
     void add(StepAction& action) { actions_.push_back(&action); }
     /// The step at which the run ends: the scene's last one, or the present one if a condition of
     /// `[time.stop]` holds.
     std::int64_t last_step() const { return stop_.reason() ? stop_.reason()->step : scene_.steps; }
     const std::optional<StopReason>& stop_reason() const { return stop_.reason(); }
-    /// Steps to the end of `last_step`, or to where the run ends before. Returns false if another
+    /// Advances to the end of `last_step`, or until the run ends before. Returns false if another
     /// action ended it before. A failed check of `check_every_step` leaves a scene of the discs
     /// around it. **Collective.**
     bool advance_to(std::int64_t last_step);
     const StretchSeconds& seconds() const { return seconds_; }
 
-    /// Makes permanent what all actions have written so far. **Collective.**
+    /// Makes everything permanent that the actions have written so far. **Collective.**
     void commit();
-    /// The data of a checkpoint beside the state. **Collective.**
+    /// The data that a checkpoint stores in addition to the state. **Collective.**
     StoredSamples stored_samples();
     /// Writes the present state as a whole file or not at all. If it fails every rank
     /// throws, and an older file of that name is unchanged. **Collective.**
@@ -82,11 +82,11 @@ private:
     int n_threads_;
     DiscSystem system_;
     std::optional<ImageCounts> images_;
-    StopCheck stop_; ///< before the sampler, because it may change the unit of stress
+    StopCheck stop_; ///< constructed before the sampler, because it may change the unit of stress
     Sampler sampler_;
     OrderWatch watch_;
     HeapWarning heap_warning_;
-    /// The sampler is the first, so that all others see the sample of the present step.
+    /// The sampler is the first action, so that all others find the sample of the present step.
     std::vector<StepAction*> actions_{&sampler_, &watch_, &heap_warning_, &stop_};
     StretchSeconds seconds_;
 };

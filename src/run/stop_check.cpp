@@ -69,7 +69,7 @@ void StopCheck::measure_pressure() {
     pressure_->forget_pressures();
 }
 
-/// The first condition that holds, in the order of the keys, is the reason.
+/// Finds the first condition that holds, in the order of the keys.
 void StopCheck::check() {
     const StopConditions& stop = scene_.stop;
     check_counts();
@@ -106,7 +106,7 @@ bool StopCheck::reaches(const char* name, const std::optional<std::int64_t>& lim
     return true;
 }
 
-/// NaN, where there is no value, is neither below nor above.
+/// NaN, which stands for a missing value, is neither below nor above.
 bool StopCheck::holds(const char* name, const std::optional<double>& below,
                       const std::optional<double>& above, double value) {
     const bool is_below = below && value < *below, is_above = above && value > *above;

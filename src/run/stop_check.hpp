@@ -2,10 +2,10 @@
 // Ends a run before its last step, by the conditions of `[time.stop]`.
 //
 // Conditions are checked at step 0, and at the end of each step in which there was a sync, because
-// the steps of syncs depend on the scene alone. What is compared are exact sums, so that the run
-// ends at the same step on any number of ranks and threads, and over restarts. The pressure is the
-// mean since the last check; a checkpoint keeps the part of that time which has passed. Price of a
-// check: at most two passes over the discs. Without conditions nothing is done.
+// the steps of syncs depend on the scene alone. Exact sums are compared, so the run ends at the
+// same step on any number of ranks and threads, and over restarts. The pressure is the mean since
+// the last check; a checkpoint stores the sums of the unfinished interval. Price of a check: at
+// most two passes over the discs. Without conditions nothing is done.
 #pragma once
 
 #include <cstdint>
@@ -22,32 +22,32 @@
 
 namespace carrom {
 
-/// What has ended a run.
+/// The condition that has ended a run.
 struct StopReason {
-    std::string key; ///< the condition
+    std::string key; ///< key of the condition
     double limit = 0, value = 0;
     std::int64_t step = 0;
 };
 
-/// "time.stop.kT_below = 0.1: 0.0987"
+/// Text such as "time.stop.kT_below = 0.1: 0.0987".
 std::string text_of(const StopReason& reason);
 
 class StopCheck : public StepAction {
 public:
-    /// Goes on from the data of a checkpoint, if there are any; before any step. All arguments must
-    /// outlive this. **Collective.**
+    /// Continues from the data of a checkpoint, if there are any. Make it before any step. All
+    /// arguments must outlive this. **Collective.**
     StopCheck(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks,
               std::span<const std::int64_t> stored);
     StopCheck(const StopCheck&) = delete;
     StopCheck& operator=(const StopCheck&) = delete;
 
     std::int64_t next_due(std::int64_t step) const override;
-    /// Returns false once a condition holds.
+    /// Returns false when a condition holds.
     bool act() override;
 
-    /// Why the run ends at the present step; nothing as long as it goes on.
+    /// Why the run ends at the present step; nothing if it goes on.
     const std::optional<StopReason>& reason() const { return reason_; }
-    /// For a checkpoint; empty if no pressure is compared. **Collective.**
+    /// The data for a checkpoint; empty if no pressure is compared. **Collective.**
     std::vector<std::int64_t> stored();
 
 private:

@@ -38,7 +38,7 @@ std::string number_problem(const SceneParameters& scene, SideColumn column, doub
 
 void check_species(const SceneDraft& draft) {
     draft.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
-        if (std::isnan(n[0])) return {}; // refused already (species_counts.cpp, disc_groups.cpp)
+        if (std::isnan(n[0])) return {}; // reported before (species_counts.cpp, disc_groups.cpp)
         if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count)) || n[0] != std::floor(n[0]))
             return fmt::format("its count must be a whole number from 1 to {}, not {}",
                                largest_count, n[0]);
@@ -84,7 +84,8 @@ void check_numbers(const SceneDraft& draft) {
     });
 }
 
-/// The count may be given, or follow from a list or from species. All that are given must agree.
+/// Computes the count. It may be given, or follow from a list or from species. All of these must
+/// agree.
 void fill_count(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     std::uint64_t n_in_species = 0;
@@ -112,7 +113,7 @@ void fill_count(const SceneDraft& draft) {
     }
 }
 
-/// The widths that positions and numbers of a precision allow.
+/// Checks that widths of box and discs can be resolved in the precision of the scene.
 void check_width(const SceneDraft& draft, double smallest_radius) {
     SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
@@ -133,7 +134,7 @@ void check_width(const SceneDraft& draft, double smallest_radius) {
                            "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
 }
 
-/// Whether the discs can fit at all.
+/// Checks that the discs can fit at all.
 void check_sizes(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const auto& species = scene.effects.species;
@@ -157,7 +158,8 @@ void check_sizes(const SceneDraft& draft) {
     check_width(draft, smallest);
 }
 
-/// Sums over discs are whole multiples of a unit that fits the heaviest (core/exact_sum.hpp).
+/// Warns of lost masses, because sums over discs are whole multiples of a unit that suits the
+/// heaviest (core/exact_sum.hpp).
 void warn_of_lost_masses(const SceneDraft& draft) {
     constexpr double most = 1e8;
     SceneParameters& scene = draft.scene;
@@ -171,7 +173,7 @@ void warn_of_lost_masses(const SceneDraft& draft) {
         heaviest.mass / lightest.mass, most, most * lightest.mass));
 }
 
-/// Points never meet each other, so a scene has to say that discs do not.
+/// Points never collide with each other, so a scene of points must declare that discs do not.
 void check_points(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.are_points) return;
@@ -188,7 +190,7 @@ void check_points(const SceneDraft& draft) {
                              contact, *contact != 0 && *method != 0 ? " and " : "", method));
 }
 
-/// Fills in box and radius. Returns true if they are known and the discs may fit.
+/// Computes box and radius. Returns true if they are valid and the discs may fit.
 bool fill_sizes(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Settings& settings = draft.settings;
@@ -227,10 +229,11 @@ bool fill_sizes(const SceneDraft& draft) {
     return draft.problems.size() == n_problems;
 }
 
-/// The lattice of a periodic box must fit it, and have room for the discs.
+/// The lattice of a periodic box must fit it, and leave enough room for the discs.
 void check_triangular(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return; // rules.cpp
+    // Reported by rules.cpp
+    if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return;
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     if (!lattice)
         return draft.refuse(
@@ -279,7 +282,7 @@ void check_generator(const SceneDraft& draft) {
                               "discs.generator = \"compressed\""));
 }
 
-/// The lightest discs are the fastest ones.
+/// Checks the speeds of the lightest discs, which are the fastest.
 void check_temperature(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;
@@ -316,7 +319,7 @@ void check_velocities(const SceneDraft& draft) {
     });
 }
 
-/// Whether radii are in a file that has not been read, or has wrong lines.
+/// Whether radii are in a file that has not been read, or that has wrong lines.
 bool are_radii_unknown(const SceneDraft& draft) {
     return has_column(draft.scene, DiscColumn::radius) &&
            (!draft.columns || !draft.columns->is_whole);
@@ -344,7 +347,7 @@ bool check_discs(const SceneDraft& draft) {
     check_velocities(draft);
     const bool comes_later = scene.n_discs == 0 && draft.problems.size() == n_problems &&
                              (!scene.discs_file.empty() || !scene.discs_from.empty());
-    if (comes_later) return false; // the file, which is read later, gives the number
+    if (comes_later) return false; // the number of discs is in a file that is read later
     if (!is_right) {
         scene.radius = 0;
         if (!are_radii_unknown(draft)) scene.box = {};

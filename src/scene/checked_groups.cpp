@@ -64,7 +64,8 @@ private:
                            "packing covers more than {}",
                            group.count, body.radius, area / box.area(), largest_packing);
     }
-    /// Lattices and compressed discs know nothing of each other. Random ones find the gaps.
+    /// Only one group may have a lattice or compressed discs in a region, because these do not
+    /// avoid others. Random discs fill the gaps.
     std::string problem_of_rivals(std::size_t k) const {
         if (groups_[k].generator == Generator::random) return {};
         for (std::size_t i = 0; i < k; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks of the forms that lists and files of discs have.
+// Checks the forms of lists and files of discs.
 #include "scene/data_lines.hpp"
 #include "scene/scene_draft.hpp"
 

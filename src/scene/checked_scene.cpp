@@ -49,12 +49,13 @@ void check_origin(const SceneDraft& draft) {
                                  most, farthest));
 }
 
-/// Puts valid values into the scene as they are; of lists the valid rows.
+/// Stores valid values in the scene; for lists the valid rows.
 void take_values(const SceneDraft& draft) {
     for (const Table& table : tables()) {
         const auto& all = draft.settings.all();
         if (std::any_of(all.begin(), all.end(), [&table](const Setting& one) {
-                const Key* key = find_key(one.key); // 'discs.radius' is a key and a table
+                // Because 'discs.radius' is both a key and a table
+                const Key* key = find_key(one.key);
                 return key ? key->table() == table.name : one.key == table.name;
             }))
             table.create(draft.scene);
@@ -72,7 +73,7 @@ void take_values(const SceneDraft& draft) {
     find_origin(draft.scene);
 }
 
-/// Defaults that depend on other keys.
+/// Computes defaults that depend on other keys.
 void derive_defaults(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Settings& settings = draft.settings;
@@ -90,7 +91,7 @@ void derive_defaults(const SceneDraft& draft) {
         choose_fields(*scene.trajectory, scene);
 }
 
-/// All outputs of a run have their places in one folder. A run with a folder stores checkpoints.
+/// Puts all outputs of a run into one folder. A run with a folder writes checkpoints.
 void place_outputs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (scene.folder.empty()) return;
@@ -101,7 +102,7 @@ void place_outputs(const SceneDraft& draft) {
     if (scene.measurements) scene.measurements->folder = scene.folder + "/measurements";
 }
 
-/// True if the text names a key whose value is wrong, so that nothing follows from it.
+/// Whether the text names a key whose value is wrong, so that other problems may follow from it.
 bool depends_on_wrong_value(const SceneDraft& draft, std::string_view text) {
     const auto& all = draft.settings.all();
     return std::any_of(all.begin(), all.end(), [text](const Setting& one) {
@@ -114,7 +115,7 @@ bool is_wrong(const SceneDraft& draft, std::string_view key) {
 }
 
 /// Whether another key of the table has a wrong value, on which the key's meaning may depend: in
-/// tables of sides, contacts and thermostats the kind says which keys have one.
+/// tables of sides, contacts and thermostats the kind decides which keys have a meaning.
 bool has_wrong_neighbour(const SceneDraft& draft, const Key& key) {
     if (!find_key(std::string(key.table()) + ".kind")) return false;
     const auto& all = draft.settings.all();
@@ -124,7 +125,7 @@ bool has_wrong_neighbour(const SceneDraft& draft, const Key& key) {
     });
 }
 
-/// A key without a meaning, a missing key, and two keys that exclude each other are problems.
+/// Reports keys without a meaning, missing keys, and keys that exclude each other.
 void check_needs(const SceneDraft& draft, const Key& key) {
     const Settings& settings = draft.settings;
     const auto is_there = [&settings](std::string_view other) { return settings.has(other); };

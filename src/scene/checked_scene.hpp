@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns settings into SceneParameters: values, and how they go together. Every error becomes a
-// problem with its line. The scene is usable only if there are none.
+// Turns settings into SceneParameters, and checks values and their combinations. Every error
+// becomes a problem with its line. The scene is usable only if there are none.
 #pragma once
 
 #include "scene/disc_columns.hpp"
@@ -8,9 +8,9 @@
 
 namespace carrom {
 
-/// Fills in all but the name and the text. Without a valid `discs.count` the number of
-/// discs is 0; if box and radius are not valid together both are 0. `columns` are
-/// those of `discs.columns`, if they have been read.
+/// Fills in all but the name and the text. Without a valid `discs.count` the number of discs is 0.
+/// If box and radius are not valid together, both are 0. `columns` are the columns of
+/// `discs.columns`, if they have been read.
 void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
                 const DiscColumns* columns);
 

@@ -12,10 +12,11 @@ namespace carrom {
 
 namespace {
 
-/// Limited because tables that grow with time are kept in memory and in checkpoints.
+/// Limits the number of samples, because tables that grow with time are kept in memory and in
+/// checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
 
-/// A last step of 0 only shows the start, and measures nothing.
+/// A run of 0 steps only shows the start, and measures nothing.
 void check_first_sample(const SceneDraft& draft, std::string_view key, std::int64_t from) {
     const std::int64_t last = draft.scene.steps;
     if (from > last && last > 0)

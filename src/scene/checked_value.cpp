@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// In small letters and without hyphens, so that Nose-Hoover and nosehoover are one word.
+/// The word in small letters and without hyphens, so that Nose-Hoover and nosehoover are equal.
 std::string letters_of(std::string_view word) {
     std::string letters;
     for (const char c : word)
@@ -23,7 +23,7 @@ std::string letters_of(std::string_view word) {
     return letters;
 }
 
-constexpr std::size_t most_wrong_rows = 20; ///< these are listed; the rest are counted
+constexpr std::size_t most_wrong_rows = 20; ///< this many are listed; the rest are counted
 
 std::string value_text(const Value& value) {
     if (std::holds_alternative<bool>(value.data)) return "true or false";
@@ -42,7 +42,7 @@ std::optional<double> as_number(const Value& value) {
     return std::nullopt;
 }
 
-/// Checks one setting by its key.
+/// Checks one setting against its key.
 class ValueCheck {
 public:
     ValueCheck(const Key& key, Setting& setting, Problems& problems)
@@ -124,7 +124,7 @@ private:
         if (setting_.is_wrong) return;
         setting_.value.data = std::move(numbers);
     }
-    /// Numbers like 1e5 are whole, too.
+    /// Numbers such as 1e5 are also whole.
     void check_integer() {
         const auto number = as_number(setting_.value);
         if (!number) return refuse_type();
@@ -223,7 +223,7 @@ private:
                               takes_list ? "numbers, " + std::string(field.form) : "a number"));
         return {};
     }
-    /// The place of the word among those of the field.
+    /// The index of the word among the words of the field.
     Numbers number_of_word(const Value& value, const Field& field, const std::string& name,
                            std::int64_t line) {
         const auto* flag = std::get_if<bool>(&value.data);

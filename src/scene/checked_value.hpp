@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks values of settings by their keys: kind, range, words, shape of rows.
+// Checks values of settings against their keys: kind, range, words, shape of rows.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@ namespace carrom {
 /// marks it as wrong. An invalid row becomes `monostate`.
 void check_value(const Key& key, Setting& setting, Problems& problems);
 
-/// "a number greater than 0", "an array of [x, y, radius]".
+/// Text such as "a number greater than 0" or "an array of [x, y, radius]".
 std::string kind_text(const Key& key);
-/// "from 0 to 1", "greater than 0"; empty if every number is allowed.
+/// Text such as "from 0 to 1" or "greater than 0"; empty if every number is allowed.
 std::string range_text(const Range& range);
 /// Human-readable: large powers of two are printed as 2^53.
 std::string number_text(double number);
 /// The shortest decimal that reads back as the same bits.
 std::string decimal_text(double number);
-/// "\"a\", \"b\" or \"c\"".
+/// Text such as "\"a\", \"b\" or \"c\"".
 std::string words_text(const std::vector<std::string_view>& words);
 
 } // namespace carrom

@@ -17,13 +17,14 @@ std::string shown(const Key& key, const SceneParameters& scene) {
     return value.is_nothing() ? "not set" : toml_text(key, value);
 }
 
-/// Empty if the key is the same in both, or is not compared.
+/// Empty if the key is equal in both, or is not compared.
 std::string difference_in(const Key& key, const SceneParameters& there,
                           const SceneParameters& here) {
     const bool is_there = key.has_meaning(there), is_here = key.has_meaning(here);
     const bool is_about_generator = key.need && key.need->is_of_generator;
     if (!key.is_physical || key.is_same(there, here) || (!is_there && !is_here)) return {};
-    if (is_there != is_here && is_about_generator) return {}; // the generator is reported already
+    // Because the generator is reported already
+    if (is_there != is_here && is_about_generator) return {};
     if (key.has_rows()) return fmt::format("'{}' is another list there", key.name);
     return fmt::format("'{}' is {} there and {} here", key.name, shown(key, there),
                        shown(key, here));
@@ -38,7 +39,8 @@ std::vector<std::string> physical_differences(const SceneParameters& there,
         if (std::string text = difference_in(key, there, here); !text.empty())
             differences.push_back(std::move(text));
     for (const SideColumn column : all_side_columns) {
-        const DiscColumn of_files = disc_column_of(column); // checkpoints do not have file columns
+        // Because checkpoints do not store the columns of files
+        const DiscColumn of_files = disc_column_of(column);
         if (!has_column(there, of_files) && !has_column(here, of_files) &&
             there.first_numbers[column] != here.first_numbers[column])
             differences.push_back(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two scenes are the same run: compares all that affects the bits, and nothing else.
+// Whether two scenes describe the same run. Compares all settings that affect the bits, and no
+// others.
 #pragma once
 
 #include <string>
@@ -9,8 +10,8 @@
 
 namespace carrom {
 
-/// One line for each setting that differs, "'discs.seed' is 1 there and 2 here". The
-/// length of a run and its outputs are not compared, nor lines of discs in files.
+/// One line for each setting that differs, such as "'discs.seed' is 1 there and 2 here". The length
+/// of a run, its outputs, and lines of discs in files are not compared.
 std::vector<std::string> physical_differences(const SceneParameters& there,
                                               const SceneParameters& here);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines of a list of discs, without what is no data.
+// The lines of a list of discs that contain data.
 //
 // A file of discs (`discs.file`) may come from another program. So `#` begins a comment there,
 // commas separate numbers as blanks do, and its first line may name the columns. Lines after a
-// legacy header, and those of `discs.from`, have none of this. Price: one copy of each line that
+// legacy header, and those of `discs.from`, allow none of this. Price: one copy of each line that
 // has commas.
 #pragma once
 
@@ -21,12 +21,12 @@ namespace carrom {
 
 class DataLines {
 public:
-    /// See LineReader. `begins_list`: the stream stands at the first line of the list.
+    /// See LineReader. `begins_list`: the stream is at the first line of the list.
     DataLines(std::istream& stream, const SceneParameters& scene, std::int64_t lines_before,
               std::uint64_t n_bytes = LineReader::no_limit, bool begins_list = true);
 
-    /// The next line with data, commas replaced; false at the end. Of a line that is too long
-    /// `reader().is_cut()` is true. `line` is valid until the next call.
+    /// Reads the next line with data and replaces commas; returns false at the end. For a line that
+    /// is too long, `reader().is_cut()` is true. `line` is valid until the next call.
     bool next(std::string_view& line);
 
     const LineReader& reader() const { return lines_; }
@@ -40,19 +40,20 @@ private:
 
 /// `line` without a comment, in a file of discs.
 std::string_view without_comment(std::string_view line);
-/// Replaces the commas in `text`, so that it can be split at blanks. A field without a word becomes
-/// a part of one that is no number.
+/// Replaces the commas in `text`, so that it can be split at blanks. An empty field is joined to
+/// the next one, so that the result is not a number.
 void replace_commas(std::string& text);
 
-/// Whether the words are names of columns: more than one, and none of them a number.
+/// Whether the words are names of columns: more than one word, and none of them a number.
 bool are_names(const std::vector<std::string_view>& words);
-/// The column that a header line of another program calls so, in any case.
+/// The column that another program calls by this name in a header line; upper and lower case are
+/// equal.
 std::optional<DiscColumn> column_of(std::string_view name);
 
-/// The columns of the scene's lines of discs, in their order. `discs.columns` names either all of
-/// them, with "x", or those after `id x y vx vy`.
+/// The columns of the scene's lines of discs, in their order. `discs.columns` names either all
+/// columns, including "x", or only those after `id x y vx vy`.
 std::vector<DiscColumn> columns_of_lines(const SceneParameters& scene);
-/// The columns' names, with blanks between them.
+/// The names of the columns, separated by blanks.
 std::string names_of(const std::vector<DiscColumn>& columns);
 
 } // namespace carrom

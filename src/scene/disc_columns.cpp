@@ -19,7 +19,7 @@ struct Row {
     BySideColumn<double> beside;
 };
 
-/// The numbers in the words of line number `id`; nothing if DiscReader would refuse it.
+/// The numbers of the line of disc `id`; nothing if DiscReader would report an error in it.
 std::optional<Row> row_of(const std::vector<std::string_view>& words,
                           const std::vector<DiscColumn>& columns, DiscId id) {
     if (words.size() != columns.size()) return std::nullopt;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of a file of discs beyond ids, places and velocities, which `discs.columns` names.
+// The columns of a file of discs beyond ids, positions and velocities, which `discs.columns` names.
 //
-// The checks of a scene need radii and masses, and every rank needs them, because a
-// dynamics asks for those of any disc. So rank 0 reads the file twice: first these
-// columns, then the discs. Successive discs that are alike are one species; in the
-// worst case each disc is a species of its own.
+// The checks of a scene need radii and masses, and every rank needs them, because a dynamics uses
+// them for any disc. So rank 0 reads the file twice: first these columns, then the discs.
+// Successive equal discs form one species; in the worst case each disc is a species of its own.
 #pragma once
 
 #include <istream>
@@ -14,8 +13,8 @@
 
 namespace carrom {
 
-/// Numbers by id. Without `is_whole` the file has wrong lines, or not the right number
-/// of lines; DiscReader reports them.
+/// Numbers in the order of ids. If not `is_whole`, the file has wrong lines or a wrong number of
+/// lines, which DiscReader reports.
 struct DiscColumns {
     std::vector<Species> species; ///< empty if the file has no column of radii
     FirstNumbers numbers{};       ///< empty if the file has no such columns
@@ -26,15 +25,15 @@ struct DiscColumns {
 DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene);
 
 bool has_column(const SceneParameters& scene, DiscColumn column);
-/// Whether read_disc_columns finds anything in the scene's file.
+/// Whether read_disc_columns would find columns in the scene's file.
 bool has_columns_beside(const SceneParameters& scene);
-/// Whether the lines of the scene's file have velocities.
+/// Whether the lines of the scene's file contain velocities.
 bool lines_have_velocities(const SceneParameters& scene);
-/// The place for the number of a column beyond ids, places and velocities.
+/// The member for the number of a column beyond ids, positions and velocities.
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);
-/// Append discs; as a new species or run only if they differ from those before.
+/// Append discs, as a new species or run only if they differ from the last one.
 void add_species(std::vector<Species>& species, const Species& next);
 void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number);
 

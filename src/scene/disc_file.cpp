@@ -22,7 +22,8 @@ using Columns = std::vector<DiscColumn>;
 constexpr std::string_view expected = "expected lines `id x y vx vy`, or a first line that names "
                                       "the columns";
 
-/// Names the format of a file that is no list of discs, by its first line; empty if it may be one.
+/// Recognises the format of a file that is not a list of discs by its first line, and returns its
+/// name; empty if it may be a list.
 std::string other_format(std::string_view line) {
     if (line.starts_with("\x89HDF"))
         return "is an HDF5 file; try: discs.from, which takes checkpoints and trajectories";
@@ -32,7 +33,7 @@ std::string other_format(std::string_view line) {
     return {};
 }
 
-/// The columns that words name. The names that are none are put into `unknown`.
+/// The columns that words name. Unknown names are added to `unknown`.
 Columns columns_named(const std::vector<std::string_view>& words, std::string& unknown) {
     Columns columns;
     for (const std::string_view word : words) {
@@ -49,7 +50,7 @@ bool has(const Columns& columns, DiscColumn column) {
     return std::ranges::find(columns, column) != columns.end();
 }
 
-/// The names of all columns that there may be.
+/// The names of all possible columns.
 std::string all_names() {
     Columns all;
     for (std::size_t k = 0; k < static_cast<std::size_t>(DiscColumn::first_side); ++k)
@@ -78,7 +79,7 @@ private:
         found_.problems.push_back({place_, line, std::move(text)});
     }
 
-    /// A line before the data, or the first one of these; then returns true.
+    /// Takes a line before the data, or the first line of data; then returns true.
     bool take(std::string_view line) {
         if (lines_.line_number() == 1) {
             if (line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
@@ -108,7 +109,7 @@ private:
         return false;
     }
 
-    /// Comments of other programs have their columns' names, too, and all sorts of words.
+    /// Comments of other programs contain names of their columns, and other words.
     void take_comment(const std::vector<std::string_view>& words) {
         std::string unknown;
         const Columns columns = columns_named(words, unknown);
@@ -145,11 +146,11 @@ private:
                                names_of(columns), names_of(columns_of_lines(scene_))));
     }
 
-    /// The columns before those of the scene, from the number of words in a line.
+    /// Guesses the columns before those of the scene from the number of words in a line.
     void guess_columns(const std::vector<std::string_view>& words) {
         if (std::ranges::any_of(scene_.disc_columns,
                                 [](DiscColumn column) { return column < DiscColumn::radius; }))
-            return; // the scene names all columns
+            return; // because the scene names all columns
         const std::size_t n_behind = scene_.disc_columns.size();
         if (words.size() < n_behind + 2 || words.size() > n_behind + 4) return;
         const std::size_t n = words.size() - n_behind;
@@ -169,7 +170,7 @@ private:
         found_.settings.push_back(fmt::format("discs.columns=[{}]", list));
     }
 
-    /// Counts the lines with data; the first of them has been read.
+    /// Counts the lines with data; the first one has already been read.
     void count(bool has_data) {
         std::uint64_t n = has_data ? 1 : 0;
         for (std::string_view line; n <= largest_count && lines_.next(line);)
@@ -187,7 +188,7 @@ private:
     std::string place_;
     LineReader lines_;
     bool is_header_taken_ = false;
-    std::optional<Columns> columns_; ///< where the file tells them
+    std::optional<Columns> columns_; ///< set if the file names them
     SurveyOfDiscs found_;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file of discs (`discs.file`) says about itself: its columns and how many discs it has.
+// Finds the columns and the number of discs in a file of discs (`discs.file`).
 //
-// A header line names columns, or a comment of nothing but their names does. Without one the number
-// of words in the first line of data tells whether there are ids and velocities: `id x y vx vy`,
-// `x y vx vy`, `id x y` or `x y`, each with the scene's `discs.columns` behind. Price: one block of
-// the file; all of it once if the scene does not know the number of discs.
+// A header line names columns, or a comment that consists of their names. Otherwise the number of
+// words in the first line of data shows whether there are ids and velocities: `id x y vx vy`, `x y
+// vx vy`, `id x y` or `x y`, each followed by the scene's `discs.columns`. Price: reads one block
+// of the file, or all of it if the scene does not give the number of discs.
 #pragma once
 
 #include <istream>
@@ -17,8 +17,9 @@
 namespace carrom {
 
 struct SurveyOfDiscs {
-    std::vector<std::string> settings; ///< `key=value`, what the scene does not say itself
-    std::vector<Problem> problems;     ///< the file is no list of discs, or has other columns
+    /// Settings `key=value` that the scene does not contain itself
+    std::vector<std::string> settings;
+    std::vector<Problem> problems; ///< that the file is not a list of discs, or has other columns
 };
 
 /// Surveys the scene's file of discs from its beginning. Called on one rank.

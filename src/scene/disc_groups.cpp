@@ -13,9 +13,10 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t most_groups = 1000; ///< each has sums over all ranks when discs get speeds
+/// Limited, because each group has sums over all ranks when discs get speeds
+constexpr std::size_t most_groups = 1000;
 
-/// Where the numbers of a row stand.
+/// The indices of the numbers in a row.
 constexpr std::size_t at_count = 0, at_packing = 1, at_species = 2, at_temperature = 3,
                       at_speed = 4, at_region = 5, at_generator = 9, at_freeze = 10;
 constexpr std::array generators = {Generator::random, Generator::lattice, Generator::compressed};
@@ -30,7 +31,7 @@ DiscGroup group_of(const Numbers& n) {
     DiscGroup group;
     if (n[at_count] >= 1 && n[at_count] <= static_cast<double>(largest_count))
         group.count = static_cast<std::uint64_t>(n[at_count]);
-    const double species = n[at_species]; // not checked yet
+    const double species = n[at_species]; // it has not been checked yet
     if (species >= 1 && species <= static_cast<double>(largest_count))
         group.species = static_cast<std::size_t>(species) - 1;
     group.temperature = number_at(n, at_temperature);
@@ -60,7 +61,7 @@ Numbers row_of(const DiscGroup& group) {
     return row;
 }
 
-/// Rows without a count are left out: it is filled in later, and all rows are set again.
+/// Rows without a count are left out. It is computed later, and then all rows are set again.
 void set_groups(SceneParameters& scene, const Value& value) {
     scene.groups.clear();
     for (const Value& row : std::get<Values>(value.data))
@@ -77,7 +78,7 @@ Value get_groups(const SceneParameters& scene) {
     return {std::move(rows)};
 }
 
-/// What a species row may not say beside groups.
+/// Keys that a row of species cannot have together with groups.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 5> given_by_groups = {
     {{"count", species_row::count},
      {"packing", species_row::packing},
@@ -166,7 +167,7 @@ private:
     }
 
     bool fill_counts() {
-        if (draft_.scene.box == Box()) return false; // a problem already
+        if (draft_.scene.box == Box()) return false; // reported already
         for (Numbers* row : rows_) {
             if (!is_given(*row, at_packing)) continue;
             const StartRegion r = region_of(draft_.scene, group_of(*row));
@@ -176,7 +177,7 @@ private:
             if (draft_.scene.are_points)
                 draft_.refuse({"discs.groups"}, "points cover nothing, so that no number of discs "
                                                 "follows from packing; give a count");
-            if (!(radius_of(*row) > 0)) return false; // a problem already
+            if (!(radius_of(*row) > 0)) return false; // reported already
             (*row)[at_count] = count_of_packing((*row)[at_packing], area, radius_of(*row));
         }
         const std::size_t n_problems = draft_.problems.size();
@@ -190,7 +191,7 @@ private:
         return draft_.problems.size() == n_problems;
     }
 
-    /// A species has the discs of its groups.
+    /// The count of a species is the sum over its groups.
     bool fill_species() {
         std::vector<double> counts(rows_of_species_.size());
         for (const Numbers* row : rows_)

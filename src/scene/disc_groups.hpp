@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Groups of discs that begin in ways of their own: `discs.groups`.
+// Groups of discs with different initial states: `discs.groups`.
 //
-// A group says how many discs of which species begin where, how they are placed and how fast they
-// are. Ids count by species first, because a disc's species follows from its id (species.hpp), and
-// by group within a species.
+// A group defines the number, species, region, placement and speed of its discs. Ids count by
+// species first, because a disc's species follows from its id (species.hpp), and by group within a
+// species.
 #pragma once
 
 #include "scene/key.hpp"
@@ -13,8 +13,8 @@ namespace carrom {
 
 Key groups_key();
 
-/// Gives groups and species their counts, and the scene both. Refuses rows of which none follow.
-/// Comes before all checks of species.
+/// Computes the counts of groups and species, and stores both in the scene. Reports rows without a
+/// count. Call it before all checks of species.
 void fill_groups(const SceneDraft& draft);
 
 /// Checks regions, numbers of discs and speeds of groups.
@@ -23,7 +23,7 @@ void check_groups(const SceneDraft& draft);
 /// The group of a row of `discs.groups`.
 DiscGroup group_of(const Numbers& row);
 
-/// The rectangle of a group; the box if it names none.
+/// The rectangle of a group; the whole box if it has none.
 StartRegion region_of(const SceneParameters& scene, const DiscGroup& group);
 
 } // namespace carrom

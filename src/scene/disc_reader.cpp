@@ -19,7 +19,7 @@ std::optional<std::size_t> place_of_id(const std::vector<DiscColumn>& columns) {
     return static_cast<std::size_t>(found - columns.begin());
 }
 
-/// The place for a column's number of a disc; none for its id.
+/// The member for a column's number; null for the id.
 double* place_of(DiscColumn column, InputDisc& disc, SizeAndMass& body,
                  BySideColumn<double>& beside) {
     switch (column) {
@@ -66,8 +66,8 @@ bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit, const In
     return !chunk.empty();
 }
 
-/// Copies up to `limit` lines, because the reader of lines keeps only one. False if there are
-/// none.
+/// Copies up to `limit` lines, because the reader of lines keeps only one. Returns false if there
+/// are none.
 bool DiscReader::take_lines(std::size_t limit) {
     text_.clear();
     taken_.clear();
@@ -84,7 +84,7 @@ bool DiscReader::take_lines(std::size_t limit) {
     return !taken_.empty();
 }
 
-/// Adds the line's disc to the chunk, or notes what is wrong as one problem.
+/// Adds the line's disc to the chunk, or its errors as one problem.
 void DiscReader::judge(Line& line, std::vector<InputDisc>& chunk) {
     if (line.is_cut)
         return refuse(line,
@@ -112,7 +112,7 @@ std::vector<Problem> DiscReader::problems() const {
     return all;
 }
 
-/// Finds the disc, or the fault that follows its id.
+/// Reads the disc, or finds the first error behind its id.
 void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
     if (line.is_cut) return;
     const std::size_t n_words = columns_.size();
@@ -159,7 +159,7 @@ void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
                         names_of(columns_)));
 }
 
-/// Marks the disc as seen, or returns why it cannot be.
+/// Records the disc's id, or returns why it is wrong.
 std::string DiscReader::note_id(const Line& line) {
     if (!line.has_number) {
         if (!place_of_id_)
@@ -182,7 +182,8 @@ std::string DiscReader::note_id(const Line& line) {
     if (has_seen(id)) return fmt::format("disc {} is listed twice", id);
     constexpr std::uint64_t most_without_n = std::uint64_t{1} << 27;
     const std::uint64_t most_seen = scene_.n_discs > 0 ? scene_.n_discs : most_without_n;
-    if (id >= seen_.size()) seen_.resize(std::min(most_seen, 2 * id + 64)); // N may be a mistake
+    // Grows slowly, because N may be wrong
+    if (id >= seen_.size()) seen_.resize(std::min(most_seen, 2 * id + 64));
     if (id < seen_.size()) seen_[id] = true;
     n_seen_ += 1;
     return "";
@@ -208,7 +209,8 @@ std::string DiscReader::missing_ids() const {
         if (has_seen(id)) continue;
         const DiscId first = id;
         while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
-        if (id + 1 >= seen_.size()) id = scene_.n_discs - 1; // no larger ids were seen
+        // Because no larger ids have been found
+        if (id + 1 >= seen_.size()) id = scene_.n_discs - 1;
         if (++n_ranges > most_ranges)
             list += ", ...";
         else

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads discs from lines of text, "id x y vx vy" or other columns (`discs.columns`; those beyond
-// places and velocities are checked here and kept by read_disc_columns) in any order of ids, in
-// bounded chunks, so that one rank can read more than it could hold. Takes up to N
-// bits to see that every id comes once, and less than a microsecond a line, which threads share:
-// lines are parsed by all of them, and then ids are noted in the order of lines. Without a column
-// of ids, discs are numbered in the order of lines.
-// Places in lines are those of users (scene/places.hpp); in the lines of `discs.from` they count
-// from the corner of the box already.
+// positions and velocities are only checked here, and read by read_disc_columns) in any order of
+// ids, in bounded chunks, so that one rank can read more discs than fit into its memory. Takes up
+// to N bits to test that every id occurs once, and less than a microsecond a line. Threads parse
+// the lines together, and then ids are recorded in the order of lines. Without a column of ids,
+// discs are numbered in the order of lines.
+// Places in lines are the users' (scene/places.hpp); in the lines of `discs.from` they count from
+// the corner of the box already.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
@@ -28,46 +28,49 @@ namespace carrom {
 
 class DiscReader {
 public:
-    static constexpr std::size_t most_problems = 20; ///< these are listed; the rest are counted
+    /// This many problems are listed; the rest are counted
+    static constexpr std::size_t most_problems = 20;
     static constexpr std::size_t most_wrong_lines =
-        1'000'000; ///< reading ends there, because this is no list of discs
+        1'000'000; ///< reading ends after this many problems, because the file is not a list of
+                   ///< discs
 
-    /// Calls work(first, last) for parts that are 0 .. n - 1 together, on any threads.
+    /// A function that calls work(first, last) for ranges that together are 0 .. n - 1, on any
+    /// threads.
     using InParts =
         std::function<void(std::size_t n, const std::function<void(std::size_t, std::size_t)>&)>;
 
-    /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the
-    /// reader.
+    /// Reads `stream`, which is at the first disc; `stream` and `scene` must outlive the reader.
     DiscReader(std::istream& stream, const SceneParameters& scene);
 
-    /// The lines of a file that begin in some of its bytes.
+    /// A range of bytes of a file; the lines that begin in it belong to the part.
     struct Part {
         bool is_first = true;
         std::uint64_t n_bytes = 0;
     };
-    /// Reads a part, at whose first line `stream` stands. Whether ids come once is not its matter.
+    /// Reads a part; `stream` is at its first line. Does not test that ids occur once.
     DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part);
 
-    /// Replaces `chunk` by the next discs, at most `limit`; false if none are left.
+    /// Replaces `chunk` by at most `limit` further discs; returns false if none are left.
     bool read(
         std::vector<InputDisc>& chunk, std::size_t limit,
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
-    /// All errors of the lines, and ids that never came. To be called after `read` has
-    /// returned false, but not for a part: it does not know the numbers of lines.
+    /// All errors of the lines, and missing ids. Call it after `read` has returned false, but not
+    /// for a part, for which line numbers are unknown.
     std::vector<Problem> problems() const;
-    /// Whether no line of a part is wrong as far as it was read.
+    /// Whether no wrong line has been found in a part so far.
     bool is_flawless() const {
         return n_problems_ == 0 && !lines_.reader().is_endless() && !lines_.reader().has_failed();
     }
 
 private:
-    /// A line, and what is in it whatever other lines have.
+    /// A line and the results of parsing it, which do not depend on other lines.
     struct Line {
-        std::size_t begin = 0, end = 0; ///< in `text_`
+        std::size_t begin = 0, end = 0; ///< range of the line in `text_`
         std::int64_t number = 0;
         bool is_cut = false;
-        bool has_number = false; ///< of a disc; other faults are looked for only then
+        /// It is a disc with valid numbers; other errors are searched only then
+        bool has_number = false;
         InputDisc disc;
         std::string fault;
     };
@@ -83,18 +86,19 @@ private:
     void refuse(const Line& line, std::string text);
     std::string missing_ids() const;
     std::uint64_t most_discs()
-        const; ///< N, or what it can be at most where the scene has no right one
+        const; ///< N, or an upper bound if the scene has no valid number of discs
 
     const SceneParameters& scene_;
     SpeciesTable species_;
     std::string place_;
-    bool has_lines_; ///< false for `discs.from`, whose lines nobody sees: problems name the discs
+    /// False for `discs.from`, whose lines the user never sees: problems then name the discs
+    bool has_lines_;
     std::vector<DiscColumn> columns_;
-    std::optional<std::size_t> place_of_id_; ///< in a line
+    std::optional<std::size_t> place_of_id_; ///< position of the id in a line
     DataLines lines_;
-    DiscId next_id_ = 0; ///< of lines without ids
+    DiscId next_id_ = 0; ///< for lines without ids
     bool are_ids_noted_ = true;
-    std::vector<bool> seen_; ///< by id, as far as ids have come
+    std::vector<bool> seen_; ///< by id, up to the largest id so far
     std::uint64_t n_seen_ = 0;
     std::vector<char> text_;
     std::vector<Line> taken_;
@@ -102,9 +106,9 @@ private:
     std::uint64_t n_problems_ = 0;
 };
 
-/// Everything wrong with the lines of `stream`, as DiscReader has it, and keeps no disc. The scene
-/// may have problems of its own: without a number of discs (0) none is missing, without a box (0)
-/// none is outside.
+/// All problems that DiscReader finds in the lines of `stream`; no disc is kept. The scene may have
+/// problems itself. If its number of discs is 0, missing discs are not reported; if its box is 0,
+/// positions outside of it are not reported.
 std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene);
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps that have a frame in a trajectory: step 0, and then regular ones, or ones that grow by
-// a factor, because a slow liquid has something to show in each decade of time.
+// The steps that have a frame in a trajectory: step 0, and then regular steps, or steps that grow
+// by a factor, because a slow liquid changes in each decade of time.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace carrom {
 
-/// The first step after `step` that has a frame; the largest number there is if none has.
+/// The first step after `step` that has a frame; the largest possible number if there is none.
 std::int64_t next_frame(const TrajectoryOutput& output, std::int64_t step);
-/// The last step up to `step`, from 0 on, that has a frame.
+/// The last step from 0 to `step` that has a frame.
 std::int64_t last_frame(const TrajectoryOutput& output, std::int64_t step);
 
 } // namespace carrom

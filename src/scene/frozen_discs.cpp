@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::string_view setting_of_frozen = "discs.frozen=";
 
-/// How many of the frozen discs have an id below `end`.
+/// The number of frozen discs with an id below `end`.
 std::uint64_t n_below(const std::vector<FrozenDisc>& frozen, DiscId end) {
     return static_cast<std::uint64_t>(
         std::ranges::lower_bound(frozen, static_cast<double>(end), {}, &FrozenDisc::id) -
         frozen.begin());
 }
 
-/// Takes the frozen discs out of runs of ids that end at `end`.
+/// Removes the frozen discs from runs of ids that end at `end`.
 template <class Run> void shorten(std::vector<Run>& runs, const std::vector<FrozenDisc>& frozen) {
     for (Run& run : runs) run.end -= n_below(frozen, run.end);
     DiscId begin = 0;
@@ -33,7 +33,7 @@ template <class Run> void shorten(std::vector<Run>& runs, const std::vector<Froz
                   [&begin](const Run& run) { return std::exchange(begin, run.end) == run.end; });
 }
 
-/// Takes the frozen discs out of parts that have counts, in the order of ids.
+/// Removes the frozen discs from parts that have counts, in the order of ids.
 template <class Part>
 void subtract(std::vector<Part>& parts, const std::vector<FrozenDisc>& frozen) {
     DiscId begin = 0;

@@ -18,7 +18,7 @@ namespace carrom {
 
 namespace {
 
-/// Of a line; 30 characters or less hold each number that a double can be.
+/// The longest line, because every double can be written in 30 characters.
 constexpr std::size_t most_characters = std::size_t{1} << 24;
 
 class Rows {

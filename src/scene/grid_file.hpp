@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text files of numbers in rows, as a spreadsheet or numpy.savetxt writes them.
+// Reads text files with rows of numbers, as spreadsheets and numpy.savetxt write them.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,10 @@
 
 namespace carrom {
 
-/// Reads the rows, with numbers between blanks or commas; empty lines and what follows a # do not
-/// count. Returns "[[1, 2], [3, 4]]". Throws InputError with the line if the file cannot be read,
-/// a word is not a finite number, rows differ in length, or there are more than `most` numbers.
+/// Reads the rows, whose numbers are separated by blanks or commas. Empty lines and text behind a #
+/// are ignored. Returns text such as "[[1, 2], [3, 4]]". Throws InputError with the line if the
+/// file cannot be read, a word is not a finite number, rows differ in length, or there are more
+/// than `most` numbers.
 std::string read_rows(const std::string& path, std::size_t most);
 
 } // namespace carrom

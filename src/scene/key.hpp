@@ -3,7 +3,8 @@
 // comparison at a restart, the writer of scenes and the reference page all work from this table.
 //
 // To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
-// side, or in a keys_of_*.cpp. What it does not go with is a rule there, or a row of rules.cpp.
+// side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule there, or a
+// row in rules.cpp.
 #pragma once
 
 #include <functional>
@@ -21,83 +22,88 @@ namespace carrom {
 
 enum class Kind {
     number,
-    lengths, ///< a number, or two of them, [Lx, Ly]
+    lengths, ///< a number, or an array of two, [Lx, Ly]
     point,   ///< a word of the key, or [x, y]
     integer,
     flag,
     text,
-    choice, ///< one of the key's words
-    words,  ///< an array of them
+    choice, ///< one of the words of the key
+    words,  ///< an array of such words
     rows,   ///< an array of arrays of numbers
     tables  ///< an array of tables of numbers
 };
 
-/// How a number scales: its exponents of the units of length, time and mass.
+/// How a number scales with units: the exponents of length, time and mass.
 struct Dimension {
     int length = 0, time = 0, mass = 0;
 
     friend bool operator==(const Dimension&, const Dimension&) = default;
 };
-/// Of a unit such as "mass length^2/step^2". Other words count nothing.
+/// The dimension of a unit such as "mass length^2/step^2". Other words are ignored.
 Dimension dimension_of(std::string_view unit);
 
-/// What a number may be, ends included.
+/// The allowed range of a number; the ends are included.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool excludes_low = false;
-    bool allows_zero = false; ///< besides
+    bool allows_zero = false; ///< 0 is allowed, too
     std::string_view why = "";
 };
 
-/// What a key has no meaning without.
+/// The condition without which a key has no meaning.
 struct Need {
-    std::string text; ///< goes on after "has no meaning"
+    std::string text; ///< text that follows "has no meaning"
     std::function<bool(const SceneParameters&)> holds;
-    bool is_of_generator = false; ///< depends on discs.generator alone
+    bool is_of_generator = false; ///< the condition depends on discs.generator only
 };
 
-/// The numbers of a row: one nameless field for Kind::rows, those of the table for Kind::tables.
-/// Numbers that the form calls x or y, or x0, y0, x1 and so on, are places (scene/places.hpp).
+/// One of the numbers of a row: a single field without a name for Kind::rows, the fields of a table
+/// for Kind::tables. Numbers that the form calls x or y, or x0, y0, x1 and so on, are places
+/// (scene/places.hpp).
 struct Field {
     std::string_view name;
-    std::string_view form; ///< "[x, y, radius]"
+    std::string_view form; ///< such as "[x, y, radius]"
     std::size_t least = 1, most = 1;
-    std::optional<double> fallback = {}; ///< NaN: there may be none
-    /// The words that it takes; its number is the place of the word. "false" and "true" are those
-    /// of a flag, which stand without quotes.
+    std::optional<double> fallback = {}; ///< NaN: the number may be missing
+    /// The allowed words; the stored number is the index of the word. The words "false" and "true"
+    /// of a flag have no quotes.
     std::vector<std::string_view> words = {};
 
     bool is_flag() const { return !words.empty() && words.front() == "false"; }
 };
 
-/// Made by `key` (key_members.hpp); the functions that return `Key&&` add to a declaration.
+/// Made by the function `key` (key_members.hpp). Functions that return `Key&&` add to the
+/// declaration.
 struct Key {
     std::string name;
     std::string_view unit, help;
-    std::string_view fallback = ""; ///< the default, where words say it better than the value
+    std::string_view fallback = ""; ///< text for the default, if words are better than the value
     Range range = {};
     std::optional<Need> need = {};
-    bool is_required = false;                      ///< wherever the need holds
-    bool is_seed = false;                          ///< replicas have different ones
+    bool is_required = false;                      ///< required if its condition holds
+    bool is_seed = false;                          ///< replicas get different values
     bool is_physical = true;                       ///< a restart cannot change it
-    std::vector<std::string_view> instead_of = {}; ///< keys that it excludes
-    std::vector<std::string_view> or_from = {};    ///< keys that save a required one
+    std::vector<std::string_view> instead_of = {}; ///< keys that cannot be given together with it
+    /// Keys that can be given instead, if it is required
+    std::vector<std::string_view> or_from = {};
     std::string_view old_name = "";
-    /// Words of other programs, and what to write here.
+    /// Names in other programs, and the advice for each.
     std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
-    bool is_one_row = false;       ///< of Kind::rows; it may stand without the outer brackets
+    /// For Kind::rows: a single row may be written without the outer brackets
+    bool is_one_row = false;
     std::optional<Axis> axis = {}; ///< of a number that is a place: the axis it lies along
 
-    // Filled in from the member:
+    // The following members are filled in from the member of SceneParameters.
     Kind kind = Kind::number;
     std::vector<std::string_view> words = {};
-    std::vector<std::pair<std::string_view, std::string_view>> old_words = {}; ///< and new ones
-    /// The value; nothing if it is not to be written.
+    /// Old names and new ones
+    std::vector<std::pair<std::string_view, std::string_view>> old_words = {};
+    /// Returns the value, or nothing if it need not be written.
     std::function<Value(const SceneParameters&)> get = {};
     std::function<void(SceneParameters&, const Value&)> set = {};
-    /// True if two scenes have the same here; set where `get` cannot give all of it.
+    /// Whether two scenes are equal here; set if `get` does not contain everything.
     std::function<bool(const SceneParameters&, const SceneParameters&)> compare = {};
 
     using Names = std::vector<std::string_view>;
@@ -128,27 +134,28 @@ struct Key {
     bool has_meaning(const SceneParameters& scene) const { return !need || need->holds(scene); }
 };
 
-/// A table that keys stand in.
+/// A table of the scene that contains keys.
 struct Table {
     std::string name;
     std::string_view help = "";
     bool (*is_in)(const SceneParameters&) = [](const SceneParameters&) { return true; };
     void (*create)(SceneParameters&) = [](SceneParameters&) {};
-    bool is_like_another = false; ///< the reference shows the other one
+    bool is_like_another = false; ///< the reference describes another table like it
 
-    /// A scene without the table lacks what it is about.
+    /// Whether a scene may leave out the table because its feature is optional.
     bool is_optional() const { return !is_in(SceneParameters{}); }
 };
 
-/// Two features that do not go together.
+/// Two features that cannot be combined.
 struct Rule {
     std::string_view one, other, why;
-    std::vector<std::string_view> keys;        ///< the first of them that is there has the problem
-    std::optional<BoundaryKind> boundary = {}; ///< or the first side of this kind
+    /// The problem is reported at the first of these keys that the scene has
+    std::vector<std::string_view> keys;
+    std::optional<BoundaryKind> boundary = {}; ///< or at the first side of this kind
     bool (*is_broken)(const SceneParameters&);
 };
 
-/// All of them, in the order of the reference.
+/// All keys, in the order of the reference.
 const std::vector<Key>& keys();
 const std::vector<Table>& tables();
 const std::vector<Rule>& rules();
@@ -156,12 +163,12 @@ const std::vector<Rule>& rules();
 const Key* find_key(std::string_view name);
 const Table* find_table(std::string_view name);
 
-/// The scene's effects with the micro-step as the unit of time, as a dynamics counts it. Units of
-/// keys say which numbers that changes.
+/// The scene's effects with the micro-step as the unit of time, as a dynamics needs them. The units
+/// of the keys determine which numbers change.
 Effects per_micro_step(const SceneParameters& scene);
 
 std::vector<Key> keys_of_discs();
-std::vector<Key> keys_of_sizes(); ///< discs.radius as a table
+std::vector<Key> keys_of_sizes(); ///< the keys of discs.radius as a table
 std::vector<Key> keys_of_time();
 std::vector<Key> keys_of_machine();
 std::vector<Key> keys_of_effects();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills in the rest of a key from a member of SceneParameters: kind, words, and how its value is
-// read and set.
+// Completes a key from a member of SceneParameters: kind, words, and how its value is read and set.
 #pragma once
 
 #include <array>
@@ -17,10 +16,10 @@ template <class Enum> struct Word {
     Enum value;
     std::string_view old_name = "";
 };
-/// Clang 14 does not deduce the argument of an aggregate by itself.
+/// Clang 14 does not deduce this template argument by itself.
 template <class Enum> Word(std::string_view, Enum) -> Word<Enum>;
 
-/// The words that scenes have for an enumeration.
+/// The words of an enumeration in scenes.
 template <class Enum> inline constexpr std::array<Word<Enum>, 0> words_of{};
 template <>
 inline constexpr std::array words_of<Method>{
@@ -87,7 +86,7 @@ template <class T> inline constexpr bool is_list<std::vector<T>> = true;
 template <class T> inline constexpr bool is_optional = false;
 template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
 
-/// Kinds of rows are structs of nothing but doubles, in the order of a row.
+/// A row is a struct that contains only doubles, in the order of the row.
 template <class Row> using RowNumbers = std::array<double, sizeof(Row) / sizeof(double)>;
 
 template <class Member> constexpr Kind kind_of() {
@@ -128,7 +127,7 @@ template <class Member> void assign(Member& member, const Value& value) {
     } else if constexpr (is_list<Member>) {
         member.clear();
         for (const Value& one : std::get<Values>(value.data)) {
-            if (one.is_nothing()) continue; // a wrong row, reported already
+            if (one.is_nothing()) continue; // a wrong row, which has been reported already
             if constexpr (std::is_enum_v<typename Member::value_type>) {
                 assign(member.emplace_back(), one);
             } else {
@@ -180,7 +179,7 @@ template <class Enum> void add_words(Key& key) {
     }
 }
 
-/// A key without a member yet.
+/// A key that has no member yet.
 inline Key named_key(std::string name, std::string_view unit, std::string_view help) {
     Key named;
     named.name = std::move(name);
@@ -189,7 +188,7 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
     return named;
 }
 
-/// The whole key: `member` takes a scene, const or not, and gives a reference to the member.
+/// The complete key: `member` takes a scene, const or not, and returns a reference to the member.
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);
@@ -206,7 +205,7 @@ Key key(std::string name, std::string_view unit, std::string_view help, const Ge
     return declared;
 }
 
-/// The key of a number that its effect alone knows (OwnNumbers).
+/// The key of a number that only its effect uses (OwnNumbers).
 inline Key own_key(const std::string& name, std::string_view unit, std::string_view help) {
     Key declared = named_key(name, unit, help);
     declared.kind = Kind::number;
@@ -219,13 +218,13 @@ inline Key own_key(const std::string& name, std::string_view unit, std::string_v
     return declared;
 }
 
-/// A word, and the flag that it stands for.
+/// A word, and the flag that it sets.
 template <class Object> struct Flag {
     std::string_view word;
     std::function<bool&(Object&)> of;
 };
 
-/// A key of a list of words, each of which is a flag of the object that `member` gives.
+/// A key that is a list of words, each of which sets a flag of the object that `member` returns.
 template <class Get, class Object>
 Key flags_key(std::string name, std::string_view unit, std::string_view help, const Get& member,
               const std::vector<Flag<Object>>& flags) {

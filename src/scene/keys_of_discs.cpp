@@ -22,7 +22,8 @@ const Need equal_discs{"where 'discs.species', 'discs.list' or 'discs.columns' n
                        }};
 const Need listed{"without discs.generator = \"file\"",
                   [](const SceneParameters& s) { return s.generator == Generator::file; }, true};
-/// Velocities of discs whose places are generated, or listed beside a speed or a temperature.
+/// Whether velocities are drawn: positions are generated, or listed together with a speed or a
+/// temperature.
 bool are_drawn(const SceneParameters& s) {
     return s.generator == Generator::file ? s.draws_velocities : s.generator != Generator::legacy;
 }
@@ -47,8 +48,8 @@ const Need seeded{
     "where discs are listed with their velocities",
     [](const SceneParameters& s) { return s.generator != Generator::file || s.draws_velocities; },
     true};
-/// Rows [x, y], or [x, y, vx, vy] and then radius and mass, or the spin, or all three. Ids are
-/// their order.
+/// Rows are [x, y], or [x, y, vx, vy] followed by radius and mass, or by the spin, or by all three.
+/// The order of rows gives the ids.
 void set_list(SceneParameters& scene, const Value& value) {
     bool have_spins = false;
     std::vector<NumberRun> spins;
@@ -111,7 +112,7 @@ Key origin_key() {
     return origin;
 }
 
-/// 0 stands for points, which have a radius in computations (SceneParameters::are_points).
+/// 0 stands for points, which have a small radius in computations (SceneParameters::are_points).
 Key radius_key() {
     Key radius =
         key("discs.radius", "length",
@@ -131,7 +132,7 @@ Key radius_key() {
     return radius;
 }
 
-/// A way to ask for a radius. The reader computes the radius, and the scene does not keep the key.
+/// Defines the radius by a packing fraction. The scene stores only the computed radius.
 Key packing_key() {
     Key key =
         named_key("discs.packing", "1",
@@ -148,7 +149,7 @@ Key packing_key() {
     return key;
 }
 
-/// Unknown before the file of `discs.file` or `discs.from` is read.
+/// The number is unknown until the file of `discs.file` or `discs.from` is read.
 Key count_key() {
     Key count = key("discs.count", "discs",
                     "N, the number of discs; a list, a file, species or groups give it too.",
@@ -174,7 +175,7 @@ Key growth_rate_key() {
 
 } // namespace
 
-/// Discs from another run.
+/// Keys for discs from another run.
 std::vector<Key> keys_of_other_runs() {
     return {
         key("discs.from", "",
@@ -194,7 +195,8 @@ std::vector<Key> keys_of_other_runs() {
     };
 }
 
-/// Beside a list it is written even where it is the default, because it draws velocities there.
+/// Together with a list it is written even if it is the default, because it means that velocities
+/// are drawn.
 Key speed_key() {
     Key speed = key("discs.speed", "length/step",
                     "Root mean square of the speeds at the start; the heavier count more, by their "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [machine], and what a GPU can do: of effects and sides those that say so in their
-// declarations, and of measurements those that follow no single collisions.
+// The keys of [machine], and the features that a GPU can run: effects and sides that declare it,
+// and measurements that do not need each collision.
 #include <fmt/format.h>
 
 #include "scene/boundaries/boundary.hpp"

@@ -9,9 +9,9 @@ namespace carrom {
 namespace {
 
 constexpr Range every{1, largest_steps};
-constexpr Range at_least_one{.low = 1}; ///< the unit of a number of words
+constexpr Range at_least_one{.low = 1}; ///< range of the number of words
 
-/// A key for words that have no enumeration in the scene. An empty value is not written.
+/// A key for words that the scene stores as text. An empty value is not written.
 Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
            std::string (*word_of)(const SceneParameters&),
            void (*take)(SceneParameters&, const std::string&)) {

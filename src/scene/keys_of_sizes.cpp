@@ -15,10 +15,10 @@ inline constexpr std::array words_of<MassKind>{Word<MassKind>{"area", MassKind::
 
 namespace {
 
-/// Largest radius over smallest one.
+/// The range of the largest radius divided by the smallest one.
 constexpr Range shares{0x1p-20, 0x1p20};
 
-/// Those of the scene. Scenes without the table have the defaults.
+/// The scene's distribution. Scenes without the table have the defaults.
 const SizeDistribution& sizes_of(const SceneParameters& scene) {
     static const SizeDistribution defaults;
     if (scene.sizes) return *scene.sizes;

@@ -14,7 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// Appends `count` discs with the region of the row `n`; as a new run only if it is another one.
+/// Appends `count` discs with the region of the row `n`, as a new run only if the region differs
+/// from the last one.
 void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers& n) {
     const double* const r = &n[species_row::region];
     std::optional<StartRegion> region;
@@ -26,8 +27,8 @@ void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers
         runs.push_back({end, region});
 }
 
-/// Rows without a count are left out: it is filled in later (species_counts.cpp), and all rows are
-/// set again.
+/// Rows without a count are left out. It is computed later (species_counts.cpp), and then all rows
+/// are set again.
 void set_species(SceneParameters& scene, const Value& value) {
     FirstNumbers numbers;
     std::vector<RegionRun> regions;
@@ -54,7 +55,7 @@ void set_species(SceneParameters& scene, const Value& value) {
     }
 }
 
-/// Discs of one row, from the first one: those up to where a number or the region changes.
+/// Splits the discs of a species into rows: a row ends where a number or the region changes.
 class SpeciesRows {
 public:
     explicit SpeciesRows(const SceneParameters& scene)
@@ -64,7 +65,8 @@ public:
                 numbers_[column] = scene.first_numbers[column];
     }
 
-    /// The row of the discs of one species from `first` up to at most `end`, which becomes its end.
+    /// The row of the discs of one species from `first` on. `end` is the limit, and becomes the end
+    /// of the row.
     Numbers next(const Species& one, DiscId first, DiscId& end) {
         Numbers row(species_row::share_of_area + 1, not_given);
         row[species_row::radius] = one.radius;
@@ -76,7 +78,7 @@ public:
             if (run < runs.size()) end = std::min(end, runs[run].end);
             row[species_row::of(column)] = run < runs.size() ? runs[run].number : 0;
         }
-        if (!scene_.groups.empty()) return row; // they have counts and regions
+        if (!scene_.groups.empty()) return row; // because groups have the counts and regions
         while (region_ != scene_.regions.end() && region_->end <= first) ++region_;
         if (region_ != scene_.regions.end()) {
             end = std::min(end, region_->end);

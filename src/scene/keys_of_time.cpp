@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [time] and [time.stop], and what conditions of an end need.
+// The keys of [time] and [time.stop], and checks of the conditions that end a run.
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
@@ -54,7 +54,7 @@ std::vector<Key> keys_of_steps() {
     };
 }
 
-/// A condition, which a restart may change as it may change the last step.
+/// A condition that ends the run. A restart may change it, as it may change the last step.
 template <class Get>
 Key stop_key(std::string_view name, std::string_view unit, std::string_view help, const Get& get) {
     return key("time.stop." + std::string(name), unit, help, get).by_default("none").not_physical();

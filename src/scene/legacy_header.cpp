@@ -79,7 +79,8 @@ void add_legacy_header(Settings& settings, Problems& problems, std::string_view 
         add_problem(problems, place,
                     fmt::format("the input ends before {}", entries[found].meaning));
     settings.set({"discs.generator", place, {std::string(discs_follow ? "file" : "legacy")}});
-    settings.set({"time.method", place, {std::string("time-stepped")}}); // the course program's
+    // The method of the course program
+    settings.set({"time.method", place, {std::string("time-stepped")}});
 }
 
 } // namespace carrom

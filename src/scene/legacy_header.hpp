@@ -10,9 +10,9 @@
 
 namespace carrom {
 
-inline constexpr int legacy_header_lines = 5; ///< blank lines do not count
+inline constexpr int legacy_header_lines = 5; ///< without blank lines
 
-/// Adds the settings of the header `text`. `discs_follow`: lines of discs follow in the input.
+/// Adds the settings in the header `text`. `discs_follow`: lines of discs follow in the input.
 void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,
                        const std::string& name, bool discs_follow);
 

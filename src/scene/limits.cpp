@@ -26,7 +26,7 @@ bool are_pairs_lossy(const Effects& effects) {
 bool lose_energy_or_fall(const Effects& effects) {
     const auto is_lossy = [&effects](const Boundary& side) {
         return side.restitution < 1 || side.kind == BoundaryKind::oscillating ||
-               (effects.drag > 0 && side.speed != 0); // drag presses discs against such a wall
+               (effects.drag > 0 && side.speed != 0); // drag presses discs against a moving wall
     };
     return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_lossy) ||
            std::ranges::any_of(all_effects(), [&effects](const EffectDeclaration& one) {
@@ -49,7 +49,7 @@ std::string speed_problem(double speed, const SceneParameters& scene) {
     const double most = most_crossings * scene.box.shortest() *
                         static_cast<double>(scene.micro_steps);
     if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
-    if (std::fabs(speed) > largest_size) return {}; // velocity_problem reports it
+    if (std::fabs(speed) > largest_size) return {}; // because velocity_problem reports it
     return fmt::format("the speed {} crosses the box more than 2^40 times in a micro-step; take "
                        "more time.micro_steps, or at most {:g}",
                        speed, most);
@@ -87,7 +87,7 @@ std::string column_problem(DiscColumn column, double number) {
 
 namespace {
 
-/// Where the centres of discs of one radius may be along an axis.
+/// The range of the centres of discs of one radius along an axis.
 struct Room {
     double low = 0, high = 0;
 };
@@ -96,7 +96,7 @@ struct Room {
 /// leaves an open side when its centre is a radius beyond it.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
-    const Extent walls = extent_at(scene.effects, scene.box, 0); // some may swing
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // because sides may swing
     const double length = along(axis, scene.box), slack = 0x1p-52 * length;
     if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
     const auto inwards = [&](std::size_t side) {
@@ -107,7 +107,7 @@ Room room_along(Axis axis, const SceneParameters& scene, double radius) {
             ((is_x ? walls.x_high : walls.y_high) - inwards(low + 1)) + slack};
 }
 
-/// The places allowed for centres of discs of this radius.
+/// Text for the allowed positions of centres of discs of this radius.
 std::string room_text(const SceneParameters& scene, double radius) {
     const Box& box = scene.box;
     const bool have_open = scene.effects.have_open_boundaries();
@@ -130,8 +130,8 @@ std::string room_text(const SceneParameters& scene, double radius) {
                                                     : "");
 }
 
-/// What helps a disc that was halfway through open sides in the run that it comes from. Empty if it
-/// does not reach over a closed side.
+/// Advice for a disc that was half way through open sides in the run from which it comes. Empty if
+/// it does not overlap a closed side.
 std::string hint_of_sides(const InputDisc& disc, const SceneParameters& scene, double radius) {
     if (scene.discs_from.empty()) return "";
     const std::array<double, 4> beyond = {-disc.x, disc.x - scene.box.x, -disc.y,

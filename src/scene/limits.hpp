@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers that a scene may hold. Sizes and speeds stay within 2^+-250, so that no
-// product of the method can overflow or vanish (docs/understanding/method.md, section
-// 4.4). Lengths are above 2^-230, because discriminants of near grazes are denormal below.
+// The range of numbers in a scene. Sizes and speeds stay within 2^+-250, so that no product of the
+// method can overflow or vanish (docs/understanding/method.md, section 4.4). Lengths are above
+// 2^-230, because otherwise discriminants of near grazes would be denormal.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,28 @@
 namespace carrom {
 
 inline constexpr double smallest_length = 0x1p-230;
-inline constexpr double smallest_size = 0x1p-250; ///< for speeds
+inline constexpr double smallest_size = 0x1p-250; ///< the limit for speeds
 inline constexpr double largest_size = 0x1p+250;
 inline constexpr std::uint64_t largest_count =
-    0xFFFFFFFEu; ///< places in arrays have 32 bits, and one value means "none"
+    0xFFFFFFFEu; ///< indices have 32 bits, and one value means "none"
 inline constexpr std::int64_t largest_steps = std::int64_t{1}
-                                              << 53; ///< step numbers are exact in a double
+                                              << 53; ///< so that step numbers are exact in a double
 inline constexpr double largest_packing =
     0.9069; ///< just above pi / (2 sqrt 3), the densest packing of the plane
-inline constexpr double largest_random_packing = 0.5; ///< random insertion stalls at about 0.54
+/// Above about 0.54 random insertion takes too long
+inline constexpr double largest_random_packing = 0.5;
 inline constexpr std::int64_t longest_single_sync =
-    4096; ///< a float then knows 1/2048 of a micro-step
+    4096; ///< then a float still resolves 1/2048 of a micro-step
 inline constexpr double smallest_single_size = 0x1p-40,
-                        largest_single_size = 0x1p+40; ///< their fourth powers are floats
+                        largest_single_size = 0x1p+40; ///< so that fourth powers are floats
 inline constexpr double largest_box_in_radii =
-    1e6; ///< beyond, the wall band 1e-8 r is less than the rounding of L
+    1e6; ///< beyond this the wall band 1e-8 r is less than the rounding of L
 inline constexpr double longest_drag = 4; ///< rate of drag times the time between syncs
 inline constexpr double most_crossings =
-    0x1p40; ///< crossings in a micro-step; beyond, all times of collisions are the same number
+    0x1p40; ///< crossings in a micro-step; beyond this all collisions have the same time
 
-/// The largest sum of an obstacle's radius and a disc's, over a periodic box, so that a disc
-/// touches only the nearest images of a body.
+/// The largest sum of the radii of an obstacle and a disc, relative to a periodic box, so that a
+/// disc touches only the nearest images of a body.
 inline constexpr double largest_in_period = 0.99;
 
 bool has_boundary(const Effects& effects, BoundaryKind kind);
@@ -40,22 +41,22 @@ bool are_pairs_lossy(const Effects& effects);
 /// Whether discs may come to rest on each other, or on a wall, so that a contact time is needed.
 bool lose_energy_or_fall(const Effects& effects);
 
-/// The problem of a velocity component, or empty.
+/// The problem with a velocity component, or empty.
 std::string velocity_problem(double component);
 
-/// The problem of a speed in this scene, with its box and method, or empty. The box may be 0.
+/// The problem with a speed in this scene, for its box and method, or empty. The box may be 0.
 std::string speed_problem(double speed, const SceneParameters& scene);
 
-/// A warning about discs so fast that their unit may be mistaken, or empty. `fastest` is the
-/// largest speed at the start, `later` one that walls and effects give to discs.
+/// A warning about discs so fast that the unit of their speed may be wrong, or empty. `fastest` is
+/// the largest speed at the start, `later` a speed that walls and effects give to discs.
 std::string units_warning(double fastest, double later, const SceneParameters& scene);
 
-/// The problem of a disc's radius, mass or number in another column, or empty.
+/// The problem with a disc's radius, mass or number in another column, or empty.
 std::string column_problem(DiscColumn column, double number);
 
-/// All problems of a disc in an input, or empty: a centre outside [r, L-r], r its
-/// `radius` (by more than the rounding of L), or a velocity out of range. If the scene
-/// has no valid box any centre is accepted.
+/// All problems with a disc in an input, or empty: a centre outside [r, L-r] with r its `radius`
+/// (by more than the rounding of L), or a velocity out of range. If the scene has no valid box, any
+/// centre is accepted.
 std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, double radius);
 
 } // namespace carrom

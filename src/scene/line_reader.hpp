@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads lines of a stream in bounded memory, because a line without an end must not fill it.
+// Reads lines of a stream in bounded memory, so that a line without an end does not fill the
+// memory.
 //
-// Reads blocks, so other readers of the stream lose what follows the last line that was taken.
+// It reads blocks, so other readers of the stream cannot read the text directly behind the last
+// line.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +20,19 @@ public:
     static constexpr std::size_t most_skipped = std::size_t{64} << 20;
     static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-    /// `lines_before` lines of the stream have been read before, which counts for line
-    /// numbers. Lines that begin after `n_bytes` are left out. The stream must outlive the reader.
+    /// `lines_before`: the number of lines read before, which is added to line numbers. Lines that
+    /// begin after `n_bytes` are left out. The stream must outlive the reader.
     LineReader(std::istream& stream, std::int64_t lines_before, std::uint64_t n_bytes = no_limit);
 
-    /// The next line without its end; false at the end of the stream. `line` is valid
-    /// until the next call. A line longer than `longest_line` is cut there and the rest is
-    /// skipped; if more than `most_skipped` had to be skipped, the stream counts as ended.
+    /// The next line without its end; false at the end of the stream. `line` is valid until the
+    /// next call. A line longer than `longest_line` is cut there and the rest is skipped; if more
+    /// than `most_skipped` characters have to be skipped, the stream counts as ended.
     bool next(std::string_view& line);
 
     std::int64_t line_number() const { return line_number_; }
     bool is_cut() const { return is_cut_; }
-    bool is_endless() const {
-        return is_endless_;
-    } ///< `next` has ended because it skipped too much
-    bool has_failed() const {
-        return stream_.bad();
-    } ///< `next` has ended before the end of the stream
+    bool is_endless() const { return is_endless_; }   ///< `next` ended because it skipped too much
+    bool has_failed() const { return stream_.bad(); } ///< `next` ended before the end of the stream
 
 private:
     bool refill();
@@ -46,7 +44,7 @@ private:
     std::vector<char> buffer_;
     std::size_t begin_ = 0, end_ = 0;
     std::int64_t line_number_;
-    std::uint64_t bytes_left_; ///< in which lines may begin
+    std::uint64_t bytes_left_; ///< number of bytes in which further lines may begin
     bool is_cut_ = false, is_endless_ = false;
 };
 

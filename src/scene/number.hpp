@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers from text by std::from_chars: exact, and equal in every locale. The whole
-// text must be the number.
+// Reads numbers from text by std::from_chars: exactly, and in the same way in every locale. The
+// whole text must be the number.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_id(std::string_view text);
 
-/// Some editors write it at the start of UTF-8.
+/// Some editors write this mark at the start of UTF-8.
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// The text without blanks (space, tab, carriage return) at both ends.

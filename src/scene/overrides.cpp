@@ -20,13 +20,13 @@ bool list_discs(const Settings& settings) {
     return settings.has("discs.file") || settings.has("discs.list") || settings.has("discs.from");
 }
 
-/// Removes keys of the input without a meaning for the generator that the command line chooses.
+/// Removes keys of the input that have no meaning for the generator that the command line chooses.
 /// `were_listed`: the input lists discs.
 void remove_keys_of_other_generators(Settings& settings, const Settings& given, bool were_listed) {
     const bool lists_discs = list_discs(given);
     if (lists_discs) settings.remove("discs.generator");
     SceneParameters chosen;
-    chosen.draws_velocities = were_listed; // then its speed is meant for listed discs
+    chosen.draws_velocities = were_listed; // because then the speed is for listed discs
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)
@@ -39,8 +39,8 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     });
 }
 
-/// Puts the right ones of these settings into scenes, but for lists, which are long, and for tables
-/// that a scene may lack.
+/// Stores the valid settings in scenes, except lists, which are long, and tables that a scene may
+/// lack.
 void take_right_values(const std::vector<Setting>& all,
                        std::initializer_list<SceneParameters*> scenes) {
     for (const Setting& one : all) {
@@ -48,15 +48,15 @@ void take_right_values(const std::vector<Setting>& all,
         if (!key || one.is_wrong || key->has_rows() || find_table(key->table())->is_optional())
             continue;
         Setting setting = one;
-        Problems ignored; // they are reported elsewhere
+        Problems ignored; // because problems are reported elsewhere
         check_value(*key, setting, ignored);
         if (setting.is_wrong) continue;
         for (SceneParameters* scene : scenes) key->set(*scene, setting.value);
     }
 }
 
-/// Removes keys of the input that lose their meaning by a word of the command line in their table,
-/// as the strength of kicks does by kind = "langevin", and those that need a removed one.
+/// Removes keys of the input that have no meaning for a word of the command line, such as the
+/// strength of kicks for kind = "langevin", and keys that need a removed one.
 void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     const auto has_word_for = [&given](const Key& other) {
         return std::any_of(given.all().begin(), given.all().end(), [&other](const Setting& one) {
@@ -79,7 +79,7 @@ void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     }
 }
 
-/// Reports errors of the input also if the command line replaces the setting.
+/// Reports errors of the input even if the command line replaces the setting.
 void check_replaced(Settings& settings, const Settings& given, Problems& problems) {
     for (Setting& setting : settings.all()) {
         const Key* key = find_key(setting.key);
@@ -88,7 +88,8 @@ void check_replaced(Settings& settings, const Settings& given, Problems& problem
     }
 }
 
-/// Some keys, as 'discs.radius', are a value or a table. The command line's replaces the input's.
+/// Some keys, such as 'discs.radius', are either a value or a table. The form on the command line
+/// replaces the other form in the input.
 void remove_other_forms(Settings& settings, const Settings& given) {
     std::erase_if(settings.all(), [&given](const Setting& one) {
         const Key* key = find_key(one.key);
@@ -102,7 +103,7 @@ void remove_other_forms(Settings& settings, const Settings& given) {
     });
 }
 
-/// Removes settings of the input that are excluded by those of the command line.
+/// Removes settings of the input that cannot be given together with those of the command line.
 void remove_rivals(Settings& settings, const Settings& given) {
     const bool were_listed = list_discs(settings);
     for (const Key& key : keys()) {
@@ -130,14 +131,14 @@ void add_table(Settings& given, Problems& problems, const Place& place, const st
     }
 }
 
-/// A word without the quotes that TOML wants.
+/// A word without the quotes that TOML requires.
 std::string unquoted(const std::string& word) {
     const bool is_quoted = word.size() > 1 && (word[0] == '"' || word[0] == '\'') &&
                            word.back() == word[0];
     return is_quoted ? word.substr(1, word.size() - 2) : word;
 }
 
-/// Takes `table={key = value}` for `table.key=value`, as scenes do.
+/// Accepts `table={key = value}` for `table.key=value`, as scenes do.
 void add_inline_table(Settings& given, Problems& problems, const Place& place,
                       const std::string& name, const std::string& text) {
     const auto values = parse_table(text);
@@ -172,7 +173,8 @@ void add_overrides(Settings& settings, Problems& problems,
         const Key* key = find_key(name);
         if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place, form_problem(text));
-        } else if (text.find('\n') != std::string::npos) { // it has to fit on one line of files
+        } else if (text.find('\n') != std::string::npos) { // because it must fit on one line of a
+                                                           // file
             add_problem(problems, place,
                         fmt::format("must stand on one line, not {}", in_quotes(word)));
         } else if (word.starts_with('{') && find_table(name)) {

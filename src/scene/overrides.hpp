@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings from the command line, `key=value`. They replace those of the input, and
-// all that they exclude there: `discs.packing` replaces a radius, another generator
+// Settings from the command line, `key=value`. They replace settings of the input, also those that
+// cannot be given together with them: `discs.packing` replaces a radius, and another generator
 // replaces the keys that have no meaning for it.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace carrom {
 void add_overrides(Settings& settings, Problems& problems,
                    const std::vector<std::string>& overrides);
 
-/// The problem of a text without a key or without `=`.
+/// The problem with a text that has no key or no `=`.
 std::string form_problem(const std::string& text);
 
 } // namespace carrom

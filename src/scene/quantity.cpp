@@ -9,13 +9,14 @@ namespace carrom {
 
 namespace {
 
-/// In a function, so that declarations can come before the static data of this file exist.
+/// A local static, so that declarations may come before the static data of this file are
+/// initialised.
 std::vector<Quantity>& list() {
     static std::vector<Quantity> declared;
     return declared;
 }
 
-/// Returns "a", "b" or "c".
+/// Text such as "a", "b" or "c".
 std::string listed(const std::vector<std::string_view>& names) {
     std::string text;
     for (std::size_t k = 0; k < names.size(); ++k)

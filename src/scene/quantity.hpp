@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a quantity of [output.measurements] declares: its keys, what it does not go with, its
-// checks, and its text for the pages. The code that measures it is in a higher module,
-// src/measure, with its declaration. A program that measures passes the declarations down when
-// it starts. The reader, the pages and the checks loop over the list, so they name no quantity.
+// The declaration of a quantity of [output.measurements]: its keys, rules of conflict, checks, and
+// text for the pages. The code that measures it is in a higher module, src/measure, with its
+// declaration. A program that measures passes the declarations down when it starts. The reader, the
+// pages and the checks loop over the list, so they contain the name of no quantity.
 #pragma once
 
 #include <string>
@@ -16,23 +16,23 @@ namespace carrom {
 
 struct Quantity {
     std::string_view name;
-    std::string_view help;           ///< for the page of keys
-    std::vector<Key> keys = {};      ///< its settings; quantities can share one
-    bool has_history = false;        ///< its tables grow with each sample
-    bool follows_collisions = false; ///< one by one; a GPU lists none
-    std::vector<Rule> rules = {};    ///< features that it does not go with
-    void (*check)(
-        const SceneDraft&) = {}; ///< for a valid box and valid discs; shared ones run once
-    void (*check_times)(const SceneDraft&) = {}; ///< after the times of the scene are known
+    std::string_view help;           ///< its text on the page of keys
+    std::vector<Key> keys = {};      ///< its settings; several quantities can share one
+    bool has_history = false;        ///< whether its tables grow with each sample
+    bool follows_collisions = false; ///< whether it needs each collision; a GPU does not list them
+    std::vector<Rule> rules = {};    ///< features with which it cannot be combined
+    void (*check)(const SceneDraft&) = {}; ///< called for a valid box and valid discs; a check that
+                                           ///< quantities share runs once
+    void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known
 };
 
-/// To be called once, before any scene is read.
+/// Call it once, before any scene is read.
 void declare_quantities(std::vector<Quantity> quantities);
 
 const std::vector<Quantity>& declared_quantities();
 
-/// The key of the quantities to measure. Problems of settings that are not given are
-/// reported at it.
+/// The key of the quantities to measure. Problems of settings that the scene does not give are
+/// reported at this key.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
 inline bool measures(const SceneParameters& scene, std::string_view quantity) {
@@ -49,14 +49,14 @@ struct QuantitySetting {
         return found == output.settings.end() ? fallback : found->second.value;
     }
     std::string key_name() const { return "output.measurements." + std::string(name); }
-    /// Its key. `by_default` describes the default if a check computes it.
+    /// The key of this number. `by_default` describes the default if a check computes it.
     Key number(std::string_view unit, std::string_view help,
                std::string_view by_default = "") const;
     Key integer(std::string_view unit, std::string_view help,
                 std::string_view by_default = "") const;
 };
 
-/// The declared keys, with the quantities that each needs.
+/// The keys of all quantities, each with the quantities that need it.
 std::vector<Key> keys_of_quantities();
 std::vector<Rule> rules_of_quantities();
 

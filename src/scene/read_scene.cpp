@@ -48,7 +48,7 @@ std::string read_all(std::istream& stream, const std::string& name) {
     return text;
 }
 
-/// Takes one line character by character, because the stream must then be right after it.
+/// Reads one line character by character, because the stream must then be exactly behind it.
 bool take_line(std::istream& stream, std::string& line) {
     line.clear();
     for (int c = stream.get(); c != std::istream::traits_type::eof(); c = stream.get()) {
@@ -58,7 +58,7 @@ bool take_line(std::istream& stream, std::string& line) {
     return !line.empty();
 }
 
-/// Skips blank lines before the first disc; true if anything follows them.
+/// Skips blank lines before the first disc. Returns true if anything follows them.
 bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
     for (int c = stream.peek(); c != std::istream::traits_type::eof(); c = stream.peek()) {
         if (c != ' ' && c != '\t' && c != '\r' && c != '\n') return true;

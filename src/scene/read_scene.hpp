@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From an input's text to checked `SceneParameters` (docs/reference/keys.md). No MPI: rank 0
-// takes the text from the file, and every rank reads the same text, so all find the
-// same scene or the same problems.
+// Reads checked `SceneParameters` from an input's text (docs/reference/keys.md). Uses no MPI: rank
+// 0 reads the file, and every rank reads the same text, so all find the same scene or the same
+// problems.
 //
 // A name that ends in `.toml` is a TOML scene. Other names, and standard input, have the legacy
 // text format. All problems are collected and thrown together as an InputError, each with its line.
@@ -25,31 +25,32 @@ namespace carrom {
 struct SceneText {
     std::string name;
     std::string text;
-    std::int64_t lines_before_discs = 0;  ///< legacy text: lines taken from the stream
-    bool discs_follow = false;            ///< legacy text: the stream goes on with lines of discs
-    std::optional<DiscColumns> columns{}; ///< set once the scene is known to have some
-                                          ///< (`discs.columns`); sizes are not checked before
+    std::int64_t lines_before_discs = 0; ///< legacy text: number of lines taken from the stream
+    bool discs_follow = false;           ///< legacy text: the stream continues with lines of discs
+    /// Set when the scene is known to have them (`discs.columns`); until then sizes are not checked
+    std::optional<DiscColumns> columns{};
 };
 
-/// Opens a file for reading. InputError if it does not exist, is no plain file (a
-/// device or a pipe may never end), or is not readable. Called on one rank.
+/// Opens a file for reading. Throws InputError if it does not exist, is not a plain file (a device
+/// or a pipe may never end), or is not readable. Called on one rank.
 std::ifstream open_input(const std::string& path);
 
-/// Takes the scene's text from `stream` and leaves the stream at the first line of
-/// discs, if there is one. Called on one rank.
+/// Reads the scene's text from `stream` and leaves the stream at the first line of discs, if there
+/// is one. Called on one rank.
 SceneText read_scene_text(std::istream& stream, const std::string& name);
 
-/// The scene of that text with `overrides`, "key=value" each, on top. Problems of an
-/// override have the place "--set KEY". A pure function: the same arguments give the
-/// same scene or the same InputError.
+/// The scene of that text with `overrides`, "key=value" each, on top. The place of a problem in an
+/// override is "--set KEY". A pure function: the same arguments give the same scene or the same
+/// InputError.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
 
-/// Reads a scene, but appends the problems to `problems`, in the order of lines. With problems
-/// the scene is good only for `disc_line_problems`: wrong values are 0 or their default.
+/// Reads a scene, but appends the problems to `problems`, in the order of lines. If there are
+/// problems, the scene can only be used for `disc_line_problems`, because wrong values are 0 or
+/// their default.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides,
                            std::vector<Problem>& problems);
 
-/// Reads a scene from a whole text, discs included.
+/// Reads a scene from a whole text, with the discs in it.
 SceneParameters read_scene(std::string_view text, const std::string& name,
                            const std::vector<std::string>& overrides = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Questions that rules ask of a scene, and functions that make rules.
+// Conditions on scenes, and functions that make rules from them.
 #pragma once
 
 #include "scene/key.hpp"
@@ -20,12 +20,12 @@ inline bool has_moving(const SceneParameters& s) {
 inline bool has_oscillating(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::oscillating);
 }
-/// Also where discs that freeze become some.
+/// Also true if discs will freeze and become obstacles.
 inline bool has_obstacles(const SceneParameters& s) {
     return s.effects.obstacles.are_any() || s.freezes();
 }
 inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
-/// Goes on after "has no meaning".
+/// Text that follows "has no meaning".
 inline constexpr const char* no_obstacles =
     "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The features that do not go together. The check and the page of conflicts both use this list.
+// The features that cannot be combined. Both the check and the page of conflicts use this list.
 #include <utility>
 
 #include "scene/boundaries/boundary.hpp"
@@ -51,7 +51,7 @@ std::vector<Rule> rules_of_starts() {
     };
 }
 
-/// Frames cannot show numbers that discs do not have.
+/// Frames cannot contain numbers that discs do not have.
 template <std::size_t k> Rule rule_of_column() {
     return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
                 {"output.trajectory.fields"}, [](const SceneParameters& s) {

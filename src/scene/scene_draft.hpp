@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that is being read: as far as it is known, with the settings that it comes from and the
-// problems that its checks have found. All problems are reported at once, so checks go on after
-// one.
+// A scene that is being read: the part that is known, the settings, and the problems so far. All
+// problems are reported at once, so checks continue after one.
 #pragma once
 
 #include <initializer_list>
@@ -17,16 +16,16 @@
 
 namespace carrom {
 
-/// The key that rules and checks of measurements name.
+/// The key at which rules and checks of measurements report problems.
 inline constexpr std::string_view quantities = "output.measurements.quantities";
 
 struct SceneDraft {
     SceneParameters& scene;
     Settings& settings;
     Problems& problems;
-    const DiscColumns* columns = nullptr; ///< in the file of discs
+    const DiscColumns* columns = nullptr; ///< columns in the file of discs
 
-    /// A problem at the first of these keys that the input has, or else of the scene as a whole.
+    /// Adds a problem at the first of these keys that the input has, or for the scene as a whole.
     template <class Keys> void refuse_first(const Keys& keys, std::string text) const {
         Place place{scene.name, 0};
         for (const std::string_view key : keys) {
@@ -39,13 +38,13 @@ struct SceneDraft {
     void refuse(std::initializer_list<std::string_view> keys, std::string text) const {
         refuse_first(keys, std::move(text));
     }
-    /// Whether the scene has the time between syncs that was set, or the default. A wrong one is a
-    /// problem already, and the scene has the default then.
+    /// Whether the scene's time between syncs is valid. If the given one is wrong, that is already
+    /// a problem, and the scene has the default.
     bool knows_syncs() const {
         const Setting* every = settings.find("time.sync_every");
         return !every || !every->is_wrong;
     }
-    /// Calls what(row, its number from 1, its place) for the valid rows of a list.
+    /// Calls what(row, number from 1, index) for the valid rows of a list.
     template <class What> void for_each_row(std::string_view key, const What& what) const {
         const Setting* setting = settings.find(key);
         if (!setting || !std::holds_alternative<Values>(setting->value.data)) return;
@@ -56,8 +55,8 @@ struct SceneDraft {
                 what(*numbers, number, Place{setting->place.name, row.line});
         }
     }
-    /// Adds "row 2 of 'key': ..." for the first rows for which fault(row) is not empty, and the
-    /// number of the others.
+    /// Adds "row 2 of 'key': ..." for the first rows whose fault(row) is not empty, and the number
+    /// of further ones.
     template <class Fault> void refuse_rows(std::string_view key, const Fault& fault) const {
         constexpr std::size_t most_listed = 20;
         std::size_t n_wrong = 0;
@@ -76,25 +75,26 @@ inline double steps_between_syncs(const SceneParameters& scene) {
     return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
-/// Checks the number, sizes, places and speeds of discs. Returns false if box or discs
-/// are not known to be right; then both sizes are 0.
+/// Checks the number, sizes, positions and speeds of discs. Returns false if box or discs may be
+/// wrong; then both sizes are 0.
 bool check_discs(const SceneDraft& draft);
 
-/// Refuses conditions of `[time.stop]` on what the scene's discs do not have.
+/// Reports conditions of `[time.stop]` on properties that the scene's discs do not have.
 void check_stop(const SceneDraft& draft);
-/// Reports what the scene has and a GPU cannot do, if one is asked for.
+/// Reports features of the scene that a GPU cannot run, if the scene requires one.
 void check_gpu(const SceneDraft& draft);
 
-/// Checks whether `discs.columns` can be those of lines of discs.
+/// Checks that `discs.columns` can be columns of lines of discs.
 void check_columns(const SceneDraft& draft);
-/// Checks the lengths of the rows of `discs.list`. Places alone need velocities that are drawn.
+/// Checks the lengths of the rows of `discs.list`. Rows of positions only need velocities that are
+/// drawn.
 void check_rows_of_list(const SceneDraft& draft);
 
 /// Checks numbers of steps, rates and times against each other.
 void check_times(const SceneDraft& draft);
 
-/// A contact time that the scene does not set becomes `longest` steps at most; a longer one is a
-/// problem, with `why` as the reason.
+/// Limits a contact time that the scene does not set to `longest` steps; reports a longer one that
+/// it does set, with the reason `why`.
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why);
 
 } // namespace carrom

@@ -2,7 +2,7 @@
 // One checked description of a run. Every reader ends in `SceneParameters`; after that nothing
 // reads the input's text again.
 //
-// Velocities and times are the scene's (per step). The engine divides by `micro_steps`
+// Velocities and times are the scene's (per step). The engine divides velocities by `micro_steps`
 // when it takes the discs.
 #pragma once
 
@@ -26,13 +26,13 @@ namespace carrom {
 enum class Method { time_stepped, event_driven };
 /// The precision of stored states and of computation.
 enum class Precision { double_, single };
-/// How contacts are found: by the predicate, or by the course program's formula.
+/// The formula for contacts: the predicate, or the one of the course program.
 enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind {
     maxwell,
     uniform,
-    reversed ///< given velocities, turned round
+    reversed ///< given velocities with the opposite sign
 };
 
 /// The lines on standard output: none, steps 0 and S, or every step (the course
@@ -47,25 +47,25 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Consecutive ids, up to `end`, of discs with the same number at the start; per step
-/// if it is a rate.
+/// Consecutive ids, up to `end`, of discs that start with the same number; per step if it is a
+/// rate.
 struct NumberRun {
     DiscId end = 0;
     double number = 0;
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// In the order of ids; a column in which all discs begin with 0 has none.
+/// In the order of ids; a column whose numbers all start at 0 is empty.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// The numbers that a line of `discs_file` may have. The columns beside the states come last.
+/// The columns that a line of `discs_file` may have. The columns beside the states come last.
 enum class DiscColumn : std::size_t { id, x, y, vx, vy, radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
     return static_cast<DiscColumn>(static_cast<std::size_t>(DiscColumn::first_side) +
                                    static_cast<std::size_t>(column));
 }
-/// For a column that is neither radius nor mass.
+/// For a column that is not the radius or the mass.
 constexpr SideColumn side_column_of(DiscColumn column) {
     return static_cast<SideColumn>(static_cast<std::size_t>(column) -
                                    static_cast<std::size_t>(DiscColumn::first_side));
@@ -81,20 +81,20 @@ struct Origin {
     friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
 };
 
-/// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like
-/// slab.
+/// A rectangle, and a velocity that is added to the discs generated inside it, for example for a
+/// jet or a moving slab.
 struct Stream {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
     double vx = 0, vy = 0;
 };
 
-/// A rectangle in which discs begin at random, whole.
+/// A rectangle that contains discs of random positions as a whole.
 struct StartRegion {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
 
     friend bool operator==(const StartRegion&, const StartRegion&) = default;
 };
-/// Consecutive ids, up to `end`, of discs of one region, or of none of their own.
+/// Consecutive ids, up to `end`, of discs of one region, or of discs without a region of their own.
 struct RegionRun {
     DiscId end = 0;
     std::optional<StartRegion> region;
@@ -102,32 +102,32 @@ struct RegionRun {
     friend bool operator==(const RegionRun&, const RegionRun&) = default;
 };
 
-/// Discs of one species that begin alike, with consecutive ids.
+/// Discs of one species that are generated in the same way, with consecutive ids.
 struct DiscGroup {
     std::uint64_t count = 0;
-    std::size_t species = 0; ///< a row of `discs.species`, counted from 0
+    std::size_t species = 0; ///< row of `discs.species`, counted from 0
     std::optional<StartRegion> region;
-    std::optional<double> temperature, speed; ///< kT, or root mean square; else those of all discs
+    std::optional<double> temperature, speed; ///< kT, or root mean square speed; unset: the scene's
     Generator generator = Generator::random;
     bool is_frozen = false;
 
     friend bool operator==(const DiscGroup&, const DiscGroup&) = default;
 };
-/// A disc of the start that became an obstacle, with the id that it had.
+/// A disc of the initial state that became an obstacle, with its former id.
 struct FrozenDisc {
     double id = 0, x = 0, y = 0, radius = 0;
 
     friend bool operator==(const FrozenDisc&, const FrozenDisc&) = default;
 };
 
-/// Each rank writes its own discs, or MPI-IO chooses ranks that write for all.
+/// Each rank writes its own discs, or MPI-IO chooses ranks that write for all ranks.
 enum class Transfers { independent, collective };
 
-/// `[output.checkpoint]`: when and where the state is stored; always at the end and on a signal.
+/// `[output.checkpoint]`: when and where the state is stored, besides at the end and on a signal.
 struct CheckpointOutput {
-    std::string folder; ///< in the run's folder
+    std::string folder; ///< relative to the run's folder
     std::optional<std::int64_t> every_steps;
-    std::optional<double> every_minutes; ///< minutes of wall time
+    std::optional<double> every_minutes; ///< wall time in minutes
     std::int64_t keep = 2;               ///< older ones are removed
     bool at_end = true;
     Transfers transfers = Transfers::independent;
@@ -135,14 +135,14 @@ struct CheckpointOutput {
 
 /// `[output.trajectory]`: frames in one file, at regular steps or at steps that grow by a factor.
 struct TrajectoryOutput {
-    std::string file; ///< in the run's folder
+    std::string file; ///< relative to the run's folder
     std::int64_t every_steps = 1;
-    std::int64_t frames_per_decade = 0; ///< 0: at regular steps
+    std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
          has_neighbours = false;
-    bool has_image = false; ///< in a periodic box; true if the scene names no fields
-    SideColumnSet columns;  ///< all that discs have, if the scene names no fields
-    bool is_single = true;  ///< numbers of 4 bytes, otherwise of 8
+    bool has_image = false; ///< for a periodic box; true if the scene lists no fields
+    SideColumnSet columns;  ///< all columns of the discs, if the scene lists no fields
+    bool is_single = true;  ///< numbers of 4 bytes instead of 8
 };
 
 /// `[output.collisions]`: every collision in one file.
@@ -155,13 +155,13 @@ struct CollisionOutput {
 struct MeasurementOutput {
     struct Number {
         double value = 0;
-        bool is_given = false; ///< by the scene; otherwise a check has set it
+        bool is_given = false; ///< given by the scene; otherwise computed by a check
     };
 
-    std::string folder; ///< in the run's folder
+    std::string folder; ///< relative to the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     std::vector<std::string> quantities;                 ///< in the order of the scene
-    std::map<std::string, Number, std::less<>> settings; ///< the quantities' settings
+    std::map<std::string, Number, std::less<>> settings; ///< settings of the quantities, by name
 
     bool measures(std::string_view quantity) const {
         return std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
@@ -174,9 +174,9 @@ struct MeasurementOutput {
     void derive(const std::string& setting, double value) { settings[setting] = {value, false}; }
 };
 
-/// `[time.stop]`: ends a run before its last step, at the end of a step in which a sync was.
+/// `[time.stop]`: ends a run before its last step, at the end of a step with a sync.
 struct StopConditions {
-    std::optional<std::int64_t> collisions, departed; ///< numbers since the scene's start
+    std::optional<std::int64_t> collisions, departed; ///< counts since the scene's start
     std::optional<double> temperature_below, temperature_above;
     std::optional<double> energy_below, energy_above;
     std::optional<double> pressure_below, pressure_above;
@@ -188,78 +188,86 @@ struct StopConditions {
 };
 
 struct SceneParameters {
-    std::string name; ///< the file's name, "standard input" for `-`
-    std::string text; ///< the input's own text without lines of discs, for checkpoints
+    std::string name; ///< path of the file, or "standard input" for `-`
+    std::string text; ///< text of the input without lines of discs, for checkpoints
     std::int64_t lines_before_discs =
         0;                              ///< number of lines of legacy text before its list of discs
-    bool discs_follow = false;          ///< legacy text goes on with lines of discs
-    std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
+    bool discs_follow = false;          ///< legacy text continues with lines of discs
+    std::vector<std::string> overrides; ///< settings `key=value` on top of the text
 
-    Box box;                               ///< the edges; 0 if they are not known
-    Origin origin;                         ///< of places in texts, messages and tables alone
-    double radius = 0;                     ///< r; the largest one of several species
-    bool are_points = false;               ///< the scene says 0; `radius` is point_radius(box)
-    std::optional<SizeDistribution> sizes; ///< that radii follow; they are species then
+    Box box;                 ///< lengths of the edges; 0 if they are not known
+    Origin origin;           ///< of places in texts, messages and tables only
+    double radius = 0;       ///< radius of the largest disc
+    bool are_points = false; ///< the scene's radius is 0; `radius` is then point_radius(box)
+    std::optional<SizeDistribution> sizes; ///< distribution of the radii, which have become species
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
-    std::string discs_file; ///< for Generator::file, relative to the scene; empty if
-                            ///< lines follow the header
+    /// For Generator::file, relative to the scene; empty if lines follow the header
+    std::string discs_file;
     std::string discs_from; ///< an HDF5 file with the initial discs, relative to the scene
-    std::optional<std::int64_t> discs_from_step; ///< the frame's step; else the last frame is used
+    std::optional<std::int64_t> discs_from_step; ///< step of the frame; unset: the last frame
     double speed = 1;                            ///< root mean square of the generated speeds
-    std::optional<double> temperature;           ///< kT of generated discs, in place of the speed
+    std::optional<double> temperature;           ///< kT of generated discs, instead of the speed
     VelocityKind velocities = VelocityKind::maxwell;
-    bool draws_velocities = false; ///< of listed discs, because `discs.speed` or
-                                   ///< `discs.temperature` stand beside the list
-    double growth_rate = 0.01;     ///< for Generator::compressed: the rate at which the
-                                   ///< largest diameter grows, over the root mean square speed
+    /// Velocities of listed discs are drawn, because the scene gives `discs.speed` or
+    /// `discs.temperature` for the list
+    bool draws_velocities = false;
+    /// For Generator::compressed: growth rate of the largest diameter relative to the root mean
+    /// square speed
+    double growth_rate = 0.01;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
-    std::optional<StartRegion> region;    ///< of discs that have none of their own
-    std::vector<RegionRun> regions;       ///< of species or groups, by ids; empty if none has one
-    bool has_shares = false;              ///< in `discs.species`
-    std::vector<DiscGroup> groups;        ///< in the order of ids: by species; of all discs, if any
-    std::vector<StartRegion> freeze;      ///< discs that begin in one of these become obstacles
-    std::vector<FrozenDisc> frozen;       ///< by ids; once they are found, the scene has them among
-                                          ///< its obstacles, and its numbers are without them
+    std::optional<StartRegion> region; ///< for discs without a region of their own
+    /// Regions of species or groups, by ids; empty if there are none
+    std::vector<RegionRun> regions;
+    bool has_shares = false; ///< shares are given in `discs.species`
+    /// By species, in the order of ids; covers all discs, or is empty
+    std::vector<DiscGroup> groups;
+    /// Discs that are generated in these regions become obstacles
+    std::vector<StartRegion> freeze;
+    /// By ids; when they are known, they are obstacles of the scene, and its numbers are without
+    /// them
+    std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
-    FirstNumbers first_numbers;           ///< for columns beside the states
+    FirstNumbers first_numbers;           ///< numbers for columns beside the states
 
     std::int64_t steps = 0;
-    Method method = Method::event_driven; ///< legacy text: time-stepped
+    Method method = Method::event_driven; ///< legacy text is time-stepped
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
     Precision precision = Precision::double_;
     Arithmetic arithmetic = Arithmetic::stable;
-    bool contraction = false; ///< in the products and sums of the naive formula
+    bool contraction = false; ///< fused products and sums in the naive formula
     std::optional<double> accuracy;
-    bool gpu = false; ///< a GPU steps the discs
+    bool gpu = false; ///< a GPU runs the steps
     StopConditions stop;
-    /// Whether discs of the start become obstacles.
+    /// Whether discs of the initial state become obstacles.
     bool freezes() const {
         return !freeze.empty() || std::ranges::any_of(groups, &DiscGroup::is_frozen);
     }
     bool awaits_frozen() const { return freezes() && frozen.empty(); }
-    /// The last step that is sure to come: what is taken often enough up to there is never taken
-    /// too rarely.
+    /// The last step that the run certainly reaches, because a condition may end the run before
+    /// `steps`. Sampling must be frequent enough up to this step.
     std::int64_t least_last_step() const { return stop.are_any() ? 0 : steps; }
 
     Effects effects; ///< times in steps
 
     TextOutput text_output = TextOutput::none;
     std::string folder; ///< for all outputs, relative to the working folder; empty: none
-    std::optional<CheckpointOutput> checkpoint; ///< set for each run with a folder
+    std::optional<CheckpointOutput> checkpoint; ///< set for every run with a folder
     std::optional<TrajectoryOutput> trajectory;
-    std::string length_unit, time_unit; ///< `[output.units]`, for HDF5 files; empty: not known
+    std::string length_unit, time_unit; ///< `[output.units]`, for HDF5 files; empty: unknown
     std::optional<CollisionOutput> collisions;
     std::optional<MeasurementOutput> measurements;
-    std::int64_t averages_from = 0; ///< the first step of the report's averages
+    std::int64_t averages_from = 0; ///< first step of the report's averages
 
-    std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
+    /// About settings that are allowed but doubtful, such as a number of micro-steps that is not a
+    /// power of two
+    std::vector<std::string> warnings;
 
-    /// The area in which discs move, obstacles in it included.
+    /// The area in which discs move; obstacles in it are not subtracted.
     double area() const;
     /// The share of that area that the discs cover at the start.
     double packing() const;
@@ -268,29 +276,28 @@ struct SceneParameters {
         const double growth = effects.growth_at(static_cast<double>(steps));
         return packing() * (growth * growth);
     }
-    /// True if the discs come from lines of text: those of `discs_file`, or those
-    /// after a legacy header.
+    /// Whether the discs are lines of text, in `discs_file` or after a legacy header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
 /// The radius of equal discs that cover this share of the scene's area.
 double radius_of_packing(const SceneParameters& scene, double packing);
 
-/// The radius with which points are computed: a billionth of the box. So a place is on one side of
-/// a wall for sure, whatever rounding does.
+/// The radius that stands for points, a billionth of the box. It is larger than any rounding, so a
+/// position is always on one side of a wall.
 inline double point_radius(const Box& box) { return 0x1p-30 * box.longest(); }
 
-/// Whether discs may begin with other numbers than 0 in a column.
+/// Whether discs may start with numbers other than 0 in a column.
 bool has_first_numbers(const SceneParameters& scene, SideColumn column);
-/// A disc's number at the start. Directions that the scene does not give are drawn by the seed of
-/// the activity, so that any rank finds any disc's.
+/// A disc's initial number in a column. Directions that the scene does not give are drawn from the
+/// seed of the activity, so that any rank can compute them for any disc.
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id);
 
-/// The columns beside the states that the scene's discs have: those that the dynamics
-/// needs, and those to which the scene gives numbers.
+/// The columns beside the states that the scene's discs have: those that the dynamics needs, and
+/// those for which the scene gives numbers.
 SideColumnSet side_columns_of(const SceneParameters& scene);
 
-/// Chooses the fields of frames for a scene that does not name them.
+/// Chooses the fields of frames for a scene that does not list them.
 void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene);
 
 /// The path of `discs_file` or `discs_from`, which are relative to the scene's own file.

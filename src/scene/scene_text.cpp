@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// A scene in which the keys of this scene's tables have their defaults.
+/// The scene with all keys of its tables at their defaults.
 SceneParameters with_defaults(const SceneParameters& scene) {
     SceneParameters plain;
     for (const Table& table : tables())
@@ -36,7 +36,7 @@ std::string scene_text(const SceneParameters& scene) {
                 lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
                                      toml_text(key, value));
         }
-        // The bare name of a table makes the reader create the table with its defaults.
+        // The name of a table alone makes the reader create it with its defaults.
         if (!lines.empty() || table.is_optional())
             text += fmt::format("[{}]\n{}", table.name, lines);
     }

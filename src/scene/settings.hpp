@@ -20,7 +20,7 @@ using Problems = std::vector<Problem>;
 
 struct Place {
     std::string name;
-    std::int64_t line = 0; ///< 0 if there are no lines, as for `--set`
+    std::int64_t line = 0; ///< line number; 0 if there are no lines, as for `--set`
 };
 
 struct Value;
@@ -28,8 +28,8 @@ using Numbers = std::vector<double>;
 using Values = std::vector<Value>;
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
-/// A value of TOML. Rows of numbers become Numbers once they are checked. An invalid
-/// row becomes `monostate`, so that the rows after it keep their places.
+/// A value of TOML. Rows of numbers become Numbers when they are checked. An invalid row becomes
+/// `monostate`, so that the rows after it keep their places.
 struct Value {
     std::variant<std::monostate, bool, std::int64_t, double, std::string, Numbers, Values,
                  NamedValues>
@@ -44,10 +44,10 @@ struct Setting {
     std::string key;
     Place place;
     Value value;
-    bool is_wrong = false; ///< already reported; the value must not be used
+    bool is_wrong = false; ///< a problem has been reported; the value must not be used
 };
 
-/// Settings in the order of the input. A table that the input has is a setting of its name, too.
+/// Settings in the order of the input. Each table of the input is also a setting.
 class Settings {
 public:
     const Setting* find(std::string_view key) const {
@@ -55,19 +55,20 @@ public:
                                         [key](const Setting& one) { return one.key == key; });
         return found == all_.end() ? nullptr : &*found;
     }
-    /// A setting whose value a check completes, as counts that follow from other keys.
+    /// The setting, so that a check can complete its value, such as counts that follow from other
+    /// keys.
     Setting* find_to_complete(std::string_view key) {
         const auto found = std::ranges::find(all_, key, &Setting::key);
         return found == all_.end() ? nullptr : &*found;
     }
     bool has(std::string_view key) const { return find(key) != nullptr; }
-    /// Whether the input has the key with a usable value.
+    /// Whether the input has the key with a valid value.
     bool is_right(std::string_view key) const { return has(key) && !find(key)->is_wrong; }
 
     std::vector<Setting>& all() { return all_; }
     const std::vector<Setting>& all() const { return all_; }
 
-    /// Adds the setting; replaces one of the same key.
+    /// Adds the setting, or replaces the one with the same key.
     void set(Setting setting) {
         remove(setting.key);
         all_.push_back(std::move(setting));

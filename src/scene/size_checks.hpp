@@ -6,10 +6,11 @@
 
 namespace carrom {
 
-/// A distribution gives the radii alone, also where the number of discs is not known yet.
+/// Reports other keys that give radii beside a distribution. The number of discs need not be known
+/// yet.
 void check_rivals_of_sizes(const SceneDraft& draft);
 
-/// Whether radii can follow the distribution: its limits are in order and not too small.
+/// Whether radii can follow the distribution: its limits must be in order and not too small.
 bool check_distribution(const SceneDraft& draft);
 
 } // namespace carrom

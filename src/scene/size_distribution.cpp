@@ -11,18 +11,18 @@ namespace carrom {
 
 namespace {
 
-constexpr double widest_deviations = 3; ///< from the middle to the limits
-/// Cells that are as wide as a range of so many deviations would be too coarse for the density, so
-/// the range is cut where nothing of the distribution is left.
+constexpr double widest_deviations = 3; ///< from the middle to the default limits
+/// If limits are further away than this, the cells of the range would be too coarse for the
+/// density. So the range is cut where the density vanishes.
 constexpr double widest_range = 64, end_of_density = 12;
-/// Below it the square of the polydispersity loses too many digits when 1 is added.
+/// Below this the square of the polydispersity loses too many digits when 1 is added.
 constexpr double narrow = 0x1p-13;
 
 /// e to the power of x.
 double exponential(double x) { return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x); }
 
-/// The natural logarithm of `x`, by Newton's steps; they are done when nothing changes any more,
-/// or only the last bit to and fro.
+/// The natural logarithm of `x`, by Newton's rule; it ends when nothing changes, or only the last
+/// bit alternates.
 double logarithm(double x) {
     double y = 0;
     for (int step = 0; step < 200; ++step) {
@@ -33,12 +33,12 @@ double logarithm(double x) {
     return y;
 }
 
-/// Where the density is a simple function: the radius itself, or its logarithm.
+/// The variable in which the density is a simple function: the radius, or its logarithm.
 struct Measure {
     double middle = 1, deviation = 0;
     bool is_logarithm = false, is_flat = false;
 
-    /// Deviations from the middle.
+    /// Distance from the middle in standard deviations.
     double score(double x) const { return (x - middle) / deviation; }
     double of_radius(double radius) const { return is_logarithm ? logarithm(radius) : radius; }
     double radius_of(double x) const { return is_logarithm ? exponential(x) : x; }
@@ -60,7 +60,7 @@ Measure measure_of(const SizeDistribution& sizes) {
     return {-variance / 2, std::sqrt(variance), true, false};
 }
 
-/// From the middle to where the distribution ends by default.
+/// Distance from the middle to the default limit.
 double reach_of(const SizeDistribution& sizes) {
     return sizes.kind == SizeKind::uniform ? std::sqrt(3.0) : widest_deviations;
 }
@@ -72,7 +72,7 @@ SizeLimits size_limits(const SizeDistribution& sizes) {
     const double reach = reach_of(sizes);
     const double low = measure.radius_of(measure.middle - reach * measure.deviation),
                  high = measure.radius_of(measure.middle + reach * measure.deviation);
-    // A uniform distribution ends by itself; wider limits would change its deviation.
+    // A uniform distribution has limits of its own; wider ones would change its deviation.
     if (sizes.kind == SizeKind::uniform)
         return {std::max(low, sizes.smallest.value_or(low)),
                 std::min(high, sizes.largest.value_or(high))};
@@ -89,7 +89,7 @@ double share_within_limits(const SizeDistribution& sizes) {
     };
     const double low = score(sizes.smallest, -reach), high = score(sizes.largest, reach);
     if (measure.is_flat) return (std::min(high, reach) - std::max(low, -reach)) / (2 * reach);
-    // Of the two tails the smaller ones are subtracted, because they keep their digits.
+    // The smaller of the two tails are subtracted, because they have more digits.
     const auto tail = [](double z) { return std::erfc(z / std::numbers::sqrt2) / 2; };
     return low > 0 ? tail(low) - tail(high) : tail(-high) - tail(-low);
 }
@@ -105,7 +105,7 @@ std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n)
     }
     const std::size_t n_cells = 32 * n + 16384;
     const double width = (high - low) / static_cast<double>(n_cells);
-    std::vector<double> up_to(n_cells + 1); // the density's integral, by Simpson's rule
+    std::vector<double> up_to(n_cells + 1); // the integral of the density, by Simpson's rule
     double left = measure.density(low);
     for (std::size_t i = 0; i < n_cells; ++i) {
         const double x = low + width * static_cast<double>(i), right = measure.density(x + width);

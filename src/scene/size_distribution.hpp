@@ -2,12 +2,14 @@
 // Radii that follow a distribution: `discs.radius` as a table.
 //
 // Radii are not drawn: the distribution is cut into parts of equal probability, and each part is a
-// species with the radius in its middle. So two seeds have the same radii, and differ by places and
-// velocities only; a thousand parts tell a distribution from its limit by less than a thousandth.
-// Each disc's radius and mass are found by its id, 2 bytes a disc on every rank (species.hpp).
+// species with the radius in its middle. So two seeds have the same radii and differ only by
+// positions and velocities. With a thousand parts the distribution differs from the exact one by
+// less than a thousandth. Each disc's radius and mass are found by its id, 2 bytes a disc on every
+// rank (species.hpp).
 //
-// Quantiles come from a sum of the density, with + - * / and sqrt only: the same bits on every
-// machine. Those of a library would differ with its error function, and so would radii.
+// Quantiles are computed from a sum of the density, with + - * / and sqrt only, so they have the
+// same bits on every machine. Quantiles from a library's error function would differ between
+// machines, and so would radii.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +25,19 @@ enum class MassKind { area, equal };
 
 struct SizeDistribution {
     SizeKind kind = SizeKind::uniform;
-    std::optional<double> mean; ///< a length; where it is missing the packing fraction gives it
-    double polydispersity = 0;  ///< standard deviation over mean, before limits cut it
-    std::optional<double> smallest, largest; ///< limits, in units of the mean
-    MassKind mass = MassKind::area;          ///< as the area, with 1 for a disc of the mean radius
+    std::optional<double> mean; ///< a length; if unset, it follows from the packing fraction
+    /// Standard deviation relative to the mean, before limits cut the distribution
+    double polydispersity = 0;
+    std::optional<double> smallest, largest; ///< limits relative to the mean
+    /// Area: relative to a disc of the mean radius, whose mass is 1
+    MassKind mass = MassKind::area;
 };
 
-/// More parts than these are not made.
+/// The largest number of parts.
 constexpr std::uint64_t most_size_parts = 1000;
 
-/// What limits the radii, in units of the mean, where the scene does not say it. Normal and
-/// lognormal ones end three standard deviations from the middle.
+/// The limits of radii, in units of the mean, if the scene does not give them. Normal and lognormal
+/// distributions are cut three standard deviations from the middle.
 struct SizeLimits {
     double smallest = 0, largest = 0;
 };
@@ -43,15 +47,16 @@ SizeLimits size_limits(const SizeDistribution& sizes);
 /// library's error function, so it serves for checks only.
 double share_within_limits(const SizeDistribution& sizes);
 
-/// Limits must hold at least this share of a distribution; so its density does not vanish there.
+/// Limits must contain at least this share of a distribution, so that the density between them does
+/// not vanish.
 constexpr double smallest_share = 1e-12;
 
-/// The radii in the middle of `n` parts of equal probability, rising, in units of the mean. The
-/// limits must be positive, in order, and hold `smallest_share`. Cost: some 1e6 operations.
+/// The radii in the middle of `n` parts of equal probability, ascending, in units of the mean. The
+/// limits must be positive, in order, and contain `smallest_share`. Cost: some 1e6 operations.
 std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n);
 
-/// Species for so many discs, from the smallest to the largest. Where `sizes` has no mean, it is
-/// the one with which they cover `covered_area`.
+/// Species for this number of discs, from the smallest to the largest. If `sizes` has no mean, it
+/// is chosen so that the discs cover `covered_area`.
 std::vector<Species> species_of_sizes(SizeDistribution& sizes, std::uint64_t n_discs,
                                       double covered_area);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The counts of species that say how much of the box or of the discs is theirs.
+// Computes the counts of species that are given by shares of the box or of the discs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// What gives the number of discs of a row, and its place in the row.
+/// The keys that give the number of discs of a row, and their indices in the row.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 4> sources = {
     {{"count", species_row::count},
      {"packing", species_row::packing},
@@ -21,7 +21,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 4> sources = {
      {"share_of_area", species_row::share_of_area}}};
 constexpr double largest_fault = 1e-9; ///< of the sum of shares
 
-/// Why the number of discs of the row does not follow from it, or empty.
+/// Why the number of discs of a row cannot be computed, or empty.
 std::string problem_of(const Numbers& row) {
     std::string first;
     for (const auto& [name, place] : sources) {
@@ -35,7 +35,8 @@ std::string problem_of(const Numbers& row) {
     return first.empty() ? "it needs count, packing, share or share_of_area" : "";
 }
 
-/// Splits n in the ratio of weights, which sum to 1: to the nearest whole numbers of that sum.
+/// Splits n in proportion to weights with the sum 1, to the nearest whole numbers with the same
+/// sum.
 std::vector<double> split(double n, const std::vector<double>& weights) {
     std::vector<double> parts, rests;
     for (const double weight : weights) {
@@ -62,12 +63,12 @@ public:
             if (auto* numbers = std::get_if<Numbers>(&row.data)) rows_.push_back(numbers);
     }
 
-    /// Returns false if counts are missing that the rows do not give.
+    /// Returns false if a count is missing that cannot be computed from the rows.
     bool fill() {
         if (setting_.is_wrong || !are_sources_right()) return false;
         if (std::ranges::all_of(rows_, [](const Numbers* row) { return is_given(*row, 0); }))
             return true;
-        if (draft_.scene.box == Box()) return false; // a problem already
+        if (draft_.scene.box == Box()) return false; // reported already
         for (Numbers* row : rows_)
             if (is_given(*row, species_row::packing)) (*row)[0] = count_in_region(*row);
         return fill_shares() && are_counts_right();
@@ -129,7 +130,7 @@ private:
         return true;
     }
 
-    /// Of the discs that shares are of; 0 if it is not known, which is a problem.
+    /// The number of discs to which shares refer; 0 if it is unknown, which is a problem.
     double number_of_all(const std::vector<double>& weights) {
         const bool has_count = draft_.settings.has("discs.count");
         const Setting* packing = draft_.settings.find("discs.packing");
@@ -139,9 +140,9 @@ private:
                                has_count ? ", not both" : ""));
             return 0;
         }
-        if (has_count) return static_cast<double>(draft_.scene.n_discs); // 0 if it is wrong
+        if (has_count) return static_cast<double>(draft_.scene.n_discs); // 0 if it is invalid
         if (packing->is_wrong) return 0;
-        double square = 0; // the mean of r^2
+        double square = 0; // mean of r^2
         for (std::size_t k = 0; k < rows_.size(); ++k)
             square += weights[k] * (*rows_[k])[1] * (*rows_[k])[1];
         return count_of_packing(std::get<double>(packing->value.data), draft_.scene.area(),
@@ -156,7 +157,7 @@ private:
                                row[0], largest_count);
         });
         const bool are_right = draft_.problems.size() == n_problems;
-        for (Numbers* row : rows_) // so that no other check refuses the counts again
+        for (Numbers* row : rows_) // so that no other check reports the counts again
             if (!are_right) (*row)[0] = not_given;
         return are_right;
     }
@@ -175,10 +176,10 @@ double count_of_packing(double packing, double area, double radius) {
 void fill_species_counts(const SceneDraft& draft) {
     Setting* setting = draft.settings.find_to_complete("discs.species");
     if (!setting || !std::holds_alternative<Values>(setting->value.data)) return;
-    if (draft.settings.has("discs.groups")) return; // they give the counts
+    if (draft.settings.has("discs.groups")) return; // because groups give the counts
     setting->is_wrong = !SpeciesCounts(draft, *setting).fill();
     if (setting->is_wrong)
-        draft.scene.effects.species.clear(); // what is known of them is not their number
+        draft.scene.effects.species.clear(); // because the known counts are incomplete
     else
         find_key("discs.species")->set(draft.scene, setting->value);
 }

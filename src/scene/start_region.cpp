@@ -14,13 +14,13 @@ namespace carrom {
 
 namespace {
 
-/// Discs that begin in one region.
+/// The discs that begin in one region.
 struct Crowd {
     std::uint64_t count = 0;
     double largest = 0, area = 0;
 };
 
-/// Discs from `first` to `end` - 1.
+/// Of the discs from `first` to `end` - 1.
 Crowd crowd_of(const SceneParameters& scene, DiscId first, DiscId end) {
     Crowd crowd;
     const auto add = [&crowd](double radius, std::uint64_t n) {
@@ -107,7 +107,8 @@ Key region_key() {
 
 void check_regions(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    if (!has_regions(scene) || !scene.groups.empty()) return; // groups have checks of their own
+    // Because groups have checks of their own
+    if (!has_regions(scene) || !scene.groups.empty()) return;
     if (!scene.regions.empty() && scene.generator != Generator::random)
         return draft.refuse({"discs.species"}, "a region of a species has no meaning without "
                                                "discs.generator = \"random\"");

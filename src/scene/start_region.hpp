@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Regions in which discs begin at random: `discs.region` for all, or `region` in a species.
+// Regions for random initial positions: `discs.region` for all discs, or `region` of a species.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,22 @@
 
 namespace carrom {
 
-/// The rectangle that disc `id` begins in, whole; nothing if it may begin anywhere in the box.
+/// The rectangle that must contain disc `id` as a whole at the start; nothing if it may be anywhere
+/// in the box.
 std::optional<StartRegion> region_of(const SceneParameters& scene, DiscId id);
 
 bool has_regions(const SceneParameters& scene);
 
-/// Why no disc of that radius can begin there, or empty.
+/// Why no disc of that radius fits into the region, or empty.
 std::string problem_of_region(const SceneParameters& scene, const StartRegion& region,
                               double largest_radius);
-/// Why so many discs, which cover `area`, find no places at random there, or empty.
+/// Why this number of discs, which cover `area`, cannot be placed in the region at random, or
+/// empty.
 std::string problem_of_crowd(const StartRegion& region, std::uint64_t count, double area);
 
 Key region_key();
 
-/// Checks that regions lie in the box, and that discs find places at random in each.
+/// Checks that regions are in the box, and that their discs can be placed in each at random.
 void check_regions(const SceneDraft& draft);
 
 } // namespace carrom

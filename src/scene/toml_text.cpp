@@ -13,9 +13,9 @@ namespace carrom {
 
 namespace {
 
-/// The parser recurses for each part of a key; scenes need three.
+/// Limits the parts of a key, for each of which the parser recurses; scenes need three.
 constexpr int most_parts = 32;
-constexpr std::size_t most_unknown = 20; ///< these are listed; the rest are counted
+constexpr std::size_t most_unknown = 20; ///< this many are listed; the rest are counted
 
 std::int64_t line_of(const toml::source_region& source) {
     return static_cast<std::int64_t>(source.begin.line);
@@ -42,7 +42,8 @@ Value to_value(const toml::node& node) {
     return value;
 }
 
-/// The place after a string that begins at `at`; a string without an end takes all that follows.
+/// The position after a string that begins at `at`; a string without an end extends to the end of
+/// the text.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];
     const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
@@ -58,7 +59,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     return text.size();
 }
 
-/// The first line with a key of more parts than the parser can take, or 0.
+/// The first line whose key has more parts than the parser can handle, or 0.
 std::int64_t line_of_deep_key(std::string_view text) {
     std::int64_t line = 1;
     int n_parts = 1;
@@ -130,7 +131,7 @@ void forget_lines(Value& value) {
         for (auto& [name, one] : *values) forget_lines(one);
 }
 
-/// The value of `--set`; nothing if it is no value.
+/// The value of `--set`; nothing if the text is not a value.
 std::optional<Value> parse_any(const std::string& text) {
     const std::string line = "value = " + text;
     if (text.find('\n') != std::string::npos || line_of_deep_key(line) > 0) return std::nullopt;

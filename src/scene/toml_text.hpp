@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TOML text to settings and back. Values are checked later, by their keys.
+// Converts TOML text to settings and back. Values are checked later, against their keys.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@
 
 namespace carrom {
 
-/// Returns false if the text is no TOML at all, so that nothing is known about its keys.
+/// Returns false if the text is not TOML at all, so that no keys are known.
 bool add_toml(Settings& settings, Problems& problems, std::string_view text,
               const std::string& name);
 
-/// Reads a value of `--set`. It is in TOML's syntax, but words need no quotes if the
-/// key takes a word. Nothing if it is no value.
+/// Reads a value of `--set`. It has TOML's syntax, but words need no quotes if the key takes a
+/// word. Returns nothing if it is not a value.
 std::optional<Value> parse_value(const Key& key, const std::string& text);
 
-/// Reads an inline table of `--set`. Nothing if it is none.
+/// Reads an inline table of `--set`. Returns nothing if the text is not a table.
 std::optional<NamedValues> parse_table(const std::string& text);
 
 /// A checked value in TOML's syntax; it reads back as the same bits.

@@ -14,12 +14,12 @@ namespace carrom {
 
 namespace {
 
-/// The place of the nearest name, if it is near enough to have been meant.
+/// The index of the nearest name, if it is near enough to be the intended one.
 std::optional<std::size_t> nearest_of(std::string_view name,
                                       std::span<const std::string_view> names) {
     name = name.substr(0, 200);
     std::size_t least = std::min(std::max<std::size_t>(1, name.size() / 3) + 1,
-                                 name.size()); // at least one letter must be right
+                                 name.size()); // at least one letter must be correct
     std::optional<std::size_t> nearest;
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::size_t distance = edit_distance(name, names[i]);
@@ -42,7 +42,7 @@ std::string_view table_of(std::string_view key) {
 
 std::string_view last_of(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
-/// Names of keys and tables: those of a known table, else all of them.
+/// Names of keys and tables: those in a known table, otherwise all.
 std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     std::vector<std::string_view> names;
     for (const Key& one : keys())
@@ -52,7 +52,7 @@ std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     return names;
 }
 
-/// The names that the innermost existing table has.
+/// A text that lists the names in the innermost existing table.
 std::string what_there_is(std::string_view table) {
     while (!table.empty() && !find_table(table)) table = table_of(table);
     if (table.empty())
@@ -63,7 +63,7 @@ std::string what_there_is(std::string_view table) {
     return fmt::format("; [{}] has {}", table, list);
 }
 
-/// What people try, and what there is instead.
+/// Keys that people try, and the advice for each.
 constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"output.checkpoint.folder", folder_text},
     {"output.trajectory.file", folder_text},
@@ -93,7 +93,8 @@ constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"time.stop.pressure", "try: time.stop.pressure_below or time.stop.pressure_above"},
 };
 
-/// Whether the value can be one of the renamed key. A number is none where it had words.
+/// Whether the value can be one of the renamed key. A number cannot be one if the renamed key had
+/// words.
 bool is_old_value(const Key& key, const Value& value) {
     const auto* word = std::get_if<std::string>(&value.data);
     return key.words.empty() || (word ? !parse_double(*word) : value.is_nothing());
@@ -121,7 +122,7 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     const bool is_known = !table.empty() && find_table(table);
     const std::vector<std::string_view> names = names_in(table, is_known);
     std::vector<std::string_view> compared = names;
-    if (is_known || table.empty()) // a key without a table, whose table may have been forgotten
+    if (is_known || table.empty()) // a key without a table, whose table may be missing in the text
         std::transform(names.begin(), names.end(), compared.begin(), last_of);
     const auto nearest = nearest_of(is_known ? last_of(key) : key, compared);
     return "no such key " + in_quotes(key) +
@@ -150,7 +151,7 @@ std::string table_text(std::string_view key, const Value& value) {
                                : whole                       ? fmt::format("{}", *whole)
                                : word && parse_double(*word) ? *word
                                                              : "";
-    if (!number.empty() && key == "effects.gravity") // downwards, whatever sign was meant
+    if (!number.empty() && key == "effects.gravity") // downwards, for either sign
         return try_key("y", number.starts_with('-') ? number : "-" + number);
     return text + what_there_is(key);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop of every run: it advances to a wanted step, and calls actions between steps.
+// The loop of every run: it advances to a given step, and calls actions between steps.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// Something that is done between the steps of a run: lines of text, files, checkpoints.
+/// An action between the steps of a run, such as writing lines of text, files or checkpoints.
 class StepAction {
 public:
     virtual ~StepAction() = default;
@@ -19,17 +19,17 @@ public:
     /// Called after each stretch of steps, whether it is due or not. Returns false if the run must
     /// end here. **Collective.**
     virtual bool act() = 0;
-    /// Makes what has been done so far permanent: a checkpoint is about to be written, and a
-    /// restart cannot make up for what is missing before it. **Collective.**
+    /// Makes everything so far permanent. Called before a checkpoint is written, because a restart
+    /// from it cannot repeat earlier work. **Collective.**
     virtual void commit() {}
 };
 
-/// Seconds that a run has spent on this rank.
+/// The time in seconds that a run has spent on this rank.
 struct StretchSeconds {
     double steps = 0, actions = 0;
 };
 
-/// Steps to the end of `last_step`, and calls the actions in their order after each stretch of
+/// Advances to the end of `last_step`, and calls the actions in their order after each stretch of
 /// steps. Returns false if an action ended the run before. **Collective.**
 bool advance_to(DiscSystem& system, std::int64_t last_step,
                 std::span<StepAction* const> actions = {}, StretchSeconds* seconds = nullptr);

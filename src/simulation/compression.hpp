@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dense starts by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990)).
 //
-// A random gas of small discs runs under the event-driven method while radii grow, in
-// stretches. After each stretch speeds are scaled back. The heating in a stretch shows
-// how much room is left, and this decides how far discs grow in the next one. All sums
-// are exact, so the discs have the same bits on any ranks and threads.
+// A random gas of small discs runs under the event-driven method while radii grow, in stretches.
+// After each stretch speeds are scaled back. The heating in a stretch shows how much room is left,
+// which determines the growth in the next stretch. All sums are exact, so the discs have the same
+// bits on any ranks and threads.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,9 @@
 
 namespace carrom {
 
-/// Returns places of discs of the scene's radii, in any distribution over the ranks; velocities
-/// have no meaning. Throws InputError on every rank if the discs jam before they have their radii.
-/// **Collective.**
+/// Returns positions of discs with the scene's radii, in any distribution over the ranks;
+/// velocities have no meaning. Throws InputError on every rank if the discs jam before they reach
+/// their radii. **Collective.**
 std::vector<InputDisc> compressed_places(const SceneParameters& scene,
                                          const Communicator& communicator, const Tuning& tuning);
 

@@ -31,29 +31,30 @@ public:
     /// **Collective.**
     DiscSystem(const SceneParameters& scene, std::vector<InputDisc> discs,
                const Communicator& communicator, const Tuning& tuning);
-    /// Goes on from a stored state of the same scene, in any distribution over the
-    /// ranks. **Collective.**
+    /// Continues from a stored state of the same scene, in any distribution over the ranks.
+    /// **Collective.**
     DiscSystem(const SceneParameters& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
     ~DiscSystem();
 
-    /// Runs until `last_step`, or until an earlier step that is a good one to read the state at (at
-    /// least one step on). Steps are the scene's. **Collective.**
+    /// Runs to `last_step`, or to an earlier step at which reading the state is fast, and at least
+    /// one step. Steps are the scene's. **Collective.**
     void advance_towards(std::int64_t last_step);
 
     std::int64_t step() const;
     std::int64_t micro_steps_done() const;
 
-    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
-    /// have left the box are among them (DiscState::has_departed). Good until the next call.
+    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. They
+    /// include the discs that have left the box (DiscState::has_departed). Valid until the next
+    /// call.
     std::span<const DiscState> discs() const;
-    /// The numbers of side columns along `discs()`. Good until the next call.
+    /// The numbers of side columns in the order of `discs()`. Valid until the next call.
     SideSpans side_columns() const;
     /// The spins, in angles per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
     /// The radius and the mass of each disc. A copy shares the memory.
     const SpeciesTable& species_table() const;
-    /// The same, or null if all discs are equal.
+    /// The species table, or null if all discs are equal.
     const SpeciesTable* species_if_mixed() const;
     double heaviest() const { return heaviest_; } ///< the largest mass of a disc
     /// The present time in micro-steps since the last sync, for DiscState::x_at.
@@ -61,22 +62,22 @@ public:
     /// The frame of the coordinates of `discs()` at `clock()`. It is the box's own
     /// unless there is gravity.
     Frame frame() const;
-    /// The own discs as the box sees them at `clock()`. This is `discs()` itself
-    /// unless there is gravity; else it is good until the next call.
+    /// The own discs as the box sees them at `clock()`. This is `discs()` itself unless there is
+    /// gravity; otherwise it is valid until the next call.
     std::span<const DiscState> shown() const;
-    /// Like `shown()`, but only the velocities are right, and they are without the mean flow
-    /// between sheared sides, which is no temperature.
+    /// Like `shown()`, but only velocities are valid. The mean flow between sheared sides is
+    /// subtracted, because it is not part of the temperature.
     std::span<const DiscState> in_flow() const;
     /// The factor from stored velocities to velocities per step.
     double velocity_unit() const { return velocity_unit_; }
 
-    std::uint64_t n_discs() const;                      ///< of all ranks, departed ones too
-    Extent box() const;                                 ///< at the present step
+    std::uint64_t n_discs() const; ///< number of discs on all ranks, departed ones included
+    Extent box() const;            ///< extent of the box at the present step
     const Effects& effects() const { return effects_; } ///< times in steps
     const Communicator& ranks() const { return communicator_; }
     int n_threads() const { return n_threads_; }
-    /// The engine, which followers of collisions and measurements ask for more. Only
-    /// `advance_towards` moves it on, and only `log_to` sets its log.
+    /// The engine, for followers of collisions and for measurements. Only `advance_towards` may
+    /// advance it, and only `log_to` may set its log.
     Engine& engine() { return *engine_; }
     const Engine& engine() const { return *engine_; }
 
@@ -84,28 +85,29 @@ public:
     /// ends that.
     void log_to(std::vector<Collision>* log);
 
-    /// This rank's sums of stress since the simulation was made, up to the last sync and with all
-    /// collisions since then, in the unit of `stress_bound()`.
+    /// This rank's sums of stress since the simulation was made, in the unit of `stress_bound()`.
+    /// They contain flights up to the last sync, and all collisions.
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     const AveragedSystem& averaged_system() const { return *averaged_system_; }
-    /// Begins the sums anew in another unit, as a checkpoint's measurements need it; before any
-    /// step.
+    /// Starts the sums anew in another unit, as a checkpoint's measurements need it. Call it before
+    /// any step.
     void begin_stress_sums(double bound);
 
-    /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards`
-    /// goes one step at a time and throws CheckFailure on every rank when one is broken. `scene`
-    /// must outlive the run, and be of the default precision and arithmetic. **Collective.**
+    /// From now on the invariants of check_failure.hpp are checked after every step:
+    /// `advance_towards` runs one step at a time, and throws CheckFailure on every rank if one is
+    /// broken. `scene` must outlive the run, and have the default precision and arithmetic.
+    /// **Collective.**
     void check_every_step(const SceneParameters& scene);
 
     /// **Collective.**
     Totals totals() const;
-    /// Number, energies and momentum alone, which takes two passes over the discs. **Collective.**
+    /// Only number, energies and momentum, which takes two passes over the discs. **Collective.**
     Totals energies() const;
 
 private:
     void advance_checked();
-    /// Like `shown()`, but only the velocities are right.
+    /// Like `shown()`, but only the velocities are valid.
     std::span<const DiscState> in_motion() const;
 
     Communicator communicator_;
@@ -118,12 +120,12 @@ private:
     double stress_bound_ = 1;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<const AveragedSystem> averaged_system_;
-    std::unique_ptr<StressSums> stress_; ///< the engine adds to it
+    std::unique_ptr<StressSums> stress_; ///< sums to which the engine adds
     std::unique_ptr<StateCheck> check_;
-    mutable DiscStates shown_;              ///< under gravity
-    mutable DiscStates stored_;             ///< once discs have left the box
-    mutable SideColumns stored_columns_;    ///< once discs have left the box
-    std::vector<Collision>* log_ = nullptr; ///< the user's log, while the check has its own
+    mutable DiscStates shown_;              ///< the result of `shown()` under gravity
+    mutable DiscStates stored_;             ///< the result of `discs()` if discs have left the box
+    mutable SideColumns stored_columns_;    ///< the same for their side columns
+    std::vector<Collision>* log_ = nullptr; ///< the user's log; the check has a log of its own
 };
 
 } // namespace carrom

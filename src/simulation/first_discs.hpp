@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs that a scene begins with, for any generator: the only way to them that knows all.
+// Makes the discs of a scene's start, for any generator; other functions handle only some of the
+// generators.
 //
-// Groups come one after the other. Lattices and compressed discs fill their regions, each as a box
-// of its own, and random discs then find places in the gaps. Velocities come last, after discs that
-// the scene freezes have become obstacles.
+// Groups are placed one after the other. Lattices and compressed discs fill their regions, each
+// like a box of its own, and random discs are then placed in the gaps. Velocities are given last,
+// when discs that the scene freezes have become obstacles.
 #pragma once
 
 #include <istream>
@@ -16,12 +17,12 @@
 namespace carrom {
 
 /// Returns the scene's discs, in any distribution over the ranks, with velocities. `following` is
-/// that of load_places. Where the scene freezes discs it must know them already. Throws InputError
+/// as in load_places. If the scene freezes discs, it must contain them already. Throws InputError
 /// on every rank. **Collective.**
 std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 
-/// As first_discs. Discs that the scene freezes become its obstacles (frozen_discs.hpp).
+/// Like first_discs. Discs that the scene freezes become its obstacles (frozen_discs.hpp).
 /// **Collective.**
 std::vector<InputDisc> first_discs_and_frozen(SceneParameters& scene, std::istream* following,
                                               const Communicator& communicator,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of averages over time for correlated samples.
 //
-// Samples are joined to blocks of equal length. When there are `most_blocks`, each two
-// become one, so that memory does not grow with time. The error comes from blocks so long
-// that their means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)).
-// Jonsson's test (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The
-// correlation that is left between neighbouring blocks of that length is added.
+// Samples are joined to blocks of equal length. When there are `most_blocks`, each two are joined
+// to one, so that memory does not grow with time. The error comes from blocks so long that their
+// means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)). Jonsson's test
+// (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The remaining correlation
+// between neighbouring blocks of that length is added.
 //
 // In runs of at least 30 correlation times the claimed error is within 10 % of the scatter between
-// runs. It is a fifth too small where there are only eight.
+// runs. With only eight correlation times it is a fifth too small.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace carrom {
 
-/// An error takes at least this many blocks.
+/// An error needs at least this many blocks.
 constexpr std::size_t fewest_blocks = 4;
 /// Blocks are joined in pairs when there are this many.
 constexpr std::size_t most_blocks = 128;
@@ -28,7 +28,7 @@ constexpr std::size_t most_blocks = 128;
 struct BlockedMean {
     double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error, or NaN
                                                              ///< if there are too few blocks
-    /// The number of blocks for one that is independent of those before, at least 1.
+    /// The number of blocks, at least 1, after which one is independent of those before.
     double blocks_per_independent = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false; ///< blocks agree to within rounding: a conserved quantity
     bool is_changing = false; ///< the run's halves differ by more than chance explains, or the
@@ -37,16 +37,15 @@ struct BlockedMean {
 
 /// `terms` are the means of blocks of one length, in the order of time.
 BlockedMean blocked_mean(std::span<const double> terms);
-/// The error of blocked_mean.
+/// Only the error of blocked_mean.
 double standard_error(std::span<const double> terms);
 
 /// A mean over samples with its error.
 struct SampledMean {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
-    double correlation_time = std::numeric_limits<double>::quiet_NaN(); ///< in samples; none
-                                                                        ///< shorter than half a
-                                                                        ///< block can be seen
+    /// In samples; the shortest that can be measured is half a block
+    double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false, is_changing = false;
 };
@@ -61,19 +60,18 @@ public:
     std::int64_t n_samples() const;
     std::size_t n_blocks() const { return n_values_ == 0 ? 0 : blocks_.size() / n_values_; }
 
-    /// Adds one sample, of `n_values()` numbers. Samples are taken at equal intervals.
+    /// Adds one sample of `n_values()` numbers. Samples must have equal intervals.
     void add(std::span<const double> sample);
 
     /// One mean for each value.
     std::vector<SampledMean> means() const;
-    /// The mean of the sum of all values, each times its weight. Its error allows for values that
-    /// vary together.
+    /// The mean of the weighted sum of all values. Its error includes correlations between values.
     SampledMean weighted_mean(std::span<const double> weights) const;
 
-    /// All data, for a checkpoint. The numbers do not depend on ranks or threads if
-    /// the samples do not.
+    /// All data as words, for a checkpoint. They do not depend on ranks or threads if the samples
+    /// do not.
     std::vector<std::int64_t> words() const;
-    /// Goes on from such words. Returns false, with nothing changed, if they do not fit.
+    /// Restores such words. Returns false, and changes nothing, if their number is wrong.
     bool set_words(std::span<const std::int64_t> words);
 
 private:

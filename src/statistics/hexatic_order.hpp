@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hexatic order psi6 of discs over their Voronoi neighbours, from the neighbourhood
-// that a rank has. Each disc's cell is found by itself, from its neighbours in the
-// order of distance and id, so its bits do not depend on ranks and threads.
+// The hexatic order psi6 of discs over their Voronoi neighbours, from the discs that a rank and its
+// halo contain. Each disc's cell is computed separately, from its neighbours in the order of
+// distance and id, so its bits do not depend on ranks and threads.
 //
 // Discs of different radii have cells of the radical tessellation (B. J. Gellatly and J. L. Finney,
 // J. Non-Cryst. Solids 50, 313 (1982)): the side between two discs is the line from which tangents
-// to both are equally long. So a cell holds its disc, and two discs that touch are neighbours.
-// Bisectors of centres would cut large discs. Between equal discs both are the same line.
+// to both are equally long. So a cell contains its disc, and two discs that touch are neighbours.
+// Bisectors of the centres would cut through large discs. For equal discs both lines are the same.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@
 
 namespace carrom {
 
-/// The radii of discs of several species, by which cells differ from those of points.
+/// The radii of discs of several species, which determine the cells.
 struct CellSizes {
-    const SpeciesTable* species = nullptr; ///< none if all discs are of one size
-    double largest_radius = 0;             ///< at the start, as those of the table
-    double growth = 1;                     ///< by which radii have grown
+    const SpeciesTable* species = nullptr; ///< null if all discs have one size
+    double largest_radius = 0;             ///< radius at the start, as in the table
+    double growth = 1;                     ///< the factor by which radii have grown
 
     double squared_radius_of(DiscId id) const {
         return species ? squared(species->of(id).radius) : 0;
@@ -36,20 +36,20 @@ private:
     double squared(double radius) const { return (growth * radius) * (growth * radius); }
 };
 
-/// Fills in `orders` along the view's discs. Walls of `box` cut cells and are no
-/// neighbours. The view must extend by `reach` around each disc whose order is wanted.
-/// Returns whether that was enough for all own discs; otherwise their orders mean nothing.
+/// Fills in `orders` in the order of the view's discs. Walls of `box` bound cells and are not
+/// neighbours. The view must extend by `reach` around each disc whose order is wanted. Returns
+/// whether `reach` was enough for all own discs; otherwise their orders are invalid.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, int n_threads, std::vector<BondOrder>& orders);
 
-/// The same for those own discs whose id is a multiple of `ids_apart`, in one list. One thread does
-/// it, because they are few.
+/// The same for those own discs whose id is a multiple of `ids_apart`, in one list. Uses one
+/// thread, because the discs are few.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, std::uint64_t ids_apart, std::vector<BondOrder>& orders);
 
 /// Sums over discs at one time. They are exact, so ranks may add them in any order.
 struct HexaticSums {
-    static constexpr std::size_t most_neighbours = 12; ///< the last count includes discs with more
+    static constexpr std::size_t most_neighbours = 12; ///< larger numbers count as this one
 
     HexaticSums(std::uint64_t n_discs, std::size_t n_bins);
 
@@ -60,10 +60,10 @@ struct HexaticSums {
     std::vector<ExactSum> products;        ///< sum of the real part of psi6* psi6 over these pairs
 };
 
-/// Adds discs alone.
+/// Adds discs without pairs.
 void add_discs(std::span<const BondOrder> orders, HexaticSums& sums);
 /// Adds this rank's discs and pairs; bins of distance are `bin_width` wide. A pair is counted once,
-/// by the rank that owns its disc of the lower id.
+/// by the rank that owns the disc with the lower id.
 void add_order(const LocalView& local_view, std::span<const BondOrder> orders, double bin_width,
                int n_threads, HexaticSums& sums);
 

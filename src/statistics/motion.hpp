@@ -35,61 +35,69 @@ struct Tensor {
 /// units of `speed_unit`, a power of two, per micro-step.
 struct MotionSample {
     std::uint64_t wall_collisions = 0,
-                  pair_collisions = 0; ///< since the scene's start; a pair counts once
+                  /// Since the scene's start; a collision of a pair counts once
+        pair_collisions = 0;
     double speed_unit = 1;
-    double mean_speed = 0, mean_square = 0, mean_fourth = 0; ///< per disc
-    double n_discs = 0;                                      ///< in the box
-    double mass = 0, momentum_x = 0, momentum_y = 0;         ///< over all discs in the box
-    Tensor motion;                                           ///< sum of m v v
-    Tensor stress;     ///< time integral of stress times area since the sums began;
-                       ///< mass length^2 per micro-step
-    double energy = 0; ///< the integral of `motion`'s trace alone, in the same unit
+    /// Mean powers of the speed over discs
+    double mean_speed = 0, mean_square = 0, mean_fourth = 0;
+    double n_discs = 0;                              ///< number of discs in the box
+    double mass = 0, momentum_x = 0, momentum_y = 0; ///< sums over all discs in the box
+    Tensor motion;                                   ///< sum of m v v
+    /// Time integral of stress times area since the sums began, in mass length^2 per micro-step
+    Tensor stress;
+    double energy = 0; ///< the integral of the trace of `motion`, in the same unit
     double area = 0;   ///< area of the box
 };
 
-/// Samples all but stress, energy and area. Each term is rounded to 2^-62 of N times the largest
-/// speed, for the same bits on all machine shapes. No table: masses of 1. **Collective.**
+/// Samples everything except stress, energy and area. Each term is rounded to 2^-62 of N times the
+/// largest speed, so that the bits do not depend on ranks and threads. Without a table all masses
+/// are 1. **Collective.**
 MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                            double heaviest, std::uint64_t n_discs, int n_threads,
                            const Communicator& communicator);
 
-/// Adds the integrals that `mine` of all ranks have to `sample`. **Collective.**
+/// Adds the integrals in `mine`, summed over all ranks, to `sample`. **Collective.**
 void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample);
-/// Adds the integrals over flights in `frame` since the last sync.
+/// Adds the integrals over flights since the last sync, seen in `frame`.
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample);
 
 /// Constants of the scene that averages need.
 struct AveragedSystem {
     Box box;
     double n_discs = 0, radius = 0;
-    double velocity_unit = 1; ///< turns stored velocities into velocities per step
+    double velocity_unit = 1; ///< converts stored velocities to velocities per step
     std::int64_t micro_steps = 1, sync_every = 1;
-    bool is_plain = true;    ///< discs and walls are elastic; if not, pressures from counts are NaN
-    bool keeps_discs = true; ///< no disc leaves; if one may, collisions per disc are NaN
-    Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat; ///< along each axis
-    bool has_flow = false;      ///< the kinetic part is relative to a flow, and taken from samples
-    bool keeps_energy = true;   ///< energy of motion; if it changes, samples are closer in time
-    std::int64_t last_step = 0; ///< the step that the run is sure to come to
+    bool is_plain = true; ///< discs and walls are elastic; otherwise pressures from counts are NaN
+    bool keeps_discs = true; ///< no disc can leave; otherwise collisions per disc are NaN
+    /// The treatment of the common velocity along each axis
+    Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat;
+    bool has_flow = false; ///< the kinetic part is relative to a flow, and measured by samples
+    /// The kinetic energy is conserved; otherwise samples are closer in time
+    bool keeps_energy = true;
+    std::int64_t last_step = 0; ///< the last step that the run certainly reaches
 };
 
 /// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
-    /// The sum of m v v, without the drift along an axis where that is no heat. Its mean is N kT
-    /// along each axis, because the degree of freedom that the drift takes, one of N, is given
-    /// back. One disc has none left, so it has NaN there.
+    /// The sum of m v v, without the drift along axes where it does not belong to the temperature.
+    /// The result is scaled by N / (N - 1) for the lost degree of freedom, so its mean is N kT
+    /// along each axis. For a single disc it is NaN there.
     Tensor kinetic;
-    Tensor stress; ///< times area
+    Tensor stress; ///< stress times area
 
     MotionIntegrals& operator+=(const MotionIntegrals& other);
     double pressure(double Tensor::* part) const { return stress.*part / area; }
     double pressure() const { return (stress.xx + stress.yy) / (2 * area); }
-    double energy() const { return (kinetic.xx + kinetic.yy) / 2; } ///< N kT times steps
+    double energy() const {
+        return (kinetic.xx + kinetic.yy) / 2;
+    } ///< integral of N kT over
+      ///< time, in steps
     double temperature() const { return energy() / n_discs; }
 };
 MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSample& before,
                                   const MotionSample& after, double steps);
-/// kT at one time.
+/// kT at the time of a sample.
 double temperature_at(const AveragedSystem& system, const MotionSample& sample);
 
 } // namespace carrom

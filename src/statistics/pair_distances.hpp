@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// The number of kinds of pairs of `n_species` species: (0, 0), then (0, 1), (1, 1),
-/// then (0, 2) and so on.
+/// The number of kinds of pairs of `n_species` species, in the order (0, 0), (0, 1), (1, 1), (0, 2)
+/// and so on.
 constexpr std::size_t n_pair_kinds(std::size_t n_species) {
     return n_species * (n_species + 1) / 2;
 }
@@ -18,22 +18,22 @@ constexpr std::size_t pair_kind(std::size_t a, std::size_t b) {
     return n_pair_kinds(a < b ? b : a) + (a < b ? a : b);
 }
 
-/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`.
-/// The view must be made for partners that far. `species_ends` are the ids before which
-/// species end, the last one N. Each kind of pair has its own counts, one kind after
-/// the other. Counts are whole numbers, so threads and ranks may add in any order.
+/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`. The view
+/// must include partners up to the largest distance. `species_ends` are the ids before which
+/// species end, the last one N. Each kind of pair has its own counts, one kind after the other.
+/// Counts are whole numbers, so threads and ranks may add in any order.
 void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<const DiscId> species_ends, int n_threads,
                           std::span<std::uint64_t> counts);
 
-/// The share of pairs of independent points in a box of a by b that are at most
-/// `distance` apart; up to the shorter side. (From the distribution of each
-/// component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
+/// The share of pairs of independent points in a box of a by b that are at most `distance` apart,
+/// which must not exceed the shorter side. (From the distribution of each component's difference,
+/// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
-/// This share in a box with periodic sides, for nearest images, up to half a period:
-/// with walls along the side b ...
+/// The same share in a box with periodic sides and walls along the side b, for nearest images, up
+/// to half a period.
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
-/// ... and without walls.
+/// The same share in a box without walls.
 double share_of_ideal_pairs_around(double area, double distance);
 
 } // namespace carrom

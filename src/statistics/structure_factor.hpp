@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modes of the density of discs: sums of exp(i k r) for the wave vectors of a
-// periodic box, k = 2 pi (n / Lx, m / Ly).
+// The Fourier modes of the density of discs: sums of exp(i k r) for the wave vectors of a periodic
+// box, k = 2 pi (n / Lx, m / Ly).
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,17 @@ struct WaveVector {
 /// The length of k.
 double wavenumber(const WaveVector& vector, double lx, double ly);
 
-/// The vectors up to a length, one of each two opposite ones: n ascending from 0, then m.
+/// The vectors up to a length, without one of each two opposite ones, in ascending order of n from
+/// 0, then of m.
 std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenumber);
 
 /// The modes of a rank's discs, in fixed point.
 struct DensityModes {
-    std::vector<std::uint64_t> real, imaginary; ///< to be added over ranks, modulo 2^64
+    std::vector<std::uint64_t> real, imaginary; ///< sums over ranks are modulo 2^64
     double per_unit = 1;
 
     double squared_modulus(std::size_t vector) const { return product(*this, vector); }
-    /// The real part of a mode times the complex conjugate of another one of that vector.
+    /// The real part of a mode times the complex conjugate of another mode of the same vector.
     double product(const DensityModes& other, std::size_t vector) const {
         return part(real, vector) * other.part(other.real, vector) +
                part(imaginary, vector) * other.part(other.imaginary, vector);

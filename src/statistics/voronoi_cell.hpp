@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Voronoi cell of one point, the origin: a polygon that is cut by the bisectors to
-// other points, or by their radical axes where points have sizes. Plain arithmetic in a
-// fixed order, so the same points in the same order give the same bits.
+// The Voronoi cell of one point, the origin: a polygon that is cut by the bisectors to other
+// points, or by their radical axes if points have sizes. The arithmetic has a fixed order, so the
+// same points in the same order give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,14 @@ class VoronoiCell {
 public:
     static constexpr int no_point = -1;
 
-    /// Begins with a rectangle around the origin, whose sides belong to no point.
+    /// Starts with a rectangle around the origin, whose sides belong to no point.
     void begin(double left, double right, double bottom, double top);
-    /// Cuts off all places closer to the point (dx, dy) than to the origin; `point` is its number.
-    /// `larger` is the square of the origin's radius less that of the point's: distances count as
-    /// the lengths of tangents to discs of these radii.
+    /// Cuts off the part that is closer to the point (dx, dy) than to the origin; `point` is its
+    /// number. `larger` is the squared radius of the origin minus that of the point, because
+    /// distances are the lengths of tangents to discs of these radii.
     void cut(double dx, double dy, int point, double larger = 0);
-    /// The squared distance of the farthest corner. Points at twice that distance cut nothing.
+    /// The squared distance of the farthest corner. Points at more than twice that distance do not
+    /// cut the cell.
     double squared_radius() const;
 
     /// Calls `visit(point, squared_length)` for each side, in their order around the cell.
@@ -33,7 +34,8 @@ public:
 private:
     struct Corner {
         double x = 0, y = 0;
-        int point = no_point; ///< the side from here to the next corner, counterclockwise
+        /// Whose bisector is the side from here to the next corner, counterclockwise
+        int point = no_point;
     };
 
     std::vector<Corner> corners_, before_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `discs.from`: the discs of another run's checkpoint or frame, as the lines that a
-// file of discs would have. So they are checked, and sent to their ranks, like all
-// listed discs. The lines are made as they are read, some thousands at a time, so that no rank
-// holds those of all discs. Each rank can read those of its own share. Discs that have left their
-// box by an open side are left out, and the others are numbered anew in the order of their ids.
+// `discs.from`: the discs of another run's checkpoint or frame, as the lines that a file of discs
+// would have. So they are checked and sent to their ranks like all listed discs. The lines are made
+// while they are read, some thousands at a time, so that no rank has to store all of them. Each
+// rank can read the lines of its own share. Discs that have left their box through an open side are
+// left out, and the others get new ids in the order of their old ones.
 #pragma once
 
 #include <cstdint>
@@ -20,29 +20,29 @@
 namespace carrom {
 
 struct FileOfDiscs {
-    std::uint64_t n_discs = 0;           ///< without those that have departed
-    std::vector<std::uint64_t> departed; ///< ids in the file of those that are left out, ascending
-    std::vector<std::uint64_t> n_by_species; ///< of those that are there, if the file has species
-    double radius = 0;                       ///< of the largest disc in the file
-    std::string columns;                     ///< `discs.columns` of the lines, or empty
-    /// `id x y vx vy`, per step, by id. Can be read again from its beginning. A file that can no
-    /// longer be read makes it throw.
+    std::uint64_t n_discs = 0;           ///< number of discs without the departed ones
+    std::vector<std::uint64_t> departed; ///< ids in the file of the departed discs, ascending
+    /// Number of discs of each species, if the file has species
+    std::vector<std::uint64_t> n_by_species;
+    double radius = 0;   ///< radius of the largest disc in the file
+    std::string columns; ///< `discs.columns` for the lines, or empty
+    /// The lines `id x y vx vy`, per step, in the order of ids. The stream can be read again from
+    /// its beginning. It throws if the file can no longer be read.
     std::unique_ptr<std::istream> lines;
 };
 
 /// The lines that a rank reads.
 struct ShareOfDiscs {
-    Slab ids;                            ///< in the new numbering
+    Slab ids;                            ///< new ids
     std::vector<std::uint64_t> departed; ///< see FileOfDiscs
 };
 
-/// Places keep the coordinates that the other run shows, so they differ from those in the file
-/// where `origin` of the scene is another one: by a sum that rounds, and by nothing where it is the
-/// same.
+/// Places keep the coordinates that the other run shows. So they differ from the places in the file
+/// if `origin` of the scene is another one: by a sum that rounds, and by nothing if it is the same.
 ///
-/// Finds the frame of `step`, or the last one. `wanted` are columns beside the states,
-/// read if the file has them. The lines are those of `share`, or else of all discs. Call
-/// check_damage before. Throws InputError naming the file. Not collective.
+/// Finds the frame of `step`, or the last one. `wanted` are columns beside the states, which are
+/// read if the file has them. The lines are those of `share`, or of all discs without it. Call
+/// check_damage before. Throws an InputError that names the file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
                             const SideColumnSet& wanted, const Origin& origin,
                             const std::optional<ShareOfDiscs>& share = std::nullopt);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as files store it: in the header of a checkpoint, and in a recording of its run.
-// The text and the settings on top of it are stored, so a file alone is enough to go on.
+// The scene in a file: in the header of a checkpoint, and in a recording of its run. The text and
+// the settings on top of it are stored, so the file alone is enough to continue the run.
 #pragma once
 
 #include <string>
@@ -16,16 +16,16 @@ namespace carrom {
 /// The header of a checkpoint of the present step. Not collective.
 CheckpointHeader header_now(const SceneParameters& scene, const DiscSystem& system);
 
-/// The scene of a file, with more settings (`key=value`) on top. Throws InputError.
+/// The scene stored in a file, with more settings (`key=value`) on top. Throws InputError.
 SceneParameters scene_of(const CheckpointHeader& header,
                          const std::vector<std::string>& more_overrides);
 
-/// Throws InputError if going on from the checkpoint would make the scene another run;
-/// `place` names the checkpoint in its problems.
+/// Throws InputError if the checkpoint belongs to another run than the scene; `place` names the
+/// checkpoint in its problems.
 void refuse_other_run(const CheckpointHeader& header, const SceneParameters& scene,
                       const std::string& place);
 
-/// The first difference between a recorded run and that of the scene, or nothing.
+/// The first difference between a recorded run and the scene's run, or nothing.
 std::string first_difference(const CheckpointHeader& there, const SceneParameters& scene);
 
 /// The description of the discs in files of the scene's run.

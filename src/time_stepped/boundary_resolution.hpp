@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides what no rank can decide alone: conflict chains of candidates across strips
+// Decides conflict chains of candidates across strips, which no rank can decide alone
 // (docs/understanding/method.md, section 7).
 //
-// Neighbours exchange messages first. For every candidate with discs of two ranks each reports
-// whether it comes first for the own disc, among those that are left. A candidate that comes first
-// for both is final. One that the other rank does not report has been struck there. One message to
-// each neighbour decides nearly everything in a gas, whatever the number of ranks.
+// Neighbours exchange messages first. For every candidate with discs of two ranks, each rank
+// reports whether it is the first remaining candidate of its own disc. A candidate that is first
+// for both is final. If a rank does not report a candidate, it has been rejected there. One message
+// to each neighbour decides nearly everything in a gas, whatever the number of ranks.
 //
 // A chain that zigzags between strips takes a round for each crossing. So after a few rounds the
 // rest goes to a distributed sort. It is brought into the total order and walked, slice after
 // slice, and each slice passes on which discs are taken. A chain may span any number of strips.
-// Price of the sort: two any-to-any exchanges, and memory for these candidates alone.
+// Price of the sort: two any-to-any exchanges, and memory for these candidates only.
 #pragma once
 
 #include <cstdint>
@@ -30,19 +30,19 @@ public:
     explicit BoundaryResolution(const Communicator& communicator)
         : communicator_(communicator), with_neighbours_(communicator), next_slice_(communicator) {}
 
-    /// One round of talk with `neighbours`: all ranks that own discs of this rank's halo, or have
-    /// its discs in theirs. Moves those of `undecided` that are final now to `kept` and drops those
-    /// that are struck. **Collective.**
+    /// One exchange of messages with `neighbours`, which are all ranks that own discs of this
+    /// rank's halo or have its discs in theirs. Moves the candidates of `undecided` that are now
+    /// final to `kept`, and drops the rejected ones. **Collective.**
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
                           Candidates& undecided, Candidates& kept);
 
-    /// Appends to `kept` those of this rank's `undecided` candidates that happen, and
-    /// leaves none undecided. `n_conflicts` is their number over all ranks. **Collective.**
+    /// Decides all of this rank's `undecided` candidates, and appends those that happen to `kept`.
+    /// `n_conflicts` is their number over all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
                 Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
-    int rounds_before_sort = 6;                ///< rounds of `decide`; affects the cost only
-    std::uint64_t candidates_per_slice = 8192; ///< affects the cost only
+    int rounds_before_sort = 6; ///< number of rounds of `decide`; affects only the cost
+    std::uint64_t candidates_per_slice = 8192; ///< affects only the cost
 
 private:
     struct Conflict;
@@ -58,7 +58,7 @@ private:
 
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
-    std::vector<std::uint8_t> is_first_; ///< by undecided candidate
+    std::vector<std::uint8_t> is_first_; ///< for each undecided candidate
     DiscSet seen_, taken_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision that may happen, and the total order that says which of two comes first.
+// A possible collision, and the total order of such collisions.
 //
-// A candidate names its discs by their places in this rank's arrays. Their ids are
-// read only to break ties.
+// A candidate refers to its discs by their indices in this rank's arrays. Their ids are read only
+// to break ties.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace carrom {
 
-/// Stands for the wall where a candidate has no second disc.
+/// The value of q if the candidate is a collision with a wall.
 inline constexpr LocalIndex wall_index = std::numeric_limits<LocalIndex>::max();
 
 struct Candidate {
-    double time = 0;                  ///< in-step time of its micro-step, in [0, 1]
+    double time = 0;                  ///< time within its micro-step, in [0, 1]
     LocalIndex p = 0, q = wall_index; ///< p has the lower id
 
     CARROM_DEVICE bool is_wall() const { return q == wall_index; }
@@ -35,7 +35,8 @@ public:
     CARROM_DEVICE bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
-            return discs_[a.p].id < discs_[b.p].id; // the ids may be equal: two images of one disc
+            return discs_[a.p].id < discs_[b.p].id; // both may be images of one disc, with equal
+                                                    // ids
         if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
         return discs_[a.q].id < discs_[b.q].id;
     }
@@ -44,8 +45,8 @@ private:
     std::span<const DiscState> discs_;
 };
 
-/// Whether neither disc has been hit since the prediction, which saw the state `seen`
-/// as the last one of any disc. `states` is indexed by disc.
+/// Whether neither disc has collided since the prediction, for which `seen` was the last state of
+/// any disc. `states` is indexed by disc.
 inline bool is_current(const Candidate& candidate, WindowState seen,
                        std::span<const WindowState> states) {
     return states[candidate.p] <= seen && (candidate.is_wall() || states[candidate.q] <= seen);

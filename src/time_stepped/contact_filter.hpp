@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first rejection of pairs, many lanes at a time: which flights of a run of slots
-// might touch a given disc's in this window. It may keep pairs that never touch, but loses
-// none that do. The widest instruction set of the machine is chosen when the program runs.
+// Rejects most pairs, many lanes at a time: it finds the flights in a run of slots that might touch
+// a given flight in this window. It may keep pairs that never touch, but loses none that do. The
+// widest instruction set of the machine is chosen when the program runs.
 #pragma once
 
 #include <cstddef>
@@ -19,25 +19,25 @@ namespace carrom {
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
                           std::vector<DiscPair>& pairs);
 
-/// Writes to `pairs`, behind the first `n_pairs`, the disc with each disc that it might touch
-/// between the fraction `from` of the window and its end. Omits pairs of halo discs. Returns
-/// the new number of pairs. Only cells within `half_reach` of that part of the path are
+/// Appends to the first `n_pairs` entries of `pairs` the pairs of the disc with each disc that it
+/// might touch between the fraction `from` of the window and its end. Omits pairs of halo discs.
+/// Returns the new number of pairs. Only cells within `half_reach` of that part of the path are
 /// searched, because the other disc's cell is no further than that from where the two touch.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
                           float touching_squared, std::vector<DiscPair>& pairs,
                           std::size_t n_pairs);
 
-/// filter_around for flight k of `lanes`, whose disc may be of the halo; `first` is k.
+/// Like filter_around for flight k of `lanes`, whose disc may be in the halo; `first` is k.
 std::size_t filter_along(const CellGrid& grid, const FlightLanes& lanes, std::uint32_t k,
                          float from, float half_reach, float touching_squared,
                          std::vector<DiscPair>& pairs, std::size_t n_pairs);
-/// The same for the flights `run` of `others`, from the window's start to its end; `second` is a
-/// place in `others`.
+/// The same for the flights `run` of `others`, over the whole window; `second` is an index in
+/// `others`.
 std::size_t filter_lanes(const FlightLanes& lanes, std::uint32_t k, const FlightLanes& others,
                          SlotRange run, float touching_squared, std::vector<DiscPair>& pairs,
                          std::size_t n_pairs);
 
-/// The instruction set in use, as in "AVX3".
+/// The instruction set in use, such as "AVX3".
 const char* filter_target();
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A set of discs that is filled and emptied several times a window. Emptying it costs nothing and
-// frees nothing, and there is no memory to get for each disc.
+// A set of discs that is filled and emptied several times a window. Emptying costs nothing and
+// frees no memory, and inserting a disc allocates none.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace carrom {
 
-/// Open addressing. A slot is in use if it was filled in the present round.
+/// Uses open addressing. A slot is in use if it was filled in the present round.
 class DiscSet {
 public:
     void clear() {
         n_ = 0;
-        if (++round_ == 0) { // slots of 2^32 rounds ago would count as used
+        if (++round_ == 0) { // otherwise slots of 2^32 rounds ago would count as used
             slots_.assign(slots_.size(), {});
             round_ = 1;
         }
     }
 
-    /// False if the disc was in the set before.
+    /// Inserts the disc. Returns false if it was in the set before.
     bool insert(LocalIndex disc) {
         Slot& slot = slots_[place_of(disc)];
         if (slot.round == round_) return false;
@@ -40,9 +40,11 @@ private:
         std::uint32_t round = 0;
     };
 
-    /// The slot of the disc, or the free one that it would get. At least half of them are free.
+    /// The slot of the disc, or the free slot where it would be inserted. At least half of all
+    /// slots are free.
     std::size_t place_of(LocalIndex disc) const {
-        constexpr std::uint32_t golden_section = 0x9E3779B9; // of 2^32: scatters what is in a row
+        // Of 2^32; scatters consecutive numbers
+        constexpr std::uint32_t golden_section = 0x9E3779B9;
         std::size_t place = disc * golden_section >> (32 - n_bits_);
         while (slots_[place].round == round_ && slots_[place].disc != disc)
             place = (place + 1) & (slots_.size() - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that are much larger than most. If cells fitted them, each small disc would try all others
-// within a large disc's reach. So cells fit the usual discs, and the few large ones search around
-// themselves. Which discs count as large affects the run's time, not its bits.
+// Discs that are much larger than most. If cells were as wide as these need, each small disc would
+// try all others within a large disc's reach. So cells are made for most discs, and the few large
+// ones search on their own. Which discs count as large affects the run's time, not its bits.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 
 namespace carrom {
 
-/// The largest radius that cells should fit. Larger discs are few, or there are none. `area` is the
-/// area of the box.
+/// The largest radius for which cells should be made. There are few larger discs, or none. `area`
+/// is the area of the box.
 double usual_radius_of(std::span<const Species> species, double radius, double area);
 
-/// The large discs of a rank and its halo, with copies of their flights side by side.
+/// The large discs of a rank and its halo, with copies of their flights in one array.
 class LargeDiscs {
 public:
-    /// Takes the flights of these discs from the grid.
+    /// Copies the flights of these discs from the grid.
     void assign(std::vector<LocalIndex> indices, const CellGrid& grid);
-    /// Takes the disc's flight from the grid again.
+    /// Copies the disc's flight from the grid again.
     void update(LocalIndex index, const CellGrid& grid);
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(indices_.size()); }
     LocalIndex index(std::uint32_t place) const { return indices_[place]; }
-    /// The place of one of these discs.
+    /// The index of one of these discs.
     std::uint32_t place(LocalIndex index) const;
     FlightLanes lanes() const {
         const float* const x = lanes_.data();
@@ -39,7 +39,7 @@ private:
     void copy_flight(std::uint32_t place, const CellGrid& grid);
 
     std::vector<LocalIndex> indices_; ///< ascending
-    std::vector<float> lanes_;        ///< x, y, vx, vy by place, with padding for whole vectors
+    std::vector<float> lanes_;        ///< x, y, vx, vy by index, with padding for whole vectors
     std::size_t length_ = filter_padding;
 };
 

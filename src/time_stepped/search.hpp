@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the candidates of a window: every contact that falls into it, once, filed under its
-// micro-step.
+// Finds the candidates of a window: every contact in it, once, sorted by micro-step.
 //
-// A prediction is a function of two stored states. It stays good until one of them is rewritten, so
-// after a micro-step only the discs that were hit are predicted again. Threads own columns of cells
-// and keep lists of their own; nothing depends on the lists' order. Price: some 30 single-precision
-// tests a disc and window, a double one for each survivor.
+// A prediction is a function of two stored states. It stays valid until one of them changes, so
+// after a micro-step only the discs that collided are predicted again. Threads own columns of cells
+// and have lists of their own; no result depends on the order of the lists. Price: some 30
+// single-precision tests a disc and window, a double one for each survivor.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +21,8 @@
 
 namespace carrom {
 
-/// The candidates of one micro-step, in sections by the time of prediction. A
-/// section's `seen` is the last of the window's states that existed then.
+/// The candidates of one micro-step, in sections by the time of prediction. The `seen` of a section
+/// is the number of the last state that existed then.
 struct MicroStepList {
     struct Section {
         WindowState seen = 0; ///< the last state of any disc at that time
@@ -33,8 +32,8 @@ struct MicroStepList {
     std::vector<Section> sections;
 
     void add(const Candidate& candidate, WindowState seen);
-    /// Removes candidates of which a disc has been hit since the prediction; `states`
-    /// is indexed by disc. The rest is not in sections any more.
+    /// Removes candidates with a disc that has collided since the prediction; `states` is indexed
+    /// by disc. Afterwards there are no sections.
     void drop_stale(std::span<const WindowState> states);
     /// Empties the list, and reserves room for `n_expected` candidates.
     void begin(std::size_t n_expected) {
@@ -46,40 +45,39 @@ struct MicroStepList {
 
 /// One thread's lists and scratch space.
 struct SearchLists {
-    std::vector<MicroStepList> by_micro; ///< from the window's first micro-step on
-    std::size_t most_candidates = 0;     ///< the most that any of the lists has had
+    std::vector<MicroStepList> by_micro; ///< one list for each micro-step of the window
+    std::size_t most_candidates = 0;     ///< the largest number of candidates in a list so far
     std::vector<DiscPair> pairs;         ///< only the first n_pairs count
     std::size_t n_pairs = 0;
 
-    /// Moves the candidates that are still current out of the list.
+    /// Moves the candidates that are still valid out of the list.
     Candidates take(std::size_t bucket, std::span<const WindowState> states);
 };
 
 template <class Dynamics> class Search {
 public:
-    /// Cells fit discs up to `usual_radius`; larger ones search around themselves.
+    /// Cells are made for discs up to `usual_radius`; larger ones search on their own.
     Search(const Dynamics& dynamics, int n_threads, double usual_radius);
     double usual_radius() const { return usual_radius_; }
-    /// Lists the large discs. The grid must have been built for the next window, and have set no
-    /// discs apart yet.
+    /// Lists the large discs. The grid must have been built for the next window, before
+    /// CellGrid::set_apart.
     void list_large(const Population& population, const CellGrid& grid);
-    /// Replaces the dynamics after a sync, because images that move are elsewhere then.
+    /// Replaces the dynamics after a sync, because moving images are then elsewhere.
     void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
-    /// Predicts all contacts in `window`. The grid must have been built for it.
-    /// `reach` is that of discs of the usual radius that the grid has not set apart.
+    /// Predicts all contacts in `window`. The grid must have been built for it. `reach` is the
+    /// reach of discs up to the usual radius, without those that the grid has set apart.
     void predict_all(const Population& population, const CellGrid& grid, const Window& window,
                      double reach);
 
-    /// Predicts the contacts of the discs `hit` by micro-step `from` - 1 (own or halo;
-    /// `wall` stands for none) for the window's micro-steps from `from` on. The grid
-    /// and `states`, by disc, must be up to date. `reach` is as
-    /// in predict_all.
+    /// Predicts the contacts of the discs that collided in micro-step `from` - 1 (own or halo;
+    /// `wall` stands for none), for the window's micro-steps from `from` on. The grid and `states`,
+    /// by disc, must be up to date. `reach` is as in predict_all.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window,
                        int from, double reach, std::span<const LocalIndex> hit,
                        std::span<const WindowState> states);
 
-    /// Returns the candidates of micro-step m that are still current; `states` is indexed by disc.
+    /// Returns the candidates of micro-step m that are still valid; `states` is indexed by disc.
     Candidates collect(const Window& window, int m, std::span<const WindowState> states);
 
 private:

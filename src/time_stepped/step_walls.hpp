@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What walls, open sides and obstacles do to a disc within a micro-step m of the time-stepped
-// method (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
+// Collisions with walls, open sides and obstacles within a micro-step m of the time-stepped method
+// (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
 //
 // A disc takes part in one collision of a micro-step. So a disc that would leave the box, or run
 // into an obstacle, before the micro-step ends stops there and bounces in the next one. Walls are
@@ -15,12 +15,12 @@
 
 namespace carrom {
 
-/// The walls of a bounce.
+/// The walls that a disc meets in a bounce.
 struct MetWalls {
     bool at_x = false, at_y = false;
 };
 
-/// A view of the dynamics, which must stay.
+/// Refers to the dynamics, which must outlive it.
 template <class Dynamics> class StepWalls {
     using Real = typename Dynamics::Real;
     using State = typename Dynamics::Arithmetic::State;
@@ -48,13 +48,13 @@ public:
         const bool y_reverses = y_time == t || is_at_wall(disc, Axis::y);
         const bool goes_down = disc.vy < 0;
         if (x_reverses) reverse(disc, Axis::x, spin);
-        // A thermal wall may have turned the disc away from the other one.
+        // A thermal wall may have turned the disc away from the second wall.
         if (y_reverses && (goes_down ? disc.vy < 0 : disc.vy > 0)) reverse(disc, Axis::y, spin);
         disc.wall_collisions += 1;
         stop(disc, m, t);
     }
 
-    /// The walls that the disc bounces off at t; none if it is an obstacle.
+    /// The walls that the disc bounces off at t; none if it bounces off an obstacle.
     CARROM_DEVICE MetWalls met(const DiscState& before, double m, double t) const {
         if (has_obstacles() && t != side_time(before, m)) return {};
         DiscState disc = before;
@@ -70,8 +70,8 @@ public:
         return obstacle(before, m).body;
     }
 
-    /// Stops a disc that has just collided at t, if something is in its way before the micro-step
-    /// ends. `left` is the obstacle that it has just left.
+    /// Stops a disc that has just collided at t, if it would meet a wall or an obstacle before the
+    /// micro-step ends. `left` is the obstacle that it has just left.
     [[gnu::always_inline]] CARROM_DEVICE void stop(
         DiscState& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
         const Real rest = 1 - static_cast<Real>(t);
@@ -116,7 +116,7 @@ private:
         return Dynamics::may_lose_discs && along(axis, disc.vx, disc.vy) != 0 &&
                dynamics_.sides().is_open_ahead(disc, axis);
     }
-    /// Through an open side a disc leaves when its centre is a radius beyond it.
+    /// A disc leaves through an open side when its centre is a radius beyond the side.
     [[gnu::always_inline]] CARROM_DEVICE double side_time(const DiscState& disc, Axis axis,
                                                           double m) const {
         if constexpr (Dynamics::may_lose_discs) {
@@ -166,7 +166,7 @@ private:
             stop(disc, m, t, contact.body);
         }
     }
-    /// Unless a side stops the disc before.
+    /// Returns false if a side stops the disc before.
     CARROM_DEVICE bool stops_at_obstacle(DiscState& disc, double m, double at_side,
                                          std::uint32_t left) const {
         if constexpr (Dynamics::may_have_obstacles) {

@@ -9,9 +9,9 @@
 //   resolve       Local rounds. Conflict chains across strips go through a distributed sort.
 //   apply         Discs that were taken get new states. Halos are updated. Another search follows.
 //
-// When discs are fast a micro-step is cut into parts, each a window of its own. Until the
-// micro-step ends, states stay as they were at its start. So every candidate is seen. `outcomes_`
-// holds what they will become.
+// If discs are fast, a micro-step is divided into parts, each a window of its own. States do not
+// change until the micro-step ends, so that every candidate is found. `outcomes_` contains the new
+// states until then.
 #pragma once
 
 #include <cstdint>
@@ -79,18 +79,22 @@ private:
     void note_velocities(std::span<const DiscState> results);
     void log_collisions(std::span<const DiscState> results, int m);
 
-    DiscStates outcomes_;        ///< runs along discs_.all() while a micro-step is cut into parts
-    bool in_parts_ = false;      ///< whether the present micro-step is cut
-    int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
+    DiscStates outcomes_;   ///< new states of discs_.all() while a micro-step is divided into parts
+    bool in_parts_ = false; ///< whether the present micro-step is divided
+    /// The next part of the present micro-step, and the number of parts
+    int part_ = 0, n_parts_ = 1;
 
-    double refreshed_speed_ = 0; ///< the largest speed at the last sync, then 0 again
-    double unchanged_until_ = 0; ///< no state has changed before it since the last migration
+    double refreshed_speed_ = 0; ///< the largest speed at the last sync, until it is used; then 0
+    /// Time of the first change of a state since the last migration, or before
+    double unchanged_until_ = 0;
 
-    double speed_allowance_ = 1.02;  ///< for the next window, over the largest speed
-    double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
-    double window_speed_ = 0;        ///< the speed that the window's reach allows for
-    double usual_speed_ = 0;         ///< the speed that its cells allow for
-    SpeedSpread spread_;             ///< at the start of the last micro-step that was cut
+    /// Bound of speeds in the next window, relative to the largest speed
+    double speed_allowance_ = 1.02;
+    /// Collisions per disc and micro-step in the last sync interval
+    double hits_per_micro_step_ = 0;
+    double window_speed_ = 0; ///< the speed that the window's reach allows for
+    double usual_speed_ = 0;  ///< the speed that the window's cells allow for
+    SpeedSpread spread_;      ///< at the start of the last micro-step that was divided
     bool speed_exceeded_ = false;
 
     Search<Dynamics> search_;
@@ -99,11 +103,11 @@ private:
     Verdicts verdicts_;
     RawVector<LocalIndex> hits_;
     std::vector<LocalIndex> updates_;
-    DiscStates unhit_;          ///< for the log: the first disc of each kept candidate, before it
-    DiscStates unhit_partners_; ///< second discs before it, if pairs are noted
-    RawVector<WindowState> states_; ///< by disc
+    DiscStates unhit_; ///< for the log: first discs of the kept candidates, before the collision
+    DiscStates unhit_partners_;     ///< second discs before the collision, if pairs are recorded
+    RawVector<WindowState> states_; ///< for each disc
 
-    // Candidates whose first disc is own.
+    // Candidates whose first disc is an own disc.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;
 };
 

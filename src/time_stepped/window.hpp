@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A slice of time that is searched at once: several whole micro-steps, or a part of
-// one if discs are fast.
+// An interval of time that is searched at once: several whole micro-steps, or a part of one if
+// discs are fast.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 
 namespace carrom {
 
-/// The number of a disc's state: 0 at the window's start, n + 1 after the window's micro-step
-/// n, counted from 0. Comparing it reads one byte for each disc instead of a cache line.
+/// The number of a disc's state: 0 at the window's start, n + 1 after the window's micro-step n,
+/// counted from 0. Comparing it needs one byte for each disc instead of a cache line.
 using WindowState = std::uint8_t;
-inline constexpr int longest_window = 254; ///< micro-steps
+inline constexpr int longest_window = 254; ///< in micro-steps
 
-/// Micro-steps are counted from the last sync. A part's ends are in-step times; both parts at a cut
-/// use the same number.
+/// Micro-steps are counted from the last sync. The ends of a part are times within the micro-step;
+/// the end of a part is exactly the beginning of the next one.
 struct Window {
     int first_micro = 0;
     int n_micro = 1;
-    double part_begin = 0; ///< 0 unless the micro-step is cut
+    double part_begin = 0; ///< 0 unless the micro-step is divided
     double part_end = 1;   ///< the last part of a micro-step includes its end
 
     CARROM_DEVICE bool is_last_part() const { return part_end == 1; }
@@ -32,9 +32,9 @@ struct Window {
     }
     CARROM_DEVICE double begin() const { return first_micro + part_begin; }
     CARROM_DEVICE double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
-    /// Strips and cells are made for places at this time. If it is the middle of the
-    /// window, no disc gets further away than half the window takes it. Discs that fly
-    /// on after a collision could, so a window of several micro-steps uses its start.
+    /// Strips and cells are made for the positions at this time. If it is the middle of the window,
+    /// no disc moves further from there than in half the window. That does not hold for discs that
+    /// fly on after a collision, so a window of several micro-steps uses its start.
     CARROM_DEVICE double anchor() const {
         return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2;
     }
@@ -43,7 +43,7 @@ struct Window {
     }
 };
 
-/// In-step time of a contact as micro-step m sees it.
+/// Time of a contact within micro-step m.
 template <class Real> CARROM_DEVICE Real in_step_time(const PairContact<Real>& contact, int m) {
     return (contact.base - static_cast<Real>(m)) + contact.delay;
 }

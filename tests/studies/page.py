@@ -6,10 +6,10 @@ pictures beside its CSV files.
   tests/studies/page.py [--folder docs/data/performance] [--page docs/understanding/performance.md]
 
 Reads rates.csv and sizes.csv (compare.py), cluster.csv (simulate.py --study), large_cluster.csv
-(cluster_model.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
-measure_all.sh writes all but sizes.csv. Other machines' rates, as rates_xeon.csv, get a table each
-behind the first one's. A part whose file is missing keeps what it says. Words around the markers
-are the page's own. Needs the Python environment of docs/tools/README.md.
+(cluster_model.py --study), effects.csv (effects.py), kernels.json (carrom_benchmarks) and peaks.txt
+(machine_peaks); measure_all.sh writes all but sizes.csv and effects.csv. Other machines' rates, as
+rates_xeon.csv, are further rows of the tables. A part whose file is missing keeps what it says.
+Words around the markers are the page's own. Needs the Python environment of docs/tools/README.md.
 """
 
 import argparse
@@ -68,13 +68,18 @@ def processor_of(rows):
     return ", ".join([*filter(None, words), first["version"]])
 
 
-def by_case(files, cell):
-    """A row for each case, a column for each file. `cell(row)` gives a case's text there."""
+def by_processor(files, cell, name):
+    """A row for each file, which is of one processor, and a column for each case. `cell(row)` is
+    the text of a case, and `name(case)` that of its column.
+    """
     cases = list(dict.fromkeys(r["case"] for rows in files for r in rows))
     found = [{r["case"]: cell(r) for r in rows} for rows in files]
     return table(
-        ["case", *map(processor_of, files)],
-        [[name_of(case), *(texts.get(case, "") for texts in found)] for case in cases],
+        ["processor", *map(name, cases)],
+        [
+            [processor_of(rows), *(texts.get(case, "") for case in cases)]
+            for rows, texts in zip(files, found)
+        ],
     )
 
 
@@ -87,10 +92,19 @@ def name_of(case):
 
 
 def edmd_part(files):
+    """A table for each packing fraction, whose columns are numbers of discs."""
     beside = [[r for r in rows if r.get("over_edmd")] for rows in files]
-    return by_case(
-        [rows for rows in beside if rows], lambda r: f"{short(r['over_edmd'])} ({rate_text(r)})"
-    )
+    packings = dict.fromkeys(r["case"].rsplit(", ", 1)[0] for rows in beside for r in rows)
+    parts = []
+    for packing in packings:
+        chosen = [[r for r in rows if r["case"].startswith(packing)] for rows in beside]
+        body = by_processor(
+            [rows for rows in chosen if rows],
+            lambda r: f"{short(r['over_edmd'])} ({rate_text(r)})",
+            lambda case: case.rsplit(", ", 1)[1],
+        )
+        parts.append(body.replace("processor", packing, 1))
+    return "\n\n".join(parts)
 
 
 def sizes_part(rows):
@@ -120,35 +134,41 @@ def two_cores_part(files):
         ]
 
     found = [gains(rows) for rows in files]
-    return by_case(
-        [rows for rows in found if rows], lambda r: " / ".join(f"{g:.2f}" for g in r["gain"])
+    return by_processor(
+        [rows for rows in found if rows],
+        lambda r: " / ".join(f"{g:.2f}" for g in r["gain"]),
+        name_of,
     )
 
 
-def rates_part(rows):
-    first = rows[0]
-    peers = [peer for peer in PEERS if any(row.get(peer[1]) for row in rows)]
-    body = [
-        [
-            name_of(r["case"]),
-            f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
-            r["unit"],
-            *(short(r[column], digits) for _, column, digits in peers),
-        ]
-        for r in rows
-    ]
-    return "\n".join(
-        [
-            (
-                f"{processor_of(rows)}; {first['compiler'].split(', vectors')[0]}. Medians of"
-                f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most."
-            ),
-            "",
-            table(
-                ["case", "million per second", "of"] + [f"x {name}" for name, _, _ in peers], body
-            ),
-        ]
+def spread_text(row):
+    least, most = (short(float(row[name]) / 1e6) for name in ("least", "most"))
+    return f"{rate_text(row)} ({least} to {most})"
+
+
+def rates_part(files):
+    """A table of rates, and one for each peer."""
+    parts = [by_processor(files, spread_text, lambda case: case_with_unit(case, files))]
+    for peer, column, digits in PEERS:
+        beside = [[r for r in rows if r.get(column)] for rows in files]
+        body = by_processor(
+            [rows for rows in beside if rows],
+            lambda r, column=column, digits=digits: short(r[column], digits),
+            name_of,
+        )
+        parts.append(body.replace("processor", f"rate over that of {peer}", 1))
+    compilers = {rows[0]["compiler"].split(", vectors")[0] for rows in files}
+    rounds = [min(int(r["rounds"]) for r in rows) for rows in files]
+    parts.append(
+        f"Medians of {min(rounds)} to {max(rounds)} rounds, with the least and the most; compiled by"
+        f" {' and '.join(sorted(compilers))}."
     )
+    return "\n\n".join(parts)
+
+
+def case_with_unit(case, files):
+    units = {r["case"]: r["unit"] for rows in files for r in rows}
+    return f"{name_of(case)}, {units[case]}"
 
 
 def cluster_part(rows):
@@ -160,6 +180,31 @@ def cluster_part(rows):
     return table(
         ["efficiency, by ranks", *map(str, ranks)],
         [[case, *(found.get(n, "") for n in ranks)] for case, found in cases.items()],
+    )
+
+
+def range_text(values):
+    low, high = (f"{value:.2f}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def effects_part(rows):
+    """What an effect costs by instructions and by the clock, over all packing fractions."""
+    cases = {}
+    for r in rows:
+        cases.setdefault((r["effect"], r["method"], r["discs"]), []).append(r)
+    return table(
+        ["effect", "method", "discs", "instructions", "time"],
+        [
+            [
+                *case,
+                *(
+                    range_text([float(r[column]) for r in found])
+                    for column in ("instructions_ratio", "time_ratio")
+                ),
+            ]
+            for case, found in cases.items()
+        ],
     )
 
 
@@ -372,11 +417,12 @@ def main():
         one_core = [
             [r for r in found if not r.get("over_edmd") and is_of_one_core(r)] for found in files
         ]
-        parts = [rates_part(found) for found in one_core if found]
-        text = replace_part(text, "rates", "\n\n".join(parts))
+        text = replace_part(text, "rates", rates_part([found for found in one_core if found]))
         text = replace_part(text, "two cores", two_cores_part(files))
         text = replace_part(text, "edmd", edmd_part(files))
         draw_numbers(rows, folder)
+    if (folder / "effects.csv").exists():
+        text = replace_part(text, "effects", effects_part(read_csv(folder / "effects.csv")))
     if (folder / "sizes.csv").exists():
         rows = read_csv(folder / "sizes.csv")
         text = replace_part(text, "sizes", sizes_part(rows))

@@ -7,7 +7,7 @@ command -v python3 >/dev/null || { echo 'skipped: there is no python3'; exit 77;
 export CARROM=$CARROM_PROGRAM MPIRUN=$CARROM_MPIEXEC
 page=$CARROM_SOURCE_DIR/docs/classroom.md
 exercise() { # NUMBER OPTION...
-    timeout 300 python3 "$CARROM_SOURCE_DIR/docs/exercises/exercise.py" "$@" --check \
+    timeout 300 python3 "$CARROM_SOURCE_DIR/docs/tools/exercise.py" "$@" --check \
         >"$test_folder/out" 2>"$test_folder/err"
 }
 for number in 1 2 3 4 5; do

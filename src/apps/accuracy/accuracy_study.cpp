@@ -16,8 +16,8 @@ namespace carrom {
 
 namespace {
 
-/// Both methods with K = 1, `factor`, factor^2, ...; the first setting is the
-/// reference, the event-driven method as runs use it.
+/// Both methods with K = 1, `factor`, factor^2, ...; the first setting is the reference: the
+/// event-driven method with default arithmetic.
 std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t factor) {
     std::vector<RunSetting> settings;
     for (std::int64_t k = 1; k <= options.most_micro_steps; k *= factor) {
@@ -49,8 +49,8 @@ struct Study {
     Tuning tuning;
 };
 
-/// Makes independent starts: with other seeds if discs are generated, else the same
-/// discs after more and more collisions.
+/// Makes independent initial states: with other seeds if discs are generated, otherwise the same
+/// discs after different numbers of collisions.
 TrialStart make_start(const Study& study, int number) {
     const double approach = study.options.approach;
     if (study.scene.generator == Generator::file)
@@ -88,7 +88,7 @@ struct Item {
     RunSetting setting;
 };
 
-/// This process's share of trials, start by start; settings take turns.
+/// This process's share of the trials, ordered by start; settings alternate.
 std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSetting>& settings,
                            int n_repetitions) {
     std::vector<Item> items;
@@ -124,8 +124,8 @@ void run_all(const Study& study, const std::vector<Item>& items, const Begin& be
     }
 }
 
-/// Discs by id at each sample, which is taken after about every collision of a disc.
-/// Throws InputError if a run cannot go on.
+/// The discs, by id, at each sample, which is taken after about every collision of a disc. Throws
+/// InputError if a run cannot continue.
 std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& setting,
                                           const TrialStart& start, std::int64_t every,
                                           std::int64_t steps) {
@@ -149,7 +149,7 @@ TrialOutcome attempt(const Study& study, const RunSetting& setting, const TrialS
         return {std::move(trial), distance, ""};
     } catch (const InputError& error) {
         return {{}, {}, error.problems().front().text};
-    } catch (const CollectiveError& error) { // an endless collision cascade
+    } catch (const CollectiveError& error) { // a collision cascade
         return {{}, {}, error.what()};
     }
 }
@@ -164,7 +164,7 @@ void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& dis
     CsvTable table(options.table, costs_header());
     const std::vector<RunSetting> settings = settings_of(options, 2);
     TrialLength length;
-    std::vector<InputDisc> exact; // at the early step
+    std::vector<InputDisc> exact; // of the exact run, at the early step
     const auto begin = [&](const TrialStart& start) {
         length.steps = at_least_one(options.collisions / start.frequency);
         length.early_step = std::min(at_least_one(1 / start.frequency), length.steps);
@@ -188,7 +188,7 @@ void study_distances(const SceneParameters& scene, const std::vector<InputDisc>&
     std::vector<Item> items = items_of(options, settings, 1);
     std::erase_if(items, [&](const Item& item) {
         return item.setting == settings[0];
-    }); // the distance of the exact run is 0
+    }); // the exact run has the distance 0 from itself
     std::int64_t every = 1, last = 1;
     std::vector<std::vector<InputDisc>> exact;
     const auto begin = [&](const TrialStart& start) {

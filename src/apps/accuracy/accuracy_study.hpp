@@ -17,7 +17,7 @@ enum class Formulas {
     usual,
     stable,
     all
-}; ///< double and stable; both precisions; and naive formulas, too
+}; ///< the stable formula in double precision, both precisions, or the naive formula as well
 
 struct StudyOptions {
     std::string table = "accuracy.csv";

@@ -9,21 +9,21 @@
 
 namespace carrom {
 
-/// The begin of a line, which no other line has.
+/// The first columns of a line. No two lines of a table have the same ones.
 struct TrialKey {
-    int start = 0; ///< number of the start, from 0
+    int start = 0; ///< number of the initial state, from 0
     RunSetting setting;
     TrialLength length;
-    int repetition = 0; ///< a repetition of the trial, to measure its cost
+    int repetition = 0; ///< number of the repetition, which measures the cost of a trial again
 };
 
-/// The distance of discs from those of another run, in diameters.
+/// Mean distance of discs from those of another run, in diameters.
 struct Distance {
     double root_mean_square = 0, median = 0;
 };
 
-/// The results of a trial. If it could not be run to its end `failure` has the reason,
-/// and there are no numbers. `distance` is that to the exact run at the early step.
+/// The results of a trial. If it could not be run to its end `failure` has the reason, and there
+/// are no numbers. `distance` is measured from the exact run at the early step.
 struct TrialOutcome {
     Trial trial;
     Distance distance;
@@ -35,7 +35,7 @@ std::string costs_line(const SceneParameters& scene, const TrialStart& start, co
                        const TrialOutcome& outcome, int threads);
 
 std::string distances_header();
-/// `collisions` is how many a disc has had with others in the exact run up to `step`.
+/// `collisions`: mean number of collisions of a disc with others in the exact run up to `step`.
 std::string distances_line(const SceneParameters& scene, const TrialStart& start,
                            const TrialKey& key, std::int64_t step, double collisions,
                            const Distance& distance);

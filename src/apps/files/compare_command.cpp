@@ -72,7 +72,7 @@ std::vector<Problem> reasons_against(const SceneParameters& scene) {
     return problems;
 }
 
-/// Leaves `stream` at the first line of discs, on rank 0. **Collective.**
+/// Reads the scene and leaves `stream` at the first line of discs, on rank 0. **Collective.**
 SceneParameters read_scene_on_all(const CompareOptions& options,
                                   std::unique_ptr<std::istream>& stream,
                                   const Communicator& ranks) {
@@ -133,7 +133,7 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
     const bool is_same = grade(runs, grader, ranks);
     if (ranks.is_root()) fmt::print("{}", grader.verdict());
     if (ranks.is_root() && options.counts_points) fmt::print("{}", grader.points().text());
-    int is_graded = grader.has_graded_all() ? 1 : 0; // only rank 0 knows it
+    int is_graded = grader.has_graded_all() ? 1 : 0; // known only on rank 0
     ranks.broadcast(is_graded);
     if (!is_same) return ExitCode::difference;
     return is_graded == 1 ? ExitCode::success : incomplete;

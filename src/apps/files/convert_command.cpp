@@ -41,7 +41,7 @@ std::vector<std::size_t> other_columns(const FileSummary& summary) {
     return places;
 }
 
-/// Chemical symbols, for readers of extended XYZ take nothing else; X is no element.
+/// Chemical symbols, because readers of extended XYZ accept nothing else; X is not an element.
 constexpr std::array<std::string_view, 119> symbols = {
     "X",  "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si",
     "P",  "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu",
@@ -52,18 +52,18 @@ constexpr std::array<std::string_view, 119> symbols = {
     "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr", "Rf",
     "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
 
-/// The kind of each disc, disc after disc.
+/// Returns the species of discs, disc after disc.
 class Bodies {
 public:
     explicit Bodies(const FileSummary& summary)
         : species_(summary.species), all_{summary.n_rows, summary.radius, 1} {}
-    /// To be asked in the order of ids; from id 0 again at the next frame.
+    /// Call it in the order of ids, and from id 0 again for the next frame.
     const Species& of(std::uint64_t id) {
         if (id == 0) k_ = 0, end_ = species_.empty() ? all_.count : species_[0].count;
         while (id >= end_) end_ += species_[++k_].count;
         return species_.empty() ? all_ : species_[k_];
     }
-    /// For the disc of the last call: H, He and so on, or X.
+    /// The symbol of the last disc's species: H, He and so on, or X.
     std::string_view symbol() const {
         return species_.empty() || species_.size() >= symbols.size() ? symbols[0] : symbols[k_ + 1];
     }
@@ -115,7 +115,7 @@ public:
                            body.mass, body.mass * vx, body.mass * vy);
         } else {
             fmt::format_to(end, "{},{}", step, id);
-            for (const std::size_t place : places_) { // columns that it does not have stay empty
+            for (const std::size_t place : places_) { // columns that the file lacks stay empty
                 out.push_back(',');
                 if (place < rows.size()) fmt::format_to(end, "{}", rows[place][i]);
             }
@@ -125,7 +125,7 @@ public:
     }
 
 private:
-    /// A number of a common column; 0 if the file does not have it.
+    /// The number in a common column, or 0 if the file does not have the column.
     double number(const Rows& rows, std::size_t i, std::size_t column) const {
         return places_[column] < rows.size() ? rows[places_[column]][i] : 0;
     }

@@ -43,7 +43,7 @@ std::string frames_text(const std::vector<std::int64_t>& steps) {
     return steps.size() > 1 ? text + fmt::format(", every {}", every) : text;
 }
 
-/// The time span of a log, which is in the order of time.
+/// The time span of a log, whose collisions are in the order of time.
 std::string span_text(const FrameFile& file) {
     const FileSummary& summary = file.summary();
     const std::uint64_t n = summary.n_rows;
@@ -79,7 +79,7 @@ std::string trajectory_text(const FileSummary& summary) {
            labelled_line("frames", frames_text(summary.steps));
 }
 
-/// A line for each species, or a single one if all discs are equal.
+/// A line for each species, or one line if all discs are equal.
 std::string species_text(const FileSummary& summary) {
     constexpr std::size_t most_lines = 20;
     if (summary.species.empty())
@@ -127,7 +127,8 @@ std::string header_text(const CheckpointHeader& header) {
     try {
         const Effects effects = scene_of(header, {}).effects;
         if (effects.are_any()) text += labelled_line("effects", summary_of(effects));
-    } catch (const InputError&) { // another version's scene; all else is worth printing
+    } catch (const InputError&) { // the scene is of another version, but everything else can be
+                                  // printed
     }
     std::string overrides;
     std::istringstream lines(header.scene_overrides);

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Describes a number that no state of a run can have; empty if there is none.
+/// Describes a number that no state of a run can have; empty if all are possible.
 std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader& header,
                     const Extent& box) {
     const double clock = header.clock();
@@ -33,8 +33,8 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
                    : fmt::format("disc {} has left the box, yet moves", disc.id);
     const DiscState shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
-    // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of
-    // L - r.
+    // Until the end of a micro-step a disc may be a little beyond its wall, and also by the
+    // rounding of L - r.
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box().longest();
     const double margin = radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
@@ -49,14 +49,14 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
     return {};
 }
 
-/// The places at which a run may show a disc's centre, without radii. **Not collective.**
+/// The region in which a run may show a disc's centre, without radii. **Not collective.**
 Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     Extent box = extent_at(effects, header.box(), static_cast<double>(header.step));
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
         if (effects.boundaries[side].kind == BoundaryKind::open)
-            line = outwards * infinity; // discs may be on their way out
+            line = outwards * infinity; // open side: discs may be on their way out
         if (effects.boundaries[side].is_periodic())
-            line += outwards * header.radius; // centres may be anywhere in the box
+            line += outwards * header.radius; // periodic side: centres may be anywhere in the box
     };
     make_room(0, box.x_low, -1);
     make_room(1, box.x_high, 1);
@@ -65,11 +65,11 @@ Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     return box;
 }
 
-/// Reading checks bytes and hash; this checks the discs themselves. **Collective.**
+/// Checks the discs. Bytes and hash have been checked while reading. **Collective.**
 void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const CheckpointHeader& header = checkpoint.header;
-    const Effects effects = scene_of(header, {}).effects; // its scene must be readable as well
+    const Effects effects = scene_of(header, {}).effects; // reports a scene that cannot be read
     const Extent room = room_of(header, effects);
     const SpeciesTable species(effects.species, header.radius);
     std::string flaw;
@@ -95,7 +95,7 @@ void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});
 }
 
-/// Rows of a file's numbers by name; columns that the file does not have are 0.
+/// Reads rows of a file's numbers by the names of columns; columns that the file lacks are 0.
 class NamedRows {
 public:
     explicit NamedRows(const FrameFile& file) : file_(file) {}
@@ -120,9 +120,9 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Whether a run could show a disc there. Discs leave through an open side when their
-/// centre is a radius beyond it, and lie there at rest. In the time-stepped method a
-/// disc that another one has pushed out may fly to the end of its micro-step before.
+/// Whether a run could show a disc there. Discs leave through an open side when their centre is a
+/// radius beyond it, and stay there at rest. In the time-stepped method a disc that another one has
+/// pushed out may first fly on until the end of its micro-step.
 bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary) {
     if (!rows.are_finite(i)) return false;
     if (!summary.has("x")) return true;
@@ -135,12 +135,12 @@ bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summar
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)
         has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
-                    beyond[side] <= reach; // discs smaller than the largest leave before
+                    beyond[side] <= reach; // smaller discs leave before the largest ones
     for (std::size_t side = 0; side < beyond.size(); ++side) {
         if (beyond[side] <= summary.amplitudes[side]) continue;
         if (!summary.open_boundaries[side]) return false;
-        // Without velocities its flight is unknown. A disc that is pushed out over a
-        // corner leaves through one side and keeps its place along it.
+        // Without velocities the disc's flight is unknown. A disc that is pushed out over a corner
+        // leaves through one side and keeps its place along it.
         const bool is_bounded = summary.has("vx") && !has_left;
         if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;
     }
@@ -164,7 +164,7 @@ void verify_frames(const FrameFile& file, const std::string& path) {
     }
 }
 
-/// Files of other programs may not say how many discs there are.
+/// Files of other programs may not contain the number of discs.
 bool is_disc(double id, const FileSummary& summary) {
     return id >= 0 && (summary.n_discs == 0 || id < static_cast<double>(summary.n_discs));
 }

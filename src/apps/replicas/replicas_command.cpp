@@ -50,7 +50,7 @@ struct ReplicasOptions {
     std::string folder;
 };
 
-/// The seeds of the scene, which make replicas differ.
+/// The seeds of the scene, by which replicas differ.
 std::vector<const Key*> seeds_of(const SceneParameters& scene) {
     std::vector<const Key*> seeds;
     for (const Key& key : keys())
@@ -84,7 +84,7 @@ bool is_done(const RunOptions& one, const Communicator& rank) {
     return true;
 }
 
-/// Runs this rank's replicas one after the other. Returns `stopped` if it was asked to stop.
+/// Runs this rank's replicas one after the other. Returns `stopped` if a stop was requested.
 ExitCode run_mine(const ReplicasOptions& options, const SceneParameters& scene,
                   const Communicator& ranks) {
     const Communicator alone = Communicator::of_this_rank();
@@ -97,10 +97,10 @@ ExitCode run_mine(const ReplicasOptions& options, const SceneParameters& scene,
     return ExitCode::success;
 }
 
-/// Collects the results of all ranks. Throws the first failure of any rank on all.
+/// Collects the results of all ranks. Throws the first failure of any rank on all ranks.
 bool all_are_done(const ReplicasOptions& options, const SceneParameters& scene,
                   const Communicator& ranks) {
-    constexpr double patience_seconds = 1e9; // other ranks may have long runs to finish
+    constexpr double patience_seconds = 1e9; // other ranks may still have long runs
     ExitCode code = ExitCode::success, failure_code = ExitCode::success;
     std::string failure;
     try {

@@ -45,7 +45,7 @@ bool differ_by_rounding(const Mean& mean, double scatter) {
     return scatter <= rounding * std::fabs(mean.value);
 }
 
-/// A line for the terminal. Values that differ by roundings alone have no error.
+/// A line for the terminal. Values that differ only by roundings have no error.
 std::string line_of(const char* name, const Mean& mean, double scatter) {
     if (differ_by_rounding(mean, scatter))
         return fmt::format("{:<20}{:.6g} in each\n", name, mean.value);
@@ -56,7 +56,7 @@ Json or_null(double number) { return std::isfinite(number) ? Json(number) : Json
 double number_of_json(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
 std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
-/// One average of a report; `path` is a JSON pointer to it, or to its number alone.
+/// One average of a report; `path` is a JSON pointer to it, or to its number if it has no error.
 struct AveragedColumn {
     const char* name;
     const char* path;
@@ -78,7 +78,7 @@ constexpr AveragedColumn averaged_columns[] = {
     {"local_psi6", "/watched/local_psi6"},
 };
 
-/// Part of an average: "value" or "error". A number alone is its own value.
+/// A part of an average, "value" or "error". A number without an error is its own value.
 double part_of(const Json& report, const AveragedColumn& quantity, const char* part) {
     const Json::json_pointer path(quantity.path);
     if (!report.contains(path)) return NAN;
@@ -91,18 +91,18 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
     return part_of(report, quantity, "value");
 }
 
-/// The errors that replicas claim, beside how they scatter.
+/// The errors that replicas report, and the scatter between replicas.
 struct Claims {
-    double claimed = NAN;       ///< the root of the mean square of the errors; NaN if there is none
-    double ratio = NAN;         ///< the scatter over it
-    std::size_t n_changing = 0; ///< replicas that are still changing
-    std::size_t n_silent = 0;   ///< replicas that are too short for an error
+    double claimed = NAN;       ///< root mean square of the errors; NaN if there are none
+    double ratio = NAN;         ///< scatter divided by `claimed`
+    std::size_t n_changing = 0; ///< number of replicas that are still changing
+    std::size_t n_silent = 0;   ///< number of replicas that are too short for an error
 
     bool are_too_small(std::size_t n_replicas) const;
 };
 
-/// 999 of 1000 values of chi squared over its degrees of freedom are below this (Wilson and
-/// Hilferty, Proc. Natl. Acad. Sci. 17, 684 (1931)).
+/// A limit of chi squared over its degrees of freedom, which 999 of 1000 values do not exceed
+/// (Wilson and Hilferty, Proc. Natl. Acad. Sci. 17, 684 (1931)).
 double most_of_chi_squared(double freedom) {
     constexpr double deviations = 3.09;
     const double spread = 2 / (9 * freedom);
@@ -110,7 +110,7 @@ double most_of_chi_squared(double freedom) {
 }
 
 /// Errors from some ten independent samples are too small by more than a tenth
-/// (statistics/blocking.hpp). That alone is no reason to warn.
+/// (statistics/blocking.hpp). That alone does not justify a warning.
 bool Claims::are_too_small(std::size_t n_replicas) const {
     constexpr double allowed = 1.15;
     return n_replicas > 1 &&
@@ -134,7 +134,7 @@ Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantit
     return claims;
 }
 
-/// What is wrong with single runs, or nothing.
+/// The warning about single runs, or an empty text.
 class SingleRuns {
 public:
     explicit SingleRuns(std::size_t n_replicas) : n_replicas_(n_replicas) {}
@@ -194,7 +194,7 @@ std::string remark_of_means(const std::string& table) {
     return fmt::format("# {}: {}\n", table, means_remark);
 }
 
-/// Whether a file in the folder of replicas may be replaced by one of theirs.
+/// Whether replicas may replace a file in their folder.
 bool may_be_replaced(const std::filesystem::path& path) {
     const std::string name = path.filename().string(), stem = path.stem().string();
     if (name == "replicas.json") {
@@ -222,7 +222,7 @@ std::string lines_of_replicas(const std::vector<Replica>& replicas,
     return text + '\n';
 }
 
-/// Whether a column has the errors of another one, as each run estimates them.
+/// Whether a column contains the errors of another one, as estimated by each run.
 bool is_error_of_run(const std::string& column, const Json& table) {
     return column.ends_with("_error") && table.contains(column.substr(0, column.size() - 6));
 }
@@ -310,7 +310,8 @@ std::vector<Problem> problems_with_joined_files(const std::string& folder) {
 std::optional<std::int64_t> last_step_reported(const std::string& folder) {
     std::ifstream file = open_plain_file(report_of_run(folder));
     const Json report = Json::parse(file, nullptr, false);
-    // A damaged report is none: the replica goes on from its checkpoint and writes a new one.
+    // A damaged report counts as missing: the replica continues from its checkpoint and writes a
+    // new one.
     std::int64_t last = 0;
     for (const char* key : {"first_step", "steps"}) {
         if (!report.is_object() || !report.contains(key) || !report[key].is_number_integer())
@@ -334,7 +335,7 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);
-        if (!std::isfinite(mean.value)) continue; // a replica does not have it
+        if (!std::isfinite(mean.value)) continue; // a replica lacks the value
         const double scatter = mean.error * std::sqrt(static_cast<double>(replicas.size()));
         const Claims claims = claims_of(reports, quantity, scatter);
         joined[quantity.name] = {{"value", mean.value},

@@ -17,16 +17,17 @@ struct Replica {
     std::uint64_t seed = 0;
 };
 
-/// The problems of files in the folder that are not of replicas, and that theirs may replace.
+/// Problems for each file in the folder that the replicas would replace but that was not written by
+/// replicas.
 std::vector<Problem> problems_with_joined_files(const std::string& folder);
 
 /// The last step in the folder's report; nothing if there is no complete report.
 std::optional<std::int64_t> last_step_reported(const std::string& folder);
 
-/// Lines for the terminal.
+/// Text for the terminal.
 struct JoinedReplicas {
     std::string averages;
-    std::string warning; ///< one line, or empty
+    std::string warning; ///< one line; empty if there is no warning
 };
 
 /// Reads the replicas' reports and writes to `folder`:

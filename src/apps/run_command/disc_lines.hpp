@@ -37,7 +37,7 @@ public:
     DiscLines(const SceneParameters& scene, const std::string& path, int digits,
               const Communicator& ranks, std::uint64_t slab = default_slab);
 
-    /// Lines of this step, and no later ones, are those of the last step.
+    /// Lines of `last_step` get the counters, and no lines of later steps are written.
     void end_at(std::int64_t last_step) { last_step_ = last_step; }
 
     /// The next step after `step` that has to be written, or the last one.

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double terminal_interval = 0.2; // in seconds: steady to the eye, no cost to the run
+constexpr double terminal_interval = 0.2; // in seconds; looks continuous, and costs the run nothing
 constexpr double first_log_interval = 5;
 constexpr double longest_log_interval = 1800;
 constexpr double log_growth = 1.5;

@@ -14,18 +14,18 @@ namespace carrom {
 
 class StatusLine {
 public:
-    /// Shows nothing unless `wanted`; the caller decides which rank prints.
+    /// Prints nothing unless `wanted`; the caller decides which rank prints.
     explicit StatusLine(bool wanted);
     ~StatusLine() { finish(); }
     StatusLine(const StatusLine&) = delete;
     StatusLine& operator=(const StatusLine&) = delete;
 
-    /// Whether it is time to show something.
+    /// Whether enough time has passed to print again.
     bool is_due() const { return wanted_ && Clock::now() >= due_; }
     void show(const std::string& text);
-    /// Leaves the cursor on an empty line.
+    /// Ends the rewritten line, so that the next output starts on a line of its own.
     void finish();
-    /// The time since this was made.
+    /// Seconds since this object was made.
     double seconds() const;
 
 private:
@@ -44,7 +44,7 @@ public:
 
     /// May be called at any rate; prints if it is time.
     void show(std::int64_t step);
-    /// Leaves the cursor on an empty line.
+    /// Ends the rewritten line, so that the next output starts on a line of its own.
     void finish() { line_.finish(); }
 
 private:

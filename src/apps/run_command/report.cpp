@@ -64,7 +64,7 @@ nlohmann::ordered_json lost_collisions_json(const LostCollisions& lost) {
     return {{"share", lost.share}, {"pressure_error", lost.pressure_error}};
 }
 
-/// What is watched, and the line of doubts, if there are any.
+/// Adds watched numbers and the line of doubts, if there are any.
 void add_doubts(nlohmann::ordered_json& report, const RunResult& result) {
     if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
     if (const std::string doubts = doubts_of_run(result); !doubts.empty())
@@ -86,7 +86,7 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
-/// What only some runs have.
+/// Adds what ended the run and the GPU, if there was one.
 void add_stop_and_gpu(nlohmann::ordered_json& report, const RunResult& result) {
     if (!result.device.name.empty())
         report["gpu"] = {{"name", result.device.name}, {"memory_bytes", result.device.bytes}};
@@ -142,8 +142,8 @@ template <class Numbers> nlohmann::ordered_json by_name(const Numbers& numbers) 
     return all;
 }
 
-/// The velocity of the centre of mass of the discs in the box. Where discs of several masses have
-/// left, the mass of the others is not known.
+/// The velocity of the centre of mass of the discs in the box. If discs of several masses have
+/// left, the mass of the others is unknown.
 nlohmann::ordered_json drift_velocity(const SceneParameters& scene, const Totals& end) {
     const std::uint64_t n_departed = std::accumulate(end.departed.begin(), end.departed.end(),
                                                      std::uint64_t{0});

@@ -79,7 +79,7 @@ void print_result(const RunOptions& options, const SceneParameters& scene, const
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// The error of a run that has given up a step after `step`; `kept` says what is left.
+/// The error of a run that abandoned a step after `step`; `kept` names the state that was stored.
 StopRequested given_up(std::int64_t step, const std::string& kept, const SceneParameters& scene) {
     return StopRequested(fmt::format(
         "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,
@@ -91,7 +91,7 @@ StopRequested given_up(std::int64_t step, const std::string& kept, const ScenePa
 /// Writes the lines of discs to standard output or a file, and shows the progress.
 class ShownSteps : public StepAction {
 public:
-    /// A restart does not write the lines of its first step again. **Collective.**
+    /// In a restart the lines of the first step are not written again. **Collective.**
     ShownSteps(const Run& run, const RunOptions& options)
         : run_(run), lines_(run.scene(), options.output, options.digits, run.ranks()),
           progress_(run.step(), run.scene().steps, run.ranks().is_root() && !options.quiet),
@@ -118,7 +118,7 @@ private:
     void write_if_due() {
         lines_.end_at(run_.last_step());
         if (!lines_.is_due(run_.step())) return;
-        progress_.finish(); // both may go to the same terminal
+        progress_.finish(); // because both may be written to the same terminal
         lines_.write(run_.system());
     }
 
@@ -128,14 +128,14 @@ private:
     std::int64_t last_step_;
 };
 
-/// Runs to the end of the scene with all outputs on the way, or to where the run is
-/// asked to stop: then it returns false. **Collective.**
+/// Runs to the end of the scene with all outputs. Returns false if a stop was requested before.
+/// **Collective.**
 bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double& output_seconds) {
     const SceneParameters& scene = run.scene();
     Stopwatch watch;
     Recordings recordings(run, options.messages);
     Checkpoints checkpoints(run, scene.checkpoint);
-    // No file is replaced or removed before here, where nothing in the input can be wrong any more.
+    // From here on files are replaced and removed, because all errors of the input have been found.
     prepare_outputs(scene, !run.is_restart(), run.ranks());
     ShownSteps shown(run, options);
     recordings.begin();
@@ -201,7 +201,8 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
-        signals.emplace(ranks.is_root()); // else not while standard input may make the run wait
+        signals.emplace(ranks.is_root()); // not before standard input has been read, because it
+                                          // may make the run wait
     Loaded loaded = load(options, problems, ranks);
     if (!signals) signals.emplace(ranks.is_root());
     Tuning tuning = options.tuning;
@@ -226,7 +227,8 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     try {
         is_done = step_to_end(run, options, guard, output_seconds);
     } catch (const CollectiveError& error) {
-        if (error.code() == ExitCode::output_failure) guard.commit(); // names a folder that is gone
+        // The message may name a folder that no longer exists; then the guard throws a better one
+        if (error.code() == ExitCode::output_failure) guard.commit();
         throw;
     }
     result.wall_seconds = run.seconds().steps;
@@ -252,7 +254,8 @@ Subcommand run_subcommand() {
         if (!has_input)
             problems.push_back({"carrom run", 0,
                                 "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
-        const bool reads_input = options.input == "-"; // the run may wait for it
+        // The run may have to wait for standard input
+        const bool reads_input = options.input == "-";
         if (!has_input) return failing(problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {
                     return run_scene(options, problems, ranks);

@@ -24,23 +24,24 @@ namespace carrom {
 /// as each member says. The totals are the same for every shape.
 struct RunResult {
     Totals start, end;
-    std::vector<EndNumber> end_numbers; ///< of the scene's effects
+    std::vector<EndNumber> end_numbers; ///< numbers at the end from the scene's effects
     std::int64_t first_step = 0, last_step = 0;
     std::optional<StopReason> stop_reason; ///< if the run ended before the scene's last step
     int ranks = 1;
-    int ranks_across = 1;    ///< ranks that share a strip, at most
+    int ranks_across = 1;    ///< number of ranks that share a strip, at most
     int threads = 1;         ///< per rank; the largest if ranks differ
     DeviceFacts device;      ///< the GPU; its name is empty if there was none
     double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
     Averages averages;       ///< over the run, restarts included
-    std::vector<WatchedNumber> watched; ///< order and energy, if they may change
-    std::vector<MeasuredTable> tables;  ///< the measurements of the scene
+    std::vector<WatchedNumber> watched; ///< order and energy, unless they are conserved
+    std::vector<MeasuredTable> tables;  ///< the tables that the scene measures
     std::vector<std::string> doubts_of_tables;
-    RollbackCounts runs;            ///< in the event-driven method
-    PhaseSeconds phase_seconds;     ///< each on the rank where it took longest
-    PhaseSeconds phase_imbalance;   ///< relative to the mean of all ranks
-    double imbalance = 1;           ///< this ratio for `busy_seconds`
-    double size = 1;                ///< of all radii at the end, over the scene's: Engine::size
+    RollbackCounts runs;        ///< rollbacks of the event-driven method
+    PhaseSeconds phase_seconds; ///< for each phase the time of the slowest rank
+    /// For each phase the largest time of a rank relative to the mean
+    PhaseSeconds phase_imbalance;
+    double imbalance = 1;           ///< the same ratio for `busy_seconds`
+    double size = 1;                ///< all radii at the end relative to the scene's: Engine::size
     double peak_bytes_per_disc = 0; ///< the sum of the ranks' peaks, per disc
 };
 
@@ -52,7 +53,7 @@ void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator&
 /// The packing at the scene's last step, or where a condition has ended the run.
 double last_packing(const SceneParameters& scene, const RunResult& result);
 
-/// `part` of `whole`; 0 if `whole` is 0.
+/// `part / whole`, or 0 if `whole` is 0.
 double ratio(double part, double whole);
 
 double ns_per_disc_step(const RunResult& result);
@@ -84,21 +85,21 @@ std::string doubts_of_run(const RunResult& result);
 
 /// An estimate of what a time-stepped run misses; docs/understanding/pressure.md has the formula.
 struct LostCollisions {
-    double share = 0;          ///< share of the pair collisions that the event-driven method finds
-    double pressure_error = 0; ///< relative; negative if the pressure is too low
+    double share = 0; ///< share of all collisions of pairs that the time-stepped method misses
+    double pressure_error = 0; ///< relative error; negative if the pressure is too low
 };
 LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& result);
 /// One line if more than a hundredth is lost, else empty.
 std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result);
 
-/// The share that collisions of the event-driven method have not taken of the energy that
-/// restitution asks for, because one of the discs had collided within the contact time; since this
+/// The energy that guarded collisions kept, as a share of what restitution would have taken. A
+/// collision is guarded if one of its discs had collided within the contact time. Counts since this
 /// process began.
 double guarded_share(const RunResult& result);
-/// One line if it is more than a hundredth because of the scene's contact time, else empty.
+/// A warning if `guarded_share` exceeds 0.01 because of the scene's contact time, else empty.
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result);
 
-/// Overlapping pairs of a disc at the end, on average.
+/// Number of overlapping pairs at the end, divided by the number of discs.
 double overlapping_pairs_per_disc(const RunResult& result);
 /// The deepest of these overlaps, in diameters of the scene's largest disc.
 double deepest_overlap(const SceneParameters& scene, const RunResult& result);

@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// Choices that change the default's bits, and so its promise; empty for the default.
+/// Choices that give other bits than the default; empty for the default.
 std::string arithmetic_text(const SceneParameters& scene) {
     std::string text;
     if (scene.precision == Precision::single) text += ", precision = \"single\"";
@@ -38,18 +38,19 @@ std::string phases_text(const RunResult& result) {
     for (const auto& [name, seconds] : result.phase_seconds) all += seconds;
     std::string text;
     for (const auto& [name, seconds] : result.phase_seconds)
-        if (seconds >= 0.005 * all) // the report has short ones, too
+        if (seconds >= 0.005 * all) // short phases are only in the report
             text += fmt::format("{}{} {:.3g} s ({:.0f} %)", text.empty() ? "" : ", ", name, seconds,
                                 100 * ratio(seconds, all));
     return text;
 }
 
-/// How even the ranks' work is, and in which phase it is least even.
+/// How even the ranks' work is, and the phase in which it is least even.
 std::string imbalance_text(const RunResult& result) {
     std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest",
                                    result.imbalance);
     const double enough = 0.1 *
-                          busy_seconds(result.phase_seconds); // short phases are uneven by chance
+                          busy_seconds(result.phase_seconds); // short phases are left out, because
+                                                              // they are uneven by chance
     double most = 0;
     std::string uneven;
     for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {
@@ -127,7 +128,7 @@ std::string measured_text(const SceneParameters& scene, const std::vector<Measur
                        tables.front().remarks.front());
 }
 
-/// "120 of 400 discs: left 70, top 50" if a side is open.
+/// Text such as "120 of 400 discs: left 70, top 50" if a side is open.
 std::string departed_text(const SceneParameters& scene, const Totals& totals) {
     std::uint64_t all = 0;
     std::string boundaries;
@@ -186,7 +187,7 @@ std::string time_lines(const RunResult& result, std::int64_t last_step) {
     return text;
 }
 
-/// "psi6 = 0.207 +- 0.02, local_psi6 = 0.6 +- 0.001"
+/// Text such as "psi6 = 0.207 +- 0.02, local_psi6 = 0.6 +- 0.001".
 std::string watched_text(const std::vector<WatchedNumber>& watched) {
     std::string text;
     for (const WatchedNumber& one : watched) {
@@ -223,7 +224,7 @@ std::string average_lines(const SceneParameters& scene, const RunResult& result)
     return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
-/// Empty where no collision takes energy.
+/// Empty if no collision takes energy.
 std::string guarded_line(const RunResult& result) {
     if (result.end.energy_taken == 0 && result.end.energy_spared == 0) return {};
     return labelled_line("guarded",
@@ -232,7 +233,7 @@ std::string guarded_line(const RunResult& result) {
                                      result.end.guarded_collisions, 100 * guarded_share(result)));
 }
 
-/// How the method has treated collisions.
+/// The line about rejected candidates or repeated windows, depending on the method.
 std::string method_line(const SceneParameters& scene, const RunResult& result) {
     if (scene.method == Method::event_driven)
         return guarded_line(result) + labelled_line("windows", windows_text(result.runs));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `carrom`: every rank runs this, and all of them leave with the same exit code.
+// The program `carrom`. Every rank runs it, and all ranks end with the same exit code.
 #include "apps/shell/command_line.hpp"
 #include "apps/shell/passive_threads.hpp"
 #include "apps/shell/standard_streams.hpp"
@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Returns false, and prints the reason once, if a launcher of another MPI library has
-/// started several copies of a program that each take themselves for the only one.
+/// Returns false, and prints the reason once, if the launcher of another MPI library has started
+/// several copies of the program, each of which is a run of one rank.
 bool is_started_well(const carrom::Communicator& ranks) {
     const carrom::LoneProcess process = carrom::lone_process(ranks.size());
     if (!process.problem.empty() && process.is_first)

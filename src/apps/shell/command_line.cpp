@@ -58,7 +58,7 @@ Action printed(std::string text) {
     }};
 }
 
-/// The facts that a report of a problem should contain. Needs no MPI.
+/// The facts that a report of a problem should contain. MPI need not be started.
 std::string version_text() {
     const BuildFacts facts = build_facts();
     return fmt::format("carrom {}\n"
@@ -71,7 +71,7 @@ std::string version_text() {
                        vector_target());
 }
 
-/// Prints the version, and whether this build computes the bits that all others do.
+/// Prints the version, and whether this build computes the same bits as others.
 Action version_and_bits() {
     return {[](const Communicator& ranks) {
                 const std::string difference = warning_of_other_bits(ranks);
@@ -89,7 +89,7 @@ Action refused(const std::string& reason) {
     return failing({{"command line", 0, reason + " (see carrom --help)"}});
 }
 
-/// A switch takes no value, because `NAME=no` would be read as its opposite, and others as none.
+/// A switch takes no value, because CLI11 would read `NAME=no` as its opposite.
 void declare_switch(CLI::App& command, const Option& option, bool& is_on) {
     const auto complaint = [](const std::string& word) {
         return word == "true" ? std::string{} : "takes no value; leave \"=" + word + "\" out";
@@ -120,10 +120,11 @@ void declare(CLI::App& app, const Subcommand& subcommand) {
     command->set_help_flag(help_words, help_of_help);
     for (const Option& option : subcommand.options) declare(*command, option);
     command->footer(subcommand.footer);
-    command->allow_extras(); // so that all of them are reported at once
+    command->allow_extras(); // so that all extra words are reported at once
 }
 
-/// Words that fit nowhere. After an unknown option they may be its values, so they are omitted.
+/// Problems of words that belong to no option. After an unknown option they may be its values, so
+/// they are left out.
 std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& command) {
     const std::string see = std::string("; see carrom ") + subcommand.name + " --help";
     std::vector<Problem> unknown, others;
@@ -136,7 +137,7 @@ std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& com
     return unknown.empty() ? others : unknown;
 }
 
-/// An empty word most often comes from a variable of the shell that is not set.
+/// Reports empty words, which mostly come from shell variables that are not set.
 void add_empty_values(const CLI::App& command, std::vector<Problem>& problems) {
     for (const CLI::Option* option : command.get_options()) {
         const std::vector<std::string>& words = option->results();

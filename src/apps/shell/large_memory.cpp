@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's large arrays ask for huge pages. Discs are accessed out of order, and if a page
-// holds 64 of them, most of the time goes into finding the page. A gas of 1e6 discs is 1.3 times as
-// fast with huge pages on a Xeon. Systems that always use them are not affected.
+// The program's large arrays ask for huge pages. Discs are accessed out of order, and if a page has
+// only 64 of them, most of the time is spent on finding the page. A gas of 1e6 discs is 1.3 times
+// as fast with huge pages on a Xeon. Systems that always use them are not affected.
 //
 // This is for the program only, because a library must not replace its user's memory functions.
 #include <cstddef>
@@ -16,15 +16,15 @@ namespace {
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
 #ifdef M_MMAP_THRESHOLD
-// Large arrays are returned to the system one by one. By default glibc moves them to
-// the heap once it has seen some of them freed, and lists that grow there leave holes:
-// 4 bytes a disc. Each request is a huge page larger than the array, so that its begin
-// can be aligned. Smaller lists come and go in the heap, which keeps their memory.
+// Returns each large array to the system when it is freed. By default glibc puts large arrays into
+// the heap after some of them have been freed, where growing lists leave holes of 4 bytes a disc.
+// Each request is larger than the array by a huge page, so that its beginning can be aligned.
+// Smaller lists are allocated in the heap, which keeps their memory.
 [[maybe_unused]] const bool are_large_apart = mallopt(M_MMAP_THRESHOLD, 2 * huge_page) != 0 &&
                                               mallopt(M_TRIM_THRESHOLD, 8 * huge_page) != 0;
 #endif
 
-/// Returns null if there is none.
+/// Returns null if there is no memory.
 void* find_memory(std::size_t size, std::size_t alignment) {
     const bool is_large = size >= huge_page;
     if (is_large && alignment < huge_page) alignment = huge_page;

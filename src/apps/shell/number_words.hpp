@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words of the command line that must be numbers.
+// Reads numbers from words of the command line.
 #pragma once
 
 #include <charconv>
@@ -25,7 +25,7 @@ TakeWord number(Target& number, Number least, Number most, const char* why = "")
         Number value{};
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const bool is_number = error == std::errc{} && end == word.data() + word.size();
-        if (is_number && value >= least && value <= most) { // false for NaN
+        if (is_number && value >= least && value <= most) { // the comparisons are false for NaN
             number = value;
             return;
         }

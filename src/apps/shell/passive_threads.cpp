@@ -15,15 +15,15 @@ namespace carrom {
 
 namespace {
 
-/// valgrind does not follow a program that starts another one.
+/// valgrind cannot follow the restart of a program.
 bool is_in_valgrind() {
     const char* const preloaded = std::getenv("LD_PRELOAD");
     return preloaded != nullptr &&
            std::string_view(preloaded).find("vgpreload") != std::string_view::npos;
 }
 
-/// Gives this thread back all processors that OpenMP may use. If threads are to be bound, the
-/// library has bound this one to its place already, and the new program would inherit that.
+/// Allows this thread all processors that OpenMP may use. If threads are bound, OpenMP has already
+/// bound this one to a single place, which the new program would inherit.
 void unbind() {
     cpu_set_t processors;
     CPU_ZERO(&processors);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that have to wait sleep, unless the user has asked for something else.
+// Lets waiting threads sleep, unless the user has chosen otherwise.
 //
 // By default a waiting thread of GNU's OpenMP library spins for milliseconds, on the very core that
 // another program or the awaited thread needs. On cores that are busy a run of a thousand discs
@@ -10,8 +10,8 @@ namespace carrom {
 
 /// Starts the program anew with OMP_WAIT_POLICY=passive, because OpenMP reads it as it is loaded.
 /// The processors that threads may use stay those of the start, where OpenMP has bound this thread
-/// to one of them. Returns where the user has set it or GOMP_SPINCOUNT, or where the program cannot
-/// be started. Call it before MPI and threads are started.
+/// to one of them. Returns if the user has set OMP_WAIT_POLICY or GOMP_SPINCOUNT, or if the program
+/// cannot be restarted. Call it before MPI and threads are started.
 void let_threads_sleep(char** arguments);
 
 } // namespace carrom

@@ -14,18 +14,18 @@ namespace carrom {
 
 namespace {
 
-// The kernel lets any thread of the process run the handler, so `volatile` would not be enough.
-std::atomic<int> signal_that_has_come = 0; // for the answer only
+// Any thread of the process may run the handler, so `volatile` would not be enough.
+std::atomic<int> signal_that_has_come = 0; // only for the answer
 std::atomic<bool> is_answer_due = false;
 
-/// Calls only functions that a handler may call.
+/// A signal handler: calls only functions that are allowed there.
 void answer(int number) {
     constexpr std::string_view text = "\ntold to stop: the steps under way are finished first if "
                                       "that takes no more than a second";
     constexpr std::string_view advice = "; once more ends the run at once";
     for (const std::string_view part :
          {text, number == SIGINT ? advice : std::string_view(), std::string_view("\n")}) {
-        // If this fails, nobody would read a message about it.
+        // A failure is ignored, because nobody could read a message about it.
         [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, part.data(), part.size());
     }
 }
@@ -43,18 +43,18 @@ void note_signal(int number) {
 
 void note_stop_signals() {
     static bool are_noted = false;
-    if (are_noted) return; // otherwise a second INT would not find the default
+    if (are_noted) return; // a second call would take the handler for the default action
     are_noted = true;
     struct sigaction action{};
     action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART; // reads and writes in progress go on
+    action.sa_flags = SA_RESTART; // so that system calls in progress continue
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction present{};
     sigaction(SIGINT, nullptr, &present);
-    if (present.sa_handler == SIG_IGN) return; // shells ignore it for processes in the background
-    action.sa_flags |= SA_RESETHAND;           // a second request does not want to wait
+    if (present.sa_handler == SIG_IGN) return; // shells ignore it for background processes
+    action.sa_flags |= SA_RESETHAND;           // so that a second request ends the process at once
     sigaction(SIGINT, &action, nullptr);
 }
 

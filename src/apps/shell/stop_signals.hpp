@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// USR1 and TERM, which batch systems send before they end a job, and the INT of
-// Ctrl-C. They are noted, and take effect at the end of a step, or inside a step that
-// takes long (core/stop_request.hpp). A second INT ends the process.
+// USR1 and TERM, which batch systems send before they end a job, and the INT of Ctrl-C. They are
+// recorded, and take effect at the end of a step, or inside a step that takes long
+// (core/stop_request.hpp). A second INT ends the process.
 #pragma once
 
 namespace carrom {
@@ -12,10 +12,10 @@ void note_stop_signals();
 
 class StopSignals {
 public:
-    /// Notes signals from here on, unless `note_stop_signals` does. If `are_reported`, the
-    /// first one is answered on standard error at once, because the step's end may be far away.
+    /// Records signals from here on, unless `note_stop_signals` does. If `are_reported`, the first
+    /// signal is answered on standard error at once, because the end of the step may be far away.
     explicit StopSignals(bool are_reported);
-    ~StopSignals(); ///< ends the answers
+    ~StopSignals(); ///< signals are no longer answered
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 };

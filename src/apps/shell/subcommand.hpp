@@ -15,34 +15,35 @@
 
 namespace carrom {
 
-/// The action that a command line asks for.
+/// The action that a command line requests.
 struct Action {
     std::function<ExitCode(const Communicator&)> act; ///< every rank calls it. **Collective.**
-    bool needs_mpi = false;        ///< without a launcher, too; else a process alone starts no MPI
-    bool stops_on_request = false; ///< signals are noted from the start of the process on
+    /// Also starts MPI without a launcher; otherwise a single process does not
+    bool needs_mpi = false;
+    bool stops_on_request = false; ///< signals are recorded from the start of the process on
 };
 
 /// An action that throws these problems.
 Action failing(std::vector<Problem> problems);
 
-/// Takes the word after an option, or notes its problem.
+/// Takes the word after an option, or records that it is wrong.
 using TakeWord = std::function<void(const char* option, const std::string& word,
                                     std::vector<Problem>& problems)>;
 
-/// The word after an option (all of them, if it may be repeated) is stored in `value`
-/// as it is, or taken as a number (number_words.hpp). A switch sets its value.
+/// The word after an option (all of them, if it may be repeated) is stored in `value` unchanged, or
+/// taken as a number (number_words.hpp). A switch sets its value.
 struct Option {
-    const char* name;      ///< "--threads"; a name without dashes is a place in the line
-    const char* type_name; ///< of the word that follows, such as "FILE"; empty for a switch
+    const char* name;      ///< such as "--threads"; a name without dashes is a positional argument
+    const char* type_name; ///< type of the word that follows, such as "FILE"; empty for a switch
     const char* help;
     std::variant<std::string*, std::vector<std::string>*, bool*, TakeWord> value;
     bool is_required = false;
-    const char* group = "Options"; ///< in the help
+    const char* group = "Options"; ///< the heading under which the help lists it
 };
 
 struct Subcommand {
     const char* name;
-    const char* help; ///< one line
+    const char* help; ///< one line of help
     const char* footer;
     std::vector<Option> options; ///< their values must live as long as `action`
     /// Called when all values are known, with the problems of the words so far. Adds

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "correlations": what discs have become of themselves, over decades of time: mean square
-// displacement, velocity autocorrelation, self-intermediate scattering function, non-Gaussian
-// parameter, overlap and its susceptibility chi_4.
+// "correlations": how discs have moved relative to their own earlier states, over decades of time:
+// mean square displacement, velocity autocorrelation, self-intermediate scattering function,
+// non-Gaussian parameter, overlap and its susceptibility chi_4.
 //
 // Lags and origins are those of multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
 // and a level is added whenever the time doubles. Price of a sample: each disc is sent once, and
@@ -28,13 +28,13 @@ namespace {
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
 constexpr std::size_t most_species = 8;
-/// In a radius. Discs cross shorter waves in free flight alone.
+/// In radii. Over shorter waves discs only fly freely.
 constexpr double shortest_waves = 1000;
-constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< a rank has whole runs
+constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< because each rank has whole runs
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
 
-/// The wave and the distance are of a size that discs can have in this box.
+/// Checks that the wave and the distance suit the size of the discs and the box.
 void check_lengths(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const std::string wave = correlation_wavenumber.key_name(),
@@ -43,7 +43,7 @@ void check_lengths(const SceneDraft& draft) {
                  least = 2 * std::numbers::pi / scene.box.longest(),
                  most = 2 * std::numbers::pi * shortest_waves / scene.radius,
                  distance = overlap_distance.of(*scene.measurements);
-    if (k > 0 && k < least) // 0 has been refused
+    if (k > 0 && k < least) // 0 has been reported already
         draft.refuse({wave, quantities_key},
                      fmt::format("'{}' = {:g} is a wave that is longer than the box; take {:g} or "
                                  "more",
@@ -69,7 +69,7 @@ void check_correlations(const SceneDraft& draft) {
     if (!draft.settings.has(overlap))
         scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
     check_lengths(draft);
-    if (!scene.measurements->measures("transport")) // which checks them itself
+    if (!scene.measurements->measures("transport")) // which checks the same itself
         check_correlation_points(draft);
     if (scene.effects.species.size() > most_species)
         draft.refuse({quantities_key},
@@ -78,12 +78,12 @@ void check_correlations(const SceneDraft& draft) {
                                  scene.effects.species.size(), most_species));
 }
 
-/// cos(2 pi t) to 1e-15, without a call, so that loops over discs run in vectors: half of the work
-/// of a sample would be in std::cos.
+/// cos(2 pi t) to 1e-15, without a function call, so that loops over discs are vectorised. With
+/// std::cos half of the time of a sample would be spent there.
 inline double cosine_of_turns(double turns) {
-    constexpr double rounds = 0x1.8p52; // whoever adds it rounds to a whole number
+    constexpr double rounds = 0x1.8p52; // adding it rounds to a whole number
     const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
-    double series = 0; // sin z over z, for z up to pi / 4
+    double series = 0; // sin z / z, for z up to pi / 4
     for (const double factorial :
          {1307674368000.0, 6227020800.0, 39916800.0, 362880.0, 5040.0, 120.0, 6.0})
         series = 1 / factorial - x * series;
@@ -92,15 +92,16 @@ inline double cosine_of_turns(double turns) {
     return 2 * half * half - 1;
 }
 
-/// What discs have become since earlier states of theirs.
+/// Compares discs with their own earlier states.
 struct Comparison {
     const FollowedStates &now, &before;
     double turns_per_length, overlap_squared;
 
-    /// Adds `n` discs from place `begin` on to the moments `of`, at most a run of ids, in their
-    /// order. Terms are found first, because sums in order hinder vectors, and so do whole numbers.
+    /// Adds `n` discs from index `begin` on, at most a run of ids, to the moments `of`, in their
+    /// order. The terms are computed first, because ordered sums and whole numbers prevent
+    /// vectorisation.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
-        // Without zeros, which would cost a tenth.
+        // Not initialised, which saves a tenth of the time.
         std::array<double, ids_of_run> square, product, wave, is_near;
         const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
                             *const vy = &now.vy[begin], *const x_before = &before.x[begin],
@@ -192,8 +193,8 @@ public:
         return all;
     }
 
-    /// Of the last lag of each level, the one whose F_s depends most on the waiting time. Longer
-    /// lags have too few independent origins.
+    /// Tests the last lag of each level and reports the one whose F_s depends most on the waiting
+    /// time. Longer lags have too few independent origins.
     std::string doubt() const override {
         WaitingTimes::Comparison most;
         std::uint64_t length = 0;
@@ -217,7 +218,7 @@ public:
 private:
     using Level = std::vector<FollowedStates>;
     static constexpr std::uint64_t lags_per_run = 32;
-    static constexpr double most_deviations = 4; ///< chance exceeds that in one of some 300 runs
+    static constexpr double most_deviations = 4; ///< one of some 300 runs exceeds it by chance
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {
@@ -228,7 +229,7 @@ private:
             add(fmt::format("correlations_waiting_{}", kind + 1), kind);
     }
 
-    /// For each species and for all discs: the moments, and the square of the overlap.
+    /// For each species and for all discs: the moments, and the squared overlap.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
 
     void keep_states(KeptNumbers& kept, FollowedStates& states) {
@@ -247,9 +248,9 @@ private:
         lags_.resize(scheme_.n_lags(n_samples_), VectorBlocks(n_values()));
     }
 
-    /// Adds this rank's discs to `sums`: of each species and moment one for each run of ids. Terms
-    /// of one sum are added in the order of ids on one rank, so that all machine shapes have the
-    /// same bits.
+    /// Adds this rank's discs to `sums`, which has a sum for each species, moment and run of ids.
+    /// Terms of one sum are added in the order of ids on one rank, so that all machine shapes have
+    /// the same bits.
     void compare(const FollowedStates& now, const FollowedStates& before,
                  std::span<double> sums) const {
         const Comparison comparison{now, before, wavenumber_ / (2 * std::numbers::pi),
@@ -265,9 +266,10 @@ private:
         }
     }
 
-    /// Joins the ranks, and adds a sample to each of the lags. **Collective.**
+    /// Adds the sums of all ranks, and adds a sample to each lag. **Collective.**
     void note_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
-        std::vector<std::uint64_t> words(sums.size()); // other ranks have zeros where one has a sum
+        // Each sum is on one rank, and the others have zeros
+        std::vector<std::uint64_t> words(sums.size());
         for (std::size_t k = 0; k < sums.size(); ++k)
             words[k] = std::bit_cast<std::uint64_t>(sums[k]);
         run_.ranks.sum(std::span(words));
@@ -347,7 +349,7 @@ private:
     std::uint64_t n_samples_ = 0;
     std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
     std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
-    WaitingTimes waiting_;           ///< the same by the time before the origin
+    WaitingTimes waiting_;           ///< the same, by the time before the origin
 };
 
 bool needs_another_box(const SceneParameters& s) {

@@ -21,8 +21,8 @@ std::int64_t window_of(const MeasurementOutput& output) {
     return static_cast<std::int64_t>(correlation_steps.of(output));
 }
 
-/// Without a complete window there is no coefficient of diffusion. A restart may
-/// complete one, so this is no error.
+/// Warns that without a complete window there is no coefficient of diffusion. It is not an error,
+/// because a restart may complete a window.
 void warn_of_short_run(SceneParameters& scene) {
     const MeasurementOutput& output = *scene.measurements;
     const std::int64_t window = window_of(output), steps = scene.steps - output.from_step;
@@ -57,7 +57,7 @@ void check_window(const SceneDraft& draft) {
                              key, every, 2 * every, window));
 }
 
-/// Successive windows; each has numbers at times 0, every_steps ... correlation_steps.
+/// Successive windows; each has numbers at the times 0, every_steps ... correlation_steps.
 class Windows {
 public:
     Windows(const std::vector<double>& numbers, std::size_t n_times, std::int64_t every_steps)
@@ -68,7 +68,7 @@ public:
     double steps(std::size_t time) const {
         return static_cast<double>(static_cast<std::int64_t>(time) * every_steps_);
     }
-    /// A number from each window that has come to that time.
+    /// One number from each window that has reached that time.
     template <class Number> std::vector<double> each(std::size_t time, const Number& number) const {
         std::vector<double> values;
         for (std::size_t k = time; 3 * k < numbers_.size(); k += n_times_)
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    const std::vector<double>& numbers_; ///< three for each time
+    const std::vector<double>& numbers_; ///< three numbers for each time
     std::size_t n_times_;
     std::int64_t every_steps_;
 };
@@ -108,7 +108,7 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// From half of the squares' growth in the second half of each window; each axis by itself.
+/// From half of the squares' growth in the second half of each window, for each axis separately.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",
@@ -178,8 +178,9 @@ public:
 private:
     Flights flights_;
     std::size_t n_times_;
-    std::vector<double> numbers_; ///< for each time in each window: mean squares of displacements
-                                  ///< along x, along y, and the mean product of velocities
+    /// For each time of each window: mean squares of displacements along x and y, and the mean
+    /// product of velocities
+    std::vector<double> numbers_;
 };
 
 } // namespace

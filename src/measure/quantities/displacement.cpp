@@ -41,7 +41,7 @@ public:
 
 private:
     Flights flights_;
-    std::vector<double> squares_; ///< by sample: along x, along y
+    std::vector<double> squares_; ///< for each sample along x, then along y
 };
 
 } // namespace

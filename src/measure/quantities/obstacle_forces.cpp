@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "obstacle_forces": the force and the torque of discs on each obstacle, and the wall of a round
-// box, collision by collision. Over the wall's length the push is the pressure there.
+// box, collision by collision. The push divided by the wall's length is the pressure there.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// The mean of a part of what discs have given a row in an interval, per step.
+    /// The mean per step of one of the numbers that a row got in an interval.
     double rate_of(std::size_t interval, std::size_t row, std::size_t part) const {
         return given_[(interval * rows_.size() + row) * n_force_parts + part] /
                static_cast<double>(run_.output.every_steps);
@@ -98,7 +98,7 @@ private:
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             std::vector<std::vector<double>> over_time;
             for (std::size_t k = 0; k < n_intervals(); ++k) {
-                over_time.push_back({0, 0}); // the steps, which means leave out
+                over_time.push_back({0, 0}); // columns of steps, which `means_over_time` leaves out
                 for (std::size_t part = 0; part < n_force_parts; ++part)
                     over_time.back().push_back(rate_of(k, row, part));
             }
@@ -138,8 +138,8 @@ private:
     }
 
     void clear() {
-        // More than a run ever sums up, with a resolution of 2^-63 of an impulse, of that times the
-        // box, or of its square.
+        // Larger than the sums of any run, with a resolution of 2^-63 of an impulse, of an impulse
+        // times the box, or of a squared impulse.
         const double impulse = speed_scale_ * 0x1p62;
         const std::array<double, n_force_parts> bounds{
             impulse, impulse, impulse * run_.scene.box.longest(), impulse, impulse * speed_scale_};
@@ -148,7 +148,7 @@ private:
             for (const double bound : bounds) since_last_.emplace_back(bound);
     }
 
-    /// Which numbers stand for which rows of the scene's lists.
+    /// Which numbers of obstacles belong to which rows of the scene's lists.
     std::string obstacles_text() const {
         std::string text;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -160,9 +160,9 @@ private:
     }
 
     std::vector<ObstacleRow> rows_;
-    double speed_scale_ = 0;           ///< sets the units of sums
-    std::vector<ExactSum> since_last_; ///< parts of each obstacle, on this rank
-    std::vector<double> given_;        ///< the same over all ranks, of each interval
+    double speed_scale_ = 0;           ///< typical speed, from which units of sums follow
+    std::vector<ExactSum> since_last_; ///< numbers of each obstacle, on this rank
+    std::vector<double> given_;        ///< sums over all ranks, for each interval
 };
 
 bool measures_forces(const SceneParameters& s) { return measures(s, "obstacle_forces"); }

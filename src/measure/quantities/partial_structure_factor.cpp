@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_species = 8;
 
-/// Sums and blocks are by kind of pair (pair_distances.hpp) and bin.
+/// Sums and blocks are ordered by kind of pair (pair_distances.hpp) and bin.
 class PartialStructureFactor : public WaveMeasurement {
 public:
     explicit PartialStructureFactor(MeasuredRun& run)

@@ -55,7 +55,8 @@ private:
         return table;
     }
 
-    /// Means of the history's columns from `xx` on; the compressibility is that of the mean.
+    /// Means of the history's columns from `xx` on; the compressibility is computed from the mean
+    /// pressure.
     MeasuredTable means_of(const MeasuredTable& history) const {
         MeasuredTable table{
             "pressure",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "profiles": density, velocity, temperature about the local mean, the pressure tensor and the flow
-// of heat, on a grid of cells, averaged over one block of time after another.
+// "profiles": density, velocity, temperature relative to the local mean, the pressure tensor and
+// the flow of heat, on a grid of cells, averaged over successive blocks of time.
 //
-// What discs carry is sampled. Each collision counts: impulse times distance is shared by length
+// Kinetic parts are sampled. Each collision counts: impulse times distance is shared by length
 // among the cells on the line between both centres, so that the force across any line of the grid
 // is right. Price: a pass over discs and cells a sample, and some hundred instructions a collision.
 #include <algorithm>
@@ -51,7 +51,7 @@ void check_grid(const SceneDraft& draft) {
                         n_blocks, n_cells, profile_samples.key_name()));
 }
 
-/// Changes that let a run of this length, from its first sample on, have a whole block.
+/// Changes by which a run of this length, from its first sample on, would have a whole block.
 std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t steps) {
     const std::string samples = profile_samples.key_name();
     const auto intervals = static_cast<std::int64_t>(profile_samples.of(output)) - 1;
@@ -63,7 +63,7 @@ std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t s
     return fmt::format("output.measurements.every_steps = {} or less", steps / intervals);
 }
 
-/// A restart may complete a block, so this is no error.
+/// Not an error, because a restart may complete a block.
 void warn_without_blocks(const SceneDraft& draft) {
     const MeasurementOutput& output = *draft.scene.measurements;
     const std::int64_t steps = draft.scene.steps - output.from_step;
@@ -76,7 +76,7 @@ void warn_without_blocks(const SceneDraft& draft) {
                     needed, output.from_step, steps, remedy_for_short_run(output, steps)));
 }
 
-/// A block's last sample, the steps whose collisions it counts, and the mean edges of the box.
+/// A block's last sample, the range of steps of its collisions, and the mean edges of the box.
 struct BlockHead {
     double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
@@ -172,7 +172,7 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Fields of an ended block: all species together, each if they are apart, and the whole box.
+    /// Fields of a block: all species together, each species if they are separate, the whole box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -185,7 +185,7 @@ private:
         return {n, std::max(speed_, 0x1p-200), run_.scene.radius};
     }
 
-    /// Sums are empty then. **Collective.**
+    /// Starts with empty sums. **Collective.**
     void follow() {
         sums_ = sample_ = no_sums(n_kinds_ * n_cells());
         means_.resize(n_fields() * n_sample_moments);
@@ -205,8 +205,8 @@ private:
                within(column, n_x_, run_.scene.effects.is_periodic_x());
     }
 
-    /// What a collision adds to the stress and to the flow of energy. The energy that goes from p
-    /// to q is the mean of what q gains and p loses.
+    /// The terms of a collision for the stress and the flow of energy. The energy transferred from
+    /// p to q is the mean of the energy that q gains and p loses.
     ContactTerms terms_of(const PairEvent& event) const {
         const Pair impulse = {event.ix, event.iy};
         Pair velocity = Pair{event.p_vx, event.p_vy} + Pair{event.q_vx, event.q_vy};
@@ -216,7 +216,7 @@ private:
         return sums_.terms_of(impulse, Pair{event.dx, event.dy}, velocity);
     }
 
-    /// Most collisions have their whole line in one cell.
+    /// For most collisions the whole line between the centres is in one cell.
     void add(const PairEvent& event, const PlacedGrid& grid) {
         const Pair from = Pair{event.x, event.y} * grid.per_length + grid.origin,
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
@@ -231,7 +231,7 @@ private:
             add_parts(event, FieldSums::units_of(terms), from, length);
     }
 
-    /// Shares a collision's stress among the cells on its line and both discs' species.
+    /// Divides a collision's stress among the cells on its line and among both discs' species.
     [[gnu::noinline]] void add_parts(const PairEvent& event, const ContactUnits& whole, Pair from,
                                      Pair length) {
         ContactUnits rest = whole;
@@ -261,7 +261,7 @@ private:
     }
 
     /// Calls `act` with the sums of each field, in the order of blocks_: all discs in each cell,
-    /// each species if they are apart, and the whole box.
+    /// each species if they are separate, and the whole box.
     template <class Act> void for_each_field(const FieldSums& sums, const Act& act) const {
         const auto visit = [&act](const FieldSums& of) {
             for (std::size_t cell = 0; cell < of.size(); ++cell) act(of, cell);
@@ -271,7 +271,7 @@ private:
         visit(sums.total());
     }
 
-    /// Adds the discs of a sample to the sums, and all ranks' to the means. **Collective.**
+    /// Adds this rank's discs to the sums, and those of all ranks to the means. **Collective.**
     void take_sample() {
         sums_.add_discs(sample_);
         sample_.join_discs(run_.ranks);
@@ -308,21 +308,21 @@ private:
 
     std::size_t n_x_, n_y_;
     std::uint64_t per_block_;
-    std::size_t n_kinds_; ///< 1 unless species have tables of their own
+    std::size_t n_kinds_; ///< 1 unless species have separate tables
     SpeciesTable species_;
     std::vector<DiscId> ends_; ///< the id after the last one of each species
     bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
-    std::uint64_t n_samples_ = 0; ///< this and what follows belong to the block that has begun
-    BlockHead head_;              ///< edges are sums over the samples
+    std::uint64_t n_samples_ = 0; ///< this member and the next ones belong to the unfinished block
+    BlockHead head_;              ///< its edges are sums over samples
     FieldSums sample_;            ///< the discs of the present sample, one kind after another
     FieldSums sums_;              ///< this rank's sums, in the same order
     std::vector<double> means_;   ///< sample moments of each field
-    std::vector<double> heads_;   ///< heads of blocks that have ended
+    std::vector<double> heads_;   ///< heads of finished blocks
     std::vector<double> blocks_;  ///< count and moments of each of their fields
 };
 
-/// `n` fields of each block from `first` on; a single one is the whole box and has no place.
+/// `n` fields of each block from `first` on. A single field is the whole box, without a position.
 MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
     const bool is_grid = n == n_cells() && first + n < n_fields();
     const std::string where = is_grid ? fmt::format("on a grid of {} by {} cells; x, y: their "

@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t per_sample = 7; ///< numbers of `psi6_`
+constexpr std::size_t per_sample = 7; ///< numbers of each sample in `psi6_`
 
 /// Means of the history's columns, except step and parts.
 MeasuredTable means_of(const MeasuredTable& history) {
@@ -154,10 +154,11 @@ private:
     }
 
     double largest_distance_;
-    std::vector<double> psi6_; ///< by sample: sums of real and imaginary part and
-                               ///< modulus, discs of 5, 6, 7 neighbours, discs
-    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< see HexaticSums
-    std::vector<double> products_;                           ///< see HexaticSums
+    /// For each sample: sums of real part, imaginary part and modulus, discs with 5, 6, 7
+    /// neighbours, discs
+    std::vector<double> psi6_;
+    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< as in HexaticSums
+    std::vector<double> products_;                           ///< as in HexaticSums
     VectorBlocks blocks_;                                    ///< of g6, for its errors
 };
 

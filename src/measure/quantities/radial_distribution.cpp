@@ -12,8 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// The species whose pairs are counted apart: the scene's, or a single one if discs
-/// are alike or of more than eight species.
+/// The species whose pairs are counted separately: the scene's, or a single one if discs are equal
+/// or have more than eight species.
 std::vector<Species> species_apart(const SceneParameters& scene) {
     constexpr std::size_t most = 8;
     const std::vector<Species>& species = scene.effects.species;
@@ -120,7 +120,7 @@ private:
         const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
         return n_kinds > 1 ? n_kinds + 1 : 1;
     }
-    /// Numbers of each kind, and before them those of all pairs where there are several kinds.
+    /// The numbers of each kind, preceded by those of all pairs if there are several kinds.
     std::vector<double> with_all(const std::vector<double>& of_kinds) const {
         const std::size_t n = n_bins_of(run_);
         if (of_kinds.size() == n) return of_kinds;
@@ -142,10 +142,10 @@ private:
     }
 
     double largest_distance_;
-    std::vector<std::uint64_t> pairs_; ///< by kind (pair_distances.hpp), all bins of
-                                       ///< one kind after the other
-    std::vector<double> ideal_pairs_;  ///< the pairs that discs without size would have
-    VectorBlocks blocks_;              ///< g, all curves one after the other
+    /// For each kind of pair (pair_distances.hpp) its bins, one kind after the other
+    std::vector<std::uint64_t> pairs_;
+    std::vector<double> ideal_pairs_; ///< expected pairs of discs without size
+    VectorBlocks blocks_;             ///< samples of g, all curves one after the other
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Sums are those of each wave vector, blocks those of each bin.
+/// Sums are for each wave vector, blocks for each bin.
 class StructureFactor : public WaveMeasurement {
 public:
     explicit StructureFactor(MeasuredRun& run) : WaveMeasurement(run) {

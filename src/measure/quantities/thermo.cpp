@@ -97,9 +97,10 @@ private:
     }
 
     const Measurements& others_;
-    const bool are_means_ = does_energy_jump(run_.scene.effects); ///< temperatures and energies
-    Energies before_;          ///< before effects act at the present step
-    std::vector<double> rows_; ///< by sample: energy, kT, discs, collisions of pairs
+    /// Whether temperatures and energies are means over time
+    const bool are_means_ = does_energy_jump(run_.scene.effects);
+    Energies before_;          ///< values at the present step before effects act
+    std::vector<double> rows_; ///< for each sample energy, kT, discs, collisions of pairs
     std::optional<PressureSampler> sampler_;
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "transport": shear viscosity, bulk viscosity and thermal conductivity of a gas in a periodic box.
 //
-// They follow from how the Helfand moments spread, as a coefficient of diffusion follows from
+// They follow from the spread of Helfand moments, as the coefficient of diffusion follows from
 // displacements (Viscardi and Gaspard, Phys. Rev. E 68, 041204 (2003)). A moment's change is the
 // time integral of stress, or of the heat current. Both are sums over events and nothing is
 // sampled: the integral of f over a flight is a sum of time times the change of f at collisions. So
 // the derivative of the spread is Green and Kubo's integral without an error of quadrature. Lags
 // are those of multiple_tau.hpp. Price: a pass over the discs at each sample, and some hundred
-// instructions for each collision; the memory is that of a few hundred numbers.
+// instructions for each collision; memory for a few hundred numbers.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -60,15 +60,17 @@ public:
     void take(std::span<const PairEvent> events) override {
         for (const PairEvent& event : events) {
             const double time = event.steps_since(last_step_, run_.scene.micro_steps);
-            // Velocities about the drift: their sum s does not change, and their difference is r
-            // afterwards. The discs are equal and elastic, so p gains the energy i s / 2.
+            // Velocities relative to the drift: their sum s does not change, and r is their
+            // difference after the collision. The discs are equal and elastic, so p gains the
+            // energy i s / 2.
             const double sx = event.p_vx + event.q_vx - 2 * drift_[0],
                          sy = event.p_vy + event.q_vy - 2 * drift_[1], rx = event.p_vx - event.q_vx,
                          ry = event.p_vy - event.q_vy;
             const double gained = (event.ix * sx + event.iy * sy) / 2,
-                         difference = (rx * sx + ry * sy) / 2 - 2 * gained; // p's - q's, before
-            // This is what flights lose in the rest of the time, and what goes from one centre to
-            // the other.
+                         // Difference of p and q before the collision
+                difference = (rx * sx + ry * sy) / 2 - 2 * gained;
+            // The two terms are the change of the flights' integrals over the rest of the time, and
+            // the energy that passes from one centre to the other.
             const auto sum = [&](double r, double i, double d) {
                 return -gained * d - time * (gained * r + difference * i);
             };
@@ -98,7 +100,7 @@ public:
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
-        change[trace] -= usual_trace_; // so that the fluctuations are not lost beside the mean
+        change[trace] -= usual_trace_; // because otherwise the mean would dominate the fluctuations
         temperature_ += pressure_->pressures()[3];
         pressure_->forget_pressures();
         for (std::size_t k = 0; k < n_components; ++k) change[k] += moments_[k];
@@ -143,7 +145,7 @@ private:
     /// Squares of shear (both directions), trace and heat (both axes), and the trace itself.
     static constexpr std::size_t n_values = 4;
 
-    /// Kinetic energy of a mass of 1, as seen from the centre of mass.
+    /// Kinetic energy for a mass of 1, relative to the centre of mass.
     double energy(double vx, double vy) const {
         const double x = vx - drift_[0], y = vy - drift_[1];
         return (x * x + y * y) / 2;
@@ -157,7 +159,7 @@ private:
         run_.system.engine().followers_of_pairs().add(*this);
     }
 
-    /// Compares the moments of a sample with earlier ones, and keeps them.
+    /// Compares the moments of a sample with earlier ones, and stores them.
     void note(const Moments& moments) {
         moments_ = moments;
         for (std::size_t level = levels_.size(); level < scheme_.n_levels(n_samples_); ++level) {
@@ -184,20 +186,20 @@ private:
 
     MultipleTau scheme_;
     std::optional<PressureSampler> pressure_;
-    double speed_ = 0;              ///< by which units are chosen
+    double speed_ = 0;              ///< typical speed, from which units follow
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
     std::array<ExactSum, 2> heat_;  ///< this rank's current since the last sample
     std::int64_t last_step_ = 0;    ///< step of the last sample
-    std::uint64_t n_samples_ = 0;   ///< with the first one
+    std::uint64_t n_samples_ = 0;   ///< including the first one
     double temperature_ = 0;        ///< sum over the intervals
-    double usual_trace_ = 0;        ///< about its mean change in an interval
+    double usual_trace_ = 0;        ///< subtracted mean change of the trace in an interval
     Moments moments_{};             ///< moments of the last sample; 0 at the first one
     std::vector<Level> levels_;
     std::vector<VectorBlocks> lags_;
 };
 
-/// The spread over twice the time is the mean; what it has gained since the next shorter lag, over
-/// twice that time, is the running integral of Green and Kubo.
+/// The spread divided by twice the lag is the mean. Its growth since the next shorter lag, divided
+/// by twice the difference of the lags, is the running integral of Green and Kubo.
 std::vector<MeasuredTable> Transport::tables() const {
     MeasuredTable table{
         "transport",
@@ -221,7 +223,7 @@ std::vector<MeasuredTable> Transport::tables() const {
         const double mean_trace = means[3].value;
         const std::array<double, 3> spread = {
             means[0].value, means[1].value - mean_trace * mean_trace, means[2].value};
-        // The trace's square scatters with its mean, which is taken off.
+        // The squared trace fluctuates with its mean, so that is subtracted.
         const std::array about_mean = {0.0, 1.0, 0.0, -2 * mean_trace};
         const std::array<double, 3> errors = {
             means[0].error, lags_[lag].weighted_mean(about_mean).error, means[2].error};

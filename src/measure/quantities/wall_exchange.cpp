@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "wall_exchange": the energy and the momentum along it that each side of the box gives to the
-// discs, collision by collision. Between walls of two temperatures that is the flow of heat, and
-// between walls that slide it is the shear stress.
+// "wall_exchange": the energy, and the momentum along the side, that each side of the box gives to
+// the discs, collision by collision. Between walls of two temperatures that is the flow of heat,
+// and between walls that slide it is the shear stress.
 #include <array>
 #include <string>
 
@@ -54,7 +54,7 @@ public:
 
 private:
     void clear() override {
-        // More than a run ever sums up, with a resolution of 2^-63 of a speed, or of its square.
+        // Larger than the sums of any run, with a resolution of 2^-63 of a speed, or of its square.
         since_last_ = {WallSums(speed_scale_ * speed_scale_ * 0x1p62),
                        WallSums(speed_scale_ * 0x1p62)};
     }

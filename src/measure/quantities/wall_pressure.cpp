@@ -52,7 +52,7 @@ public:
 
 private:
     void clear() override {
-        // More than a run ever sums up, with a resolution of 2^-63 of a speed.
+        // Larger than the sums of any run, with a resolution of 2^-63 of a speed.
         since_last_ = WallSums(speed_scale_ * 0x1p62);
         counts_.fill(0);
     }
@@ -90,7 +90,7 @@ private:
     }
 
     std::array<std::uint64_t, 4> collisions_{};
-    WallSums since_last_; ///< on this rank since the last sample, as all that follows
+    WallSums since_last_; ///< sums of this rank since the last sample
     std::array<std::uint64_t, 4> counts_{};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what Python gives to a simulation: scenes, checkpoints, communicators, and changed arrays.
+// Converts Python's arguments to scenes, checkpoints, communicators and changed arrays.
 #include "parts.hpp"
 
 #include <utility>
@@ -8,7 +8,7 @@ namespace carrom::python {
 
 namespace {
 
-std::shared_ptr<Session> of_process; ///< until end_session
+std::shared_ptr<Session> of_process; ///< released by end_session
 
 Options options_of(int threads, const std::shared_ptr<std::vector<std::string>>& lines) {
     return {.threads = threads,

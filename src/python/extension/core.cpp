@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module carrom._core, which carrom/simulation.py makes a class for users of.
+// The module carrom._core, which carrom/simulation.py wraps in a class for users.
 #include "parts.hpp"
 
 #include <exception>
@@ -10,7 +10,7 @@ namespace {
 
 /// Python's function (lines, exit code) that makes the exception for an error of the library.
 nb::object& error_maker() {
-    static auto* maker = new nb::object; // lives as long as the process: Python ends first
+    static auto* maker = new nb::object; // never destroyed, because Python ends first
     return *maker;
 }
 
@@ -36,7 +36,7 @@ template <class Call> auto without_lock(const Call& call) {
     return call();
 }
 
-/// A text of an array property.
+/// The docstring of an array property.
 std::string of_own_discs(const char* what) {
     return std::string(what) + "; 0 at ids of other ranks' discs.";
 }
@@ -47,7 +47,7 @@ std::vector<std::string> taken_lines(Core& core) {
     return lines;
 }
 
-/// Numbers and arrays. Arrays are new ones at each access.
+/// Adds properties for numbers and arrays. Each access makes a new array.
 void add_properties(nb::class_<Core>& core) {
     core.def_prop_ro(
             "step", [](const Core& core) { return core.simulation.step(); },

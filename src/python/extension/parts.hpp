@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the extension: a simulation of the library, and how its results become Python's.
+// The parts of the extension: a simulation of the library, and the conversion of its results to
+// Python.
 //
-// This is thin on purpose. What a user sees, its checks and its words are in carrom/simulation.py;
-// here stands what has to be C++: calls without Python's lock, arrays without a copy of rows, and
-// errors with the library's problems line by line.
+// This layer is thin on purpose. The functions that a user calls, with their checks and texts, are
+// in carrom/simulation.py. Only what needs C++ is here: calls without Python's lock, arrays without
+// a copy of rows, and errors with the library's problems line by line.
 #pragma once
 
 #include <cstdint>
@@ -23,26 +24,26 @@ namespace carrom::python {
 
 namespace nb = nanobind;
 
-/// (N, 2) or (N,) numbers of all discs, in rows as numpy has them.
+/// Numbers of all discs, of shape (N, 2) or (N,), in numpy's order of rows.
 template <class Number> using Rows = nb::ndarray<Number, nb::c_contig, nb::device::cpu>;
 using GivenPairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using GivenNumbers = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-/// A simulation with the session that it needs, and the lines that it has printed.
+/// A simulation with its session, and the lines that it has printed.
 struct Core {
-    std::shared_ptr<Session> session; ///< ends after the simulation
+    std::shared_ptr<Session> session; ///< destroyed after the simulation
     std::shared_ptr<std::vector<std::string>> lines;
     Simulation simulation;
 };
 
-/// The session of all ranks of the process, which is made at the first call; or one of the ranks of
-/// a communicator, by its Fortran number.
+/// The session of all ranks of the process, which the first call makes; or a session of the ranks
+/// of a communicator, given by its Fortran number.
 std::shared_ptr<Session> session_of(std::optional<int> communicator);
-/// Lets go of the session of all ranks: MPI ends with its last simulation. A forked process leaves
-/// MPI as it is, because it is its parent's.
+/// Releases the session of all ranks, so that MPI ends with its last simulation. A forked process
+/// does not end MPI, because it belongs to the parent.
 void end_session(bool is_forked);
 
-/// A new array of numpy, which owns its numbers.
+/// A new numpy array that owns its numbers.
 template <class Number> nb::object new_array(std::vector<std::size_t> shape, Number*& numbers) {
     std::size_t size = 1;
     for (const std::size_t length : shape) size *= length;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a simulation to what Python gets: dictionaries and arrays of numpy.
+// Converts a simulation's results to Python's dictionaries and numpy's arrays.
 #include "parts.hpp"
 
 namespace carrom::python {

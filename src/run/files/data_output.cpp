@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// Pipes carry on without a name, so they do not count.
+/// Whether a file has a name that others can remove. Pipes do not.
 bool is_named_file(int file) {
     struct stat status{};
     return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink > 0;
@@ -50,8 +50,8 @@ void DataOutput::flush() {
         if (written >= 0) {
             next += written;
             left -= static_cast<std::size_t>(written);
-        } else if (errno ==
-                   EAGAIN) { // another process made the pipe non-blocking: wait until there is room
+        } else if (errno == EAGAIN) { // if another process made the pipe non-blocking, waits until
+                                      // there is space
             pollfd room{file_, POLLOUT, 0};
             ::poll(&room, 1, -1);
         } else if (errno != EINTR) {
@@ -69,7 +69,7 @@ void DataOutput::close() {
 }
 
 WriteProblem write_problem_of_stream(const std::string& path) {
-    // To open and close a pipe would be the end of the file for a reader that waits already.
+    // Opening and closing a pipe would be the end of the file for a reader that already waits.
     if (struct stat status{}; ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode))
         return ::access(path.c_str(), W_OK) == 0 ? WriteProblem{}
                                                  : write_problem("cannot be written", errno);

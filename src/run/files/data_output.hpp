@@ -17,8 +17,8 @@ namespace carrom {
 
 class DataOutput {
 public:
-    /// Opens the file and empties it; standard output if `path` is empty. From here on
-    /// a closed pipe is an error of `flush`, and does not end the process.
+    /// Opens the file and empties it; standard output if `path` is empty. From then on writing to a
+    /// closed pipe is an error of `flush`, and does not end the process.
     explicit DataOutput(const std::string& path);
     ~DataOutput();
     DataOutput(const DataOutput&) = delete;
@@ -30,8 +30,8 @@ public:
     void flush_if_full();
     void flush();
 
-    /// Some file systems report a full disk only when a file is closed. A file that was removed
-    /// meanwhile is a failure too. Nothing may be written after this.
+    /// Closes the file. Nothing may be written after this. Some file systems report a full disk
+    /// only now. It is also a failure if the file was removed meanwhile.
     void close();
 
     /// The first failure, or empty. After a failure nothing more is written.
@@ -49,8 +49,8 @@ private:
     std::string failure_;
 };
 
-/// The problem that would keep a DataOutput from opening `path`, as far as it can be
-/// known. Leaves the file as it is.
+/// The problem that would keep a DataOutput from opening `path`, if it can be known. Does not
+/// change the file.
 WriteProblem write_problem_of_stream(const std::string& path);
 
 } // namespace carrom

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Also if files do not exist yet, and through links and other spellings.
+/// Also recognises files that do not exist yet, links and other spellings of a path.
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error)) return true;
@@ -29,7 +29,7 @@ bool is_special(const std::string& path) {
            !std::filesystem::is_directory(status);
 }
 
-/// Text is written in place, so it would be behind all names.
+/// Text is written in place, so all hard links of the file would change.
 bool has_other_names(const std::string& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error) &&
@@ -55,7 +55,7 @@ bool may_replace(Output output, FileContent content) {
     }
 }
 
-/// The reason against an output, apart from those of other outputs and of what is read.
+/// The problem of an output by itself, without regard to other outputs and to files that are read.
 std::string reason_against(const Destination& target, const std::string& own_folder) {
     if (target.kind == Output::of_folder) return {};
     if (target.kind == Output::folder) {
@@ -88,7 +88,7 @@ std::vector<Problem> problems_with(const std::vector<Destination>& destinations,
             continue;
         }
         const std::size_t n_before = problems.size();
-        for (const NamedFile& source : sources) // a restart names its own folder
+        for (const NamedFile& source : sources) // because a restart names its own folder
             if (target.kind != Output::folder && is_same_file(target.path, source.path))
                 refuse(fmt::format("is {} itself", source.name));
         for (std::size_t other = 0; other < k; ++other)

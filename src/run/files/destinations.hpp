@@ -2,8 +2,8 @@
 // The one place that decides what may be written where. Every output of every subcommand that a
 // user names is checked here, before anything is opened for writing, so that nothing is lost.
 //
-// An output must not be a file that is read, nor another output, nor a file that a run or replicas
-// own (owned_files.hpp), nor replace a file that holds something else than the output does.
+// An output must not be a file that is read, another output, or a file that a run or replicas own
+// (owned_files.hpp). It must not replace a file with another kind of content.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace carrom {
 
-/// A file that is read, and what names it, for example "the scene".
+/// A file that is read, and what refers to it, for example "the scene".
 struct NamedFile {
     std::string name;
     std::string path;
@@ -21,23 +21,25 @@ struct NamedFile {
 
 /// How an output is written, which decides what it may replace.
 enum class Output {
-    text,     ///< in place, so a pipe or a terminal is allowed; replaces texts
-    report,   ///< as a whole; replaces reports
-    table,    ///< a new file of CSV
-    scene,    ///< as a whole, with a name that only this program gives; replaces scenes and discs
+    text,   ///< written in place, so it may be a pipe or a terminal; replaces texts
+    report, ///< written as a whole; replaces reports
+    table,  ///< a new file of CSV
+    /// Written as a whole; a scene, or discs, which this program has named; replaces scenes and
+    /// discs
+    scene,
     folder,   ///< a folder of a run or of replicas
     of_folder ///< a file of the run's own folder, which the run may replace
 };
 
-/// An output, and what names it, for example "--output".
+/// An output, and what refers to it, for example "--output".
 struct Destination {
     std::string name;
     std::string path;
     Output kind = Output::text;
 };
 
-/// The problems of these destinations; `sources` are files that are read. `own_folder` is that of
-/// the run at hand, or empty.
+/// The problems of these destinations. `sources` are files that are read; `own_folder` is the
+/// folder of the present run, or empty.
 std::vector<Problem> problems_with(const std::vector<Destination>& destinations,
                                    const std::vector<NamedFile>& sources,
                                    const std::string& own_folder = {});

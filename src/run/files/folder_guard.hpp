@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ends a run whose folder was moved, removed or replaced while the run wrote there.
 //
-// Files are opened by their paths, so the run would go on in whatever has taken the folder's name:
-// another run's folder, say, or an empty one under a mount that is gone. Its lock, which stays
-// open, shows this. Price: two calls of the system and a reduction for each stretch of steps, in
-// runs with a folder.
+// Files are opened by their paths, so the run would otherwise continue in any folder that has taken
+// the name, such as another run's folder, or an empty one under a mount that is gone. The open lock
+// file shows that. Price: two system calls and a reduction for each stretch of steps, in runs with
+// a folder.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@
 
 namespace carrom {
 
-/// The first action of a run, so that no other one writes before it has looked.
+/// The first action of a run, so that no other action writes before the test of the folder.
 class FolderGuard : public StepAction {
 public:
-    /// `locks` are rank 0's. All arguments must outlive this.
+    /// `locks` are those of rank 0. All arguments must outlive this.
     FolderGuard(std::span<const WriteLock> locks, const SceneParameters& scene,
                 const Communicator& ranks)
         : locks_(locks), scene_(scene), ranks_(ranks) {}
@@ -29,7 +29,7 @@ public:
     std::int64_t next_due(std::int64_t) const override {
         return std::numeric_limits<std::int64_t>::max();
     }
-    /// If the folder is not the run's own any more, every rank throws CollectiveError, code 4.
+    /// If the folder is no longer the run's, every rank throws CollectiveError, code 4.
     /// **Collective.**
     bool act() override {
         commit();

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* folder_key = "output.folder";
 
-/// The problem that would keep a folder from being made; does not make it.
+/// The problem that would keep a folder from being made. Does not make it.
 WriteProblem write_problem_of_new_folder(const std::string& folder) {
     std::error_code ignored;
     std::filesystem::path place = std::filesystem::absolute(folder, ignored);
@@ -34,7 +34,7 @@ WriteProblem write_problem_of_new_folder(const std::string& folder) {
     return write_problem("cannot be made in " + place.string(), errno);
 }
 
-/// The problem in the folder that keeps the run from writing there.
+/// The problem in the folder because of which the run cannot write there.
 std::string problem_in_folder(const RunOptions& options, const SceneParameters& scene) {
     const std::string& folder = scene.folder;
     std::error_code ignored;
@@ -72,8 +72,8 @@ WriteLock locked(const std::string& folder, PlaceProblems& found) {
     return lock;
 }
 
-/// Makes and locks nothing without `locks`. With `locks` it adds to them, and only if
-/// there are no problems.
+/// If `locks` is null, makes and locks nothing. Otherwise adds locks to it if there are no
+/// problems.
 void check_places(PlaceProblems& found, const RunOptions& options, const SceneParameters& scene,
                   const std::vector<NamedFile>& sources, std::vector<Destination> destinations,
                   std::vector<WriteLock>* locks) {

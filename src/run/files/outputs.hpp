@@ -15,8 +15,8 @@
 
 namespace carrom {
 
-/// Problems of places to write to. `failures` are those of disks and rights, if the
-/// place itself could be right.
+/// Problems of paths to write to. `failures` are problems of the disk or of rights, where the path
+/// itself may be correct.
 struct PlaceProblems {
     std::vector<Problem> problems, failures;
 
@@ -28,22 +28,22 @@ struct PlaceProblems {
     void agree(const Communicator& ranks) const;
 };
 
-/// Throws InputError on every rank if the run cannot have its folder, or if it would
-/// write to `sources`, which are read, or to one place twice; `others` are its other
-/// outputs. CollectiveError, code 4, if the place is right and the disk refuses. Makes
-/// the folder. Rank 0's lock must live as long as the run writes. **Collective.**
+/// Throws InputError on every rank if the run cannot use its folder, or if it would write to
+/// `sources`, which are read, or twice to one path; `others` are its other outputs. Throws
+/// CollectiveError, code 4, if the paths are correct but the disk fails. Makes the folder. The
+/// locks of rank 0 must live as long as the run writes. **Collective.**
 std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParameters& scene,
                                      const std::vector<NamedFile>& sources,
                                      const std::vector<Destination>& others,
                                      const Communicator& ranks);
 
-/// The problems of a run that will not begin, so that all are printed at once. Makes
-/// nothing, locks nothing.
+/// The problems of the outputs of a run that cannot begin for other reasons, so that all problems
+/// are printed at once. Makes and locks nothing.
 std::vector<Problem> problems_of_outputs(const RunOptions& options, const SceneParameters& scene,
                                          const std::vector<NamedFile>& sources);
 
-/// Prepares the folder of a run that is sure to begin. A run that starts at its
-/// beginning has the folder for itself. **Collective.**
+/// Prepares the folder of a run that will certainly begin. If the run starts at step 0, older files
+/// of a run in the folder are removed. **Collective.**
 void prepare_outputs(const SceneParameters& scene, bool begins_anew, const Communicator& ranks);
 
 } // namespace carrom

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without links, as far as the path exists.
+/// The path without links, as far as it exists.
 fs::path canonical(const fs::path& path) {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
@@ -49,7 +49,7 @@ bool is_replicas_folder(const fs::path& folder) {
     return is_run_folder(folder / name_of_replica(0));
 }
 
-/// The run's folder that has `path` in one of its subfolders, or is empty.
+/// The folder of the run that has `path` in one of its subfolders, or an empty path.
 fs::path run_around(const fs::path& path, const std::string& own_folder) {
     for (fs::path place = path; place.has_relative_path(); place = place.parent_path()) {
         const fs::path folder = place.parent_path();
@@ -77,7 +77,8 @@ std::string owner_of_spelling(const fs::path& path, const std::string& own_folde
     return {};
 }
 
-/// Tables of measurements and of accuracy, which begin with a line of their name or columns.
+/// Whether a text begins like tables of measurements and of accuracy: with the table's name or the
+/// columns.
 bool begins_as_table(std::string_view text) {
     const std::string_view line = text.substr(0, text.find('\n'));
     const bool is_measured = line.starts_with("# ") && line.find(": ") != std::string_view::npos;
@@ -87,7 +88,7 @@ bool begins_as_table(std::string_view text) {
 } // namespace
 
 std::string owner_of_file(const std::string& path, const std::string& own_folder) {
-    // A report replaces a link, and text is written behind it: both places may be a run's.
+    // A report replaces a link, and text is written to its target. Both may belong to a run.
     const fs::path behind = canonical(path),
                    named = canonical(folder_of(path)) / fs::path(path).filename();
     const std::string owner = owner_of_spelling(behind, own_folder);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which files belong to a run or to replicas, and what an existing file holds. Outputs that a user
-// names are checked against both (destinations.hpp), so that no run loses a file to another output.
+// Which files belong to a run or to replicas, and the kind of content of an existing file. Outputs
+// that a user names are checked against both (destinations.hpp), so that no run loses a file to
+// another output.
 //
-// A run owns by folder: everything below its subfolders, whatever its name, and its own files
-// beside them. Links are followed, because an output would be written behind them.
+// A run owns everything below its subfolders, and its own files beside them. Links are followed,
+// because an output would be written to their target.
 #pragma once
 
 #include <string>
@@ -11,20 +12,20 @@
 namespace carrom {
 
 /// The owner of a path, as in "a file of the run in FOLDER"; empty if there is none. `own_folder`
-/// is that of the run at hand, which may not have begun; it may be empty.
+/// is the folder of the present run, which may not have begun; it may be empty.
 std::string owner_of_file(const std::string& path, const std::string& own_folder);
 
-/// The owner of the folder that a path lies in, if only the owner may make files there: a folder
-/// of a run below that of checkpoints, recordings or tables.
+/// The owner of the folder that contains a path, if only the owner may make files there. Such
+/// folders are those of a run for checkpoints, recordings or tables.
 std::string owner_of_folder(const std::string& path);
 
-/// Whether a run in `folder` has the path in one of its subfolders, whose files it may remove.
+/// Whether the path is in a subfolder of a run in `folder`, whose files the run may remove.
 bool is_in_subfolder_of_run(const std::string& path, const std::string& folder);
 
 enum class FileContent { nothing, hdf5, report, scene, table, other };
 
-/// What an existing plain file holds: scenes and discs by the ends of their names, other files by
-/// their first bytes. Files that are missing, empty or unreadable hold nothing.
+/// The kind of content of an existing plain file: scenes and discs by the suffixes of their names,
+/// other files by their first bytes. Files that are missing, empty or unreadable have no content.
 FileContent content_of(const std::string& path);
 
 } // namespace carrom

@@ -27,19 +27,20 @@ int write_all(int file, const std::string& text) {
     return 0;
 }
 
-/// Without this a crash may take the new name back. Returns 0 or an errno.
+/// Without this a crash may undo the rename. Returns 0 or an errno.
 int sync_folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const int file = ::open(folder.empty() ? "." : folder.c_str(),
                             O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return errno == EACCES ? 0 : errno; // writing there needs no right to read
+    // Because writing there does not need the right to read
+    if (file < 0) return errno == EACCES ? 0 : errno;
     const int error = ::fsync(file) != 0 && errno != EINVAL ? errno : 0;
     ::close(file);
     return error;
 }
 
-/// A new file beside another one, removed unless it is renamed. Its name is unused,
-/// and no link is followed. If `number` is negative, `errno` has the reason.
+/// A new file beside another one, removed unless it is renamed. Its name is new, and links are not
+/// followed. If `number` is negative, `errno` has the reason.
 class FileBeside {
 public:
     explicit FileBeside(const std::string& path) {
@@ -83,7 +84,7 @@ WriteProblem write_problem_of_file(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) return {"is a directory; name a file"};
-    // A rename would put a plain file in the place of a device or a pipe.
+    // A rename would replace a device or a pipe by a plain file.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return {"is not a plain file"};
     const FileBeside file(path);
@@ -106,7 +107,7 @@ int append_whole(const std::string& path, const std::string& text, bool is_new) 
     struct stat status{};
     int error = ::fstat(file, &status) != 0 ? errno : S_ISREG(status.st_mode) ? 0 : ESPIPE;
     if (error == 0) error = write_all(file, text);
-    if (error != 0 && S_ISREG(status.st_mode)) // leaves no half line
+    if (error != 0 && S_ISREG(status.st_mode)) // so that no incomplete line remains
         static_cast<void>(::ftruncate(file, status.st_size));
     if (::close(file) != 0 && error == 0) error = errno;
     return error;

@@ -47,8 +47,8 @@ bool is_there(const std::string& path) {
     return fs::symlink_status(path, error).type() != fs::file_type::not_found;
 }
 
-/// Whether a recording has nothing after step 0, which the next run records again. A
-/// recording that cannot be read may have anything.
+/// Whether a recording has no steps after 0; the next run would record the same. A recording that
+/// cannot be read may have any steps.
 bool is_of_start(const std::string& path) {
     try {
         const FileSummary summary = FrameFile(path).summary();
@@ -60,7 +60,7 @@ bool is_of_start(const std::string& path) {
     }
 }
 
-/// Whether a table has one line of names and at most one row, that of the first sample.
+/// Whether a table has a line of names and at most the row of the first sample.
 bool has_rows_of_start(const fs::path& path) {
     std::ifstream file = open_plain_file(path);
     std::size_t n_lines = 0;
@@ -102,8 +102,8 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
     return {};
 }
 
-/// The settings that a copy of the scene lists in its first lines: those of `--set`, and where
-/// files are, because the copy is in another folder.
+/// The settings that a copy of the scene lists in its first lines: those of `--set`, and the paths
+/// of files, because the copy is in another folder.
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
     std::erase_if(overrides,
@@ -163,7 +163,8 @@ std::string recorded_beyond_start(const std::string& folder) {
         if (error) return name;
         return found.empty() ? found : fmt::format("{}/{}", name, found);
     };
-    // A recording is joined by its file before it has a segment, so this file was lost.
+    // The joining file is made before the first segment. So if there are only segments, the file
+    // was lost.
     for (const char* name : {"trajectory", "collisions"}) {
         if (is_there(in(folder, name + std::string(".h5")))) continue;
         if (std::string found = found_in(name, is_segment); !found.empty()) return found;
@@ -229,11 +230,11 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
         std::string skipped;
         for (std::size_t k = 0; k < overrides.size(); ++k) std::getline(file, skipped);
         SceneText text = read_scene_text(file, path);
-        text.discs_follow = scene.discs_follow; // the copy does not have the discs
+        text.discs_follow = scene.discs_follow; // because the copy does not contain the discs
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
         SceneParameters there = read_scene(text, overrides), here = scene;
-        there.discs_file = here.discs_file; // relative to another folder
+        there.discs_file = here.discs_file; // it is relative to another folder
         for (SceneParameters* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
         if (there.awaits_frozen() && !here.frozen.empty())

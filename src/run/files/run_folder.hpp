@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of a run: all its files (docs/reference/formats.md), and a copy of its
-// scene, from which it can go on.
+// The folder of a run: all its files (docs/reference/formats.md), and a copy of its scene, from
+// which it can be continued.
 //
-// One lock lets one run write there at a time. A run that begins anew needs a folder
-// without a run. Rank 0 makes all these calls.
+// A lock ensures that only one run writes there at a time. A run from step 0 needs a folder without
+// a run. Rank 0 makes all these calls.
 #pragma once
 
 #include <cstdint>
@@ -15,36 +15,37 @@
 
 namespace carrom {
 
-/// The name of the lock in the folder of a run that is writing there.
+/// The name of the lock file in the folder of a run that is writing there.
 inline constexpr const char* lock_of_run = ".carrom.lock";
 
-/// Whether a run keeps files in a subfolder of this name.
+/// Whether runs use a subfolder of this name.
 bool is_subfolder_of_run(std::string_view name);
-/// The name of replica `k`'s folder of a run.
+/// The name of the folder of replica `k`.
 std::string name_of_replica(std::int64_t k);
 
-/// The files in the folder itself.
+/// The files of a run that are directly in the folder.
 std::vector<std::string> files_of_run(const std::string& folder);
 std::string report_of_run(const std::string& folder);
 std::string checkpoints_of_run(const std::string& folder);
 
-/// The name of a file that a run has written there; empty if there is none.
+/// The name of any file there that a run has written; empty if there is none.
 std::string trace_of_run(const std::string& folder);
 
-/// The name of a file that a run has written there after step 0; empty if there is
-/// none. Files that cannot be read count.
+/// The name of a file there that a run has written after step 0; empty if there is none. A file
+/// that cannot be read counts as one.
 std::string recorded_beyond_start(const std::string& folder);
 
-/// Describes a file of somebody else that a table of the scene may replace; empty if there is none.
+/// Describes a file of another program that a table of the scene would replace; empty if there is
+/// none.
 std::string problem_with_tables(const SceneParameters& scene);
 
-/// Describes why a copy of the scene could not be read again; empty if it can.
+/// Describes why a copy of the scene could not be read; empty if it can be read.
 std::string problem_with_copy(const SceneParameters& scene);
 
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
 
-/// The settings on top of the text of a copy; nothing for other files.
+/// The settings on top of the scene's text in a copy; empty for other files.
 std::vector<std::string> overrides_of_copy(const std::string& path);
 
 /// Describes the difference between the folder's run and the scene; empty if there is
@@ -55,7 +56,7 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
 /// and all files behind symbolic links.
 void remove_run(const std::string& folder);
 
-/// Describes what keeps `remove_run` from removing all that it should; empty if nothing does.
+/// Describes why `remove_run` cannot remove all files; empty if it can.
 std::string problem_of_removal(const std::string& folder);
 
 /// Makes the folders and writes the copy of the scene. Throws FileError.

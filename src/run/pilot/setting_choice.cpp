@@ -16,23 +16,24 @@ namespace {
 
 constexpr double approach = 10;         ///< collisions of a disc before a trial measures
 constexpr double certainty = 2;         ///< standard errors that are added to a measured error
-constexpr double most_collisions = 4e6; ///< pairs, per trial
+constexpr double most_collisions = 4e6; ///< of pairs, in a trial
 constexpr double least_accuracy = 4 * certainty /
-                                  2000;   ///< four times the error that 4e6 collisions resolve
-constexpr double per_disc = 100;          ///< collisions of a disc per trial at least, because
-                                          ///< errors in dense gases show late
-constexpr double fewest_collisions = 2e4; ///< pairs: fewer are too short to be timed ...
+                                  2000; ///< four times the error that 4e6 collisions resolve
+/// Collisions of a disc in a trial, at least, because errors in dense gases show late
+constexpr double per_disc = 100;
+constexpr double fewest_collisions = 2e4; ///< of pairs; shorter trials cannot be timed ...
 constexpr double long_enough =
-    2e4; ///< ... unless it has this many disc-steps, or this many steps, however few discs meet
+    2e4; ///< ... unless the trial has at least this many disc-steps or steps
 constexpr double long_enough_steps = 1e3;
 constexpr double long_trial =
     0.02; ///< seconds after which a setting may be dropped before its trial ends ...
 constexpr double timed_enough =
-    0.2; ///< ... and after which it may be called slow, because starts take time, too
+    0.2; ///< ... and after which it may be called slow, because the beginning takes time, too
 constexpr double steady =
-    1.2; ///< overlaps have not settled if they grow by more than this between stretches
+    1.2; ///< overlaps are not steady if they grow by more than this between stretches
 constexpr std::array<int, 5> stretches = {1, 1, 2, 4,
-                                          8}; ///< the stretches of a trial, in sixteenths
+                                          /// Lengths of the stretches of a trial, in sixteenths
+                                          8};
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
 struct Choice {
@@ -40,7 +41,7 @@ struct Choice {
     std::string reason;
 };
 
-/// The number of pair collisions for which an error of `accuracy` exceeds the noise of two trials.
+/// The number of pair collisions at which an error of `accuracy` exceeds the noise of two trials.
 double collisions_needed(double accuracy) {
     return std::min(most_collisions, std::pow(4 * certainty / accuracy, 2));
 }
@@ -88,12 +89,12 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
     return trials;
 }
 
-/// The results of a setting so far.
+/// The results of trials of a setting so far.
 struct Experience {
-    TrialError error;                          ///< in its last stretch
-    double seconds = 0, reference_seconds = 0; ///< so far; the latter by the event-driven method
-    bool is_whole = false;                     ///< false if the error was too large before the end
-    bool grows = false; ///< overlaps become more and more, and errors with them
+    TrialError error;                          ///< error in its last stretch
+    double seconds = 0, reference_seconds = 0; ///< time so far, and that of the event-driven method
+    bool is_whole = false; ///< false if the error was too large before the trial's end
+    bool grows = false;    ///< overlaps keep growing, and errors with them
 };
 
 /// Whether overlaps increase by more than chance explains.
@@ -130,7 +131,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     const std::vector<Trial> exact = run_event_driven(pilot);
     double steps = 0;
     for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
-    bool was_slower = false; // a number of micro-steps may be slower than twice as many
+    bool was_slower = false; // a number of micro-steps may be slower than twice that number
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{Method::time_stepped, k};
         const Experience found = try_setting(pilot, setting, exact, accuracy);
@@ -155,7 +156,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     return {all, "method = \"event-driven\": no number of micro-steps is good enough"};
 }
 
-/// Throws InputError with a way out.
+/// Throws an InputError with advice.
 TrialStart start_of_pilot(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                           const Communicator& communicator, const Tuning& tuning) {
     try {
@@ -173,8 +174,9 @@ TrialStart start_of_pilot(const SceneParameters& scene, const std::vector<InputD
 
 double TrialError::largest() const { return std::max(std::fabs(frequency), std::fabs(pressure)); }
 
-/// Pressures differ at most like the second part of the virial. A count of n has an error
-/// of at most sqrt(n), because collisions of hard discs are more regular than chance.
+/// The statistical error is that of the number of collisions, because pressures fluctuate at most
+/// as much. A count of n has an error of at most sqrt(n), because collisions of hard discs are more
+/// regular than chance.
 TrialError error_of(const Trial& trial, const Trial& exact) {
     const auto pairs = [](const Trial& t) {
         return static_cast<double>(std::max<std::uint64_t>(1, t.totals.pair_collisions));

@@ -15,7 +15,8 @@ namespace carrom {
 namespace {
 
 constexpr std::int64_t unlimited_steps = std::int64_t{1} << 40;
-constexpr std::int64_t longest_approach = 1 << 20; ///< the most steps that discs get to meet
+/// The most steps until discs must have collided
+constexpr std::int64_t longest_approach = 1 << 20;
 
 /// CPU time of all threads of this process, so other programs on the machine do not count.
 double process_seconds() {
@@ -60,7 +61,7 @@ TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputD
     double done = 0, before = 0;
     std::int64_t from = 0;
     for (std::int64_t step = 1; done < wanted;
-         step *= 2) { // the last half or more of the way gives the frequency
+         step *= 2) { // the last half or more of the steps gives the frequency
         if (step > longest_approach)
             throw InputError(
                 {{scene.name, 0,

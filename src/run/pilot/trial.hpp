@@ -30,16 +30,15 @@ struct RunSetting {
 /// The scene with that setting.
 SceneParameters with_setting(SceneParameters scene, const RunSetting& setting);
 
-/// Discs in equilibrium by the event-driven method, from which trials start.
+/// Discs in equilibrium, made by the event-driven method, from which trials start.
 struct TrialStart {
-    std::vector<InputDisc> discs; ///< this rank's
+    std::vector<InputDisc> discs; ///< discs of this rank
     StateHash hash;
     double frequency = 0; ///< collisions with other discs per disc and step
 };
 
-/// Runs `discs` under the event-driven method until a disc has had
-/// `collisions_per_disc` with others, on average. Throws InputError if discs overlap
-/// or hardly meet. **Collective.**
+/// Runs `discs` under the event-driven method until discs have had `collisions_per_disc` with
+/// others, on average. Throws InputError if discs overlap or hardly collide. **Collective.**
 TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputDisc> discs,
                                 double collisions_per_disc, const Communicator& communicator,
                                 const Tuning& tuning);
@@ -48,10 +47,10 @@ TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputD
 struct Trial {
     std::int64_t steps = 0;
     Averages averages;
-    Totals totals;                         ///< at its end
-    double overlapping_pairs_per_disc = 0; ///< pairs that a disc takes part in; mean of samples
-    double deepest_overlap = 0;            ///< over all samples, in diameters
-    double core_seconds = 0;               ///< time of stepping, over all ranks and threads
+    Totals totals;                         ///< at the trial's end
+    double overlapping_pairs_per_disc = 0; ///< overlaps of a disc at once, averaged over samples
+    double deepest_overlap = 0;            ///< deepest overlap of all samples, in diameters
+    double core_seconds = 0;               ///< time of stepping, summed over all ranks and threads
     double wall_seconds = 0;               ///< time of stepping, on the slowest rank
     std::vector<InputDisc> early; ///< this rank's discs at `early_step`, by id; empty if it is 0
 };
@@ -61,8 +60,8 @@ std::vector<InputDisc> discs_now(const DiscSystem& system);
 
 struct TrialLength {
     std::int64_t steps = 1;
-    std::int64_t early_step = 0; ///< the step at which places are kept, or 0
-    int n_samples = 16;          ///< samples of overlaps
+    std::int64_t early_step = 0; ///< the step at which positions are stored, or 0
+    int n_samples = 16;          ///< number of samples of overlaps
 };
 
 /// **Collective.**

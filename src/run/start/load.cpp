@@ -21,7 +21,8 @@ namespace carrom {
 
 namespace {
 
-/// The course program's own scenes are as fast. **Collective.**
+/// Warns of probably wrong units. Scenes of the course program have such speeds, so they get no
+/// warning. **Collective.**
 void warn_of_units(const RunOptions& options, const SceneParameters& scene,
                    const std::vector<InputDisc>& discs, const Communicator& ranks) {
     if (scene.lines_before_discs > 0) return;
@@ -34,8 +35,8 @@ void warn_of_units(const RunOptions& options, const SceneParameters& scene,
     if (!warning.empty()) options.messages.warn("{}: warning: {}\n", scene.name, warning);
 }
 
-/// Nobody sees where random insertion puts discs; listed ones are where their author wants them.
-/// **Collective.**
+/// Warns of closed regions after random insertion, because nobody sees where it puts discs. Listed
+/// discs are where their author wants them. **Collective.**
 void warn_of_closed_regions(const RunOptions& options, const SceneParameters& scene,
                             const std::vector<InputDisc>& discs, const Communicator& ranks) {
     if (scene.generator != Generator::random) return;
@@ -54,17 +55,18 @@ void go_on(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     if (start) loaded.start = std::move(*start);
 }
 
-/// Claims the outputs, and reads a checkpoint that came while nobody held the lock. **Collective.**
+/// Claims the outputs, and reads a checkpoint that was written while nobody had the lock.
+/// **Collective.**
 void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;
     try {
         if (!loaded.start.stored) check_memory(loaded.scene, ranks);
         loaded.locks = claim_outputs(options, loaded.scene, files_read_for(options, loaded.scene),
                                      outputs_named_by(options), ranks);
-        // The last ranks of a run that was killed may have stored more before they ended.
+        // The last ranks of a killed run may have stored more before they ended.
         if (has_other_checkpoints(plan.restart, ranks)) {
             options.messages.note("another checkpoint has come meanwhile\n");
-            loaded.start.stored.reset(); // its memory is needed
+            loaded.start.stored.reset(); // because its memory is needed
             go_on(plan, loaded, ranks);
         }
         if (plan.restart.goes_on() && !loaded.start.stored)
@@ -78,8 +80,7 @@ void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     }
 }
 
-/// Makes the first discs, unless the run goes on, and warns of what is odd about the scene.
-/// **Collective.**
+/// Makes the first discs unless the run continues, and warns of doubtful scenes. **Collective.**
 void make_discs(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;
     SceneParameters& scene = loaded.scene;
@@ -105,7 +106,7 @@ Loaded carry_out(StartPlan plan, const Communicator& ranks) {
     loaded.scene = std::move(plan.scene);
     go_on(plan, loaded, ranks);
     if (plan.restart.goes_on()) {
-        std::vector<Problem> missing; // if the library wrote the checkpoint: its scenes need none
+        std::vector<Problem> missing; // ignored, because scenes of the library need no folder
         check_folder(loaded.scene, missing);
         if (!missing.empty()) throw InputError(missing);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Carries out the plan of how a run begins: reads the checkpoint or makes the first discs, and
-// claims the outputs. All errors of the input show here or in the plan.
+// claims the outputs. All errors of the input are found here or in the plan.
 #pragma once
 
 #include <vector>
@@ -19,11 +19,11 @@ namespace carrom {
 struct Loaded {
     SceneParameters scene;
     RunStart start;
-    std::vector<WriteLock> locks; ///< rank 0's, on all outputs
+    std::vector<WriteLock> locks; ///< locks of rank 0 on all outputs
 };
 
-/// Throws InputError on every rank with the problems of the checkpoint to go on from, of the
-/// outputs' places, or of the lines of discs. Rank 0 prints the scene's warnings. **Collective.**
+/// Throws InputError on every rank with the problems of the checkpoint, of the outputs' paths, or
+/// of the lines of discs. Rank 0 prints the scene's warnings. **Collective.**
 Loaded carry_out(StartPlan plan, const Communicator& ranks);
 
 /// Plans the start of a run, and carries the plan out. **Collective.**

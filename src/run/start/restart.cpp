@@ -30,7 +30,7 @@ std::string place_of(const RunOptions& options) {
     throw InputError({{place_of(options), 0, text}});
 }
 
-/// Whether the newest checkpoint of the run's own folder is wanted.
+/// Whether the newest checkpoint of the run's own folder is used.
 bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
 
 /// The folder of the run itself.
@@ -42,8 +42,8 @@ std::string own_folder(const RunOptions& options, const SceneParameters& scene) 
                                             "or -o");
 }
 
-/// The folder that `--restart` names, or the checkpoints in that folder of a run; empty if it names
-/// a file. **Collective.**
+/// The folder that `--restart` names, or its subfolder of checkpoints if it is the folder of a run;
+/// empty if it names a file. **Collective.**
 std::string named_folder(const RunOptions& options, const Communicator& ranks) {
     std::string folder;
     std::error_code ignored;
@@ -55,8 +55,8 @@ std::string named_folder(const RunOptions& options, const Communicator& ranks) {
     return folder;
 }
 
-/// Checkpoints of a folder whose names have steps before `end`, newest first, the same
-/// on every rank. **Collective.**
+/// Checkpoints of a folder for steps before `end`, newest first, the same on every rank.
+/// **Collective.**
 std::vector<std::string> candidates_in(
     const std::string& folder, const Communicator& ranks,
     std::int64_t end = std::numeric_limits<std::int64_t>::max()) {
@@ -72,8 +72,8 @@ std::vector<std::string> candidates_in(
     return paths;
 }
 
-/// Reads the checkpoint, and fills in the scene if there is none yet. Throws if the
-/// checkpoint is not of that scene's run.
+/// Reads the checkpoint, and sets the scene if there is none yet. Throws if the checkpoint does not
+/// belong to the scene's run.
 Checkpoint read_matching(const std::string& path, const RunOptions& options, SceneParameters& scene,
                          const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
@@ -94,7 +94,7 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     return checkpoint;
 }
 
-/// The problems on one line, without their places, because there is only one place.
+/// The problems on one line, without their place, which is the same for all.
 std::string reasons(const InputError& error) {
     std::string text;
     for (const Problem& problem : error.problems())
@@ -102,7 +102,7 @@ std::string reasons(const InputError& error) {
     return text;
 }
 
-/// The newest of the candidates that is undamaged and of this run. **Collective.**
+/// The newest undamaged candidate of this run. **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
                                       const RunOptions& options, SceneParameters& scene,
                                       const Communicator& ranks) {

@@ -11,12 +11,12 @@
 
 namespace carrom {
 
-/// Discs are in any distribution over the ranks.
+/// Discs have any distribution over the ranks.
 struct RunStart {
-    std::vector<InputDisc> discs{};      ///< for a run from step 0
-    std::optional<StoredState> stored{}; ///< the state that a restart goes on from
-    StoredSamples samples{};             ///< the measurements that it goes on with
-    bool counts_images = false;          ///< also where no trajectory shows them
+    std::vector<InputDisc> discs{};      ///< initial discs of a run from step 0
+    std::optional<StoredState> stored{}; ///< the state from which a restart continues
+    StoredSamples samples{};             ///< the measurements that a restart continues
+    bool counts_images = false;          ///< count images even if no trajectory contains them
 };
 
 } // namespace carrom

@@ -24,7 +24,8 @@ namespace {
 using Problems = std::vector<Problem>;
 
 /// Returns the problems of the InputError that `read` throws, if it does. Rank 0 may find problems
-/// that others do not know of yet, so the exception must not leave before all ranks have agreed.
+/// that other ranks do not have yet, so the exception must not leave this function before all ranks
+/// have agreed.
 template <class Read> Problems problems_of(const Read& read) {
     try {
         read();
@@ -34,8 +35,8 @@ template <class Read> Problems problems_of(const Read& read) {
     return {};
 }
 
-/// Whether discs come from `discs.from`. Beside a file or a list of discs it is a problem of the
-/// scene, and the discs of neither are read, because which ones are meant is unknown.
+/// Whether discs come from `discs.from`. Together with a file or a list of discs it is a problem of
+/// the scene, and no discs are read, because it is unknown which ones are meant.
 bool takes_discs_from(const SceneParameters& scene) {
     return !scene.discs_from.empty() && scene.discs_file.empty() && scene.listed_discs.empty();
 }
@@ -43,7 +44,7 @@ bool takes_discs_of_file(const SceneParameters& scene) {
     return !scene.discs_file.empty() && scene.discs_from.empty() && scene.listed_discs.empty();
 }
 
-/// Why a scene of `n_wanted` discs cannot have those of the file.
+/// Why the discs of the file cannot be those of a scene of `n_wanted` discs.
 std::string other_number(const FileOfDiscs& file, std::uint64_t n_wanted) {
     std::string text = fmt::format("has {} disc{}", file.n_discs, file.n_discs == 1 ? "" : "s");
     if (!file.departed.empty())
@@ -55,7 +56,7 @@ std::string other_number(const FileOfDiscs& file, std::uint64_t n_wanted) {
     return text + fmt::format(", and the scene is of {}", n_wanted);
 }
 
-/// What the numbers of the discs mean.
+/// A note that discs have departed and the others have new numbers.
 std::string note_on_departed(const std::string& path, const FileOfDiscs& file) {
     return fmt::format("{} of {} discs in {} departed by an open side and are left out; the others "
                        "have the ids 0 to {} here, in their order",
@@ -63,14 +64,15 @@ std::string note_on_departed(const std::string& path, const FileOfDiscs& file) {
                        file.n_discs - 1);
 }
 
-/// What `discs.from` adds to a scene, the same on every rank.
+/// What `discs.from` adds to a scene; the same on every rank.
 struct FromFile {
     std::vector<std::string> settings;
-    std::string warning; ///< empty if the scene has all discs of the file
-    double radius = 0;   ///< of the file's discs
+    std::string warning; ///< empty if the scene contains all discs of the file
+    double radius = 0;   ///< radius of the file's discs
 };
 
-/// What a packing fraction does to the radii where discs have departed. Empty if they are the same.
+/// A note that a packing fraction changes the radii because discs have departed. Empty if the radii
+/// are the same.
 std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
     if (!(scene.radius > from.radius * (1 + 1e-9))) return {};
     const std::string remedy = scene.sizes ? "discs.radius.mean"
@@ -82,7 +84,7 @@ std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
 }
 
 /// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
-/// 0, by those of their shares on others. **Collective.**
+/// 0, by the discs of their shares on others. **Collective.**
 FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
@@ -104,7 +106,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     ranks.broadcast(file.columns);
     ranks.broadcast(file.departed);
     ranks.broadcast(file.radius);
-    if (!ranks.is_root() && file.n_discs > 0) // a fault here is found by rank 0, which reads all
+    if (!ranks.is_root() && file.n_discs > 0) // rank 0 reads all lines, and so finds an error here
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
             stream = read_discs_from(path, scene.discs_from_step, wanted, scene.origin,
@@ -113,7 +115,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
         });
     FromFile from;
     std::vector<std::string>& settings = from.settings;
-    if (file.n_discs > 0 && scene.n_discs == 0) // else the scene has its own number
+    if (file.n_discs > 0 && scene.n_discs == 0) // otherwise the scene has a number of its own
         settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
     if (!file.departed.empty()) from.warning = note_on_departed(path, file);
@@ -128,8 +130,8 @@ std::vector<std::string> lines_of(const std::string& text) {
     return all;
 }
 
-/// What the file of discs says of its columns and number, the same on every rank. A file that
-/// cannot be opened is a problem here only if nothing else would need it. **Collective.**
+/// The columns and the number of discs of the file of discs as settings, the same on every rank. A
+/// file that cannot be opened is a problem here only if nothing else would need it. **Collective.**
 std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems& of_root,
                                           const Communicator& ranks) {
     std::string all;
@@ -147,7 +149,7 @@ std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems
     return lines_of(all);
 }
 
-/// What files of effects say, the same on every rank. **Collective.**
+/// The settings from files of effects, the same on every rank. **Collective.**
 std::vector<std::string> settings_of_effects(const SceneParameters& scene, Problems& of_root,
                                              const Communicator& ranks) {
     std::string all;
@@ -219,12 +221,12 @@ bool are_columns_wrong(const SceneSource& source) {
 Problems disc_line_problems_of(const SceneParameters& scene, std::istream* stream) {
     Problems problems;
     const bool is_known = takes_discs_of_file(scene) && scene.n_discs == 0;
-    if (is_known) return problems; // the number of lines was not found either
+    if (is_known) return problems; // because the number of lines was not found either
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;
                if (takes_discs_of_file(scene)) {
                    std::ifstream file = open_input(discs_path(scene));
-                   if (!survey_discs(file, scene).problems.empty()) return; // found before
+                   if (!survey_discs(file, scene).problems.empty()) return; // reported before
                    file.clear();
                    file.seekg(0);
                    problems = disc_line_problems(file, scene);

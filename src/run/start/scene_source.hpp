@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the text of a scene to the checked scene, with the discs and columns that its files give.
+// Turns the text of a scene into the checked scene, with the discs and columns from its files.
 //
-// Rank 0 reads the files. The others get its bytes, so all find the same scene or the
-// same problems.
+// Rank 0 reads the files. The other ranks get the bytes, so all find the same scene or the same
+// problems.
 #pragma once
 
 #include <istream>
@@ -23,16 +23,16 @@ inline void append(std::vector<Problem>& problems, const std::vector<Problem>& m
 
 struct SceneSource {
     SceneText text; ///< equal on all ranks
-    /// On rank 0: the input after the text, at the first line of discs if there are any. On others
-    /// the lines of their shares of `discs.from`, or null.
+    /// On rank 0: the input after the text, at the first line of discs if there are any. On other
+    /// ranks the lines of their shares of `discs.from`, or null.
     std::unique_ptr<std::istream> stream{};
 };
 
-/// Reads the scene with the settings on top. Discs of `discs.from` become the lines
-/// that follow its text. What a file of discs says of its columns and number becomes settings.
-/// Columns of its file of discs are read, too; they are incomplete if lines are wrong, see
-/// `disc_line_problems_of`. Appends to `problems` what all ranks find, and to `of_root` what rank 0
-/// finds. **Collective.**
+/// Reads the scene with the settings on top. Discs of `discs.from` become the lines that follow its
+/// text. The columns and the number of discs in a file of discs become settings. The columns of
+/// radii, masses and so on are read, too; they are incomplete if lines are wrong, see
+/// `disc_line_problems_of`. Appends problems found by all ranks to `problems`, and those found by
+/// rank 0 to `of_root`. **Collective.**
 SceneParameters read_with_files(SceneSource& source, std::vector<std::string> settings,
                                 std::vector<Problem>& problems, std::vector<Problem>& of_root,
                                 const Communicator& ranks);
@@ -44,8 +44,8 @@ SceneParameters read_with_files(SceneSource& source, const std::vector<std::stri
 /// Whether the columns of the file of discs could not be read.
 bool are_columns_wrong(const SceneSource& source);
 
-/// Problems in the lines of discs of a scene that cannot be run, so that all are printed at
-/// once. The lines follow a header in `stream`, or have their own file. Called on one rank.
+/// Problems in the lines of discs of a scene that has other problems, so that all are printed at
+/// once. The lines follow a header in `stream`, or are in a file of their own. Called on one rank.
 std::vector<Problem> disc_line_problems_of(const SceneParameters& scene, std::istream* stream);
 
 } // namespace carrom

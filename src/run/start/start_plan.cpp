@@ -26,9 +26,9 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-/// Runs `read` and adds the problems of an InputError to `problems`; true if there was
-/// none. A rank may find problems that the others do not know of yet, so the exception
-/// must not leave before all ranks have agreed.
+/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. A rank
+/// may find problems that other ranks do not have yet, so the exception must not leave this
+/// function before all ranks have agreed.
 template <class Read> bool collect(Problems& problems, const Read& read) {
     try {
         read();
@@ -65,7 +65,7 @@ void check_destinations(const RunOptions& options, PlaceProblems& found) {
 /// Loads the scene and opens its input. **Collective.**
 SceneParameters load_scene(const RunOptions& options, const Problems& problems_so_far,
                            const Communicator& ranks, SceneSource& source) {
-    PlaceProblems found; // all ranks' together: one rank lists each
+    PlaceProblems found; // of all ranks together, listed by one rank
     Problems& problems = found.problems;
     bool is_readable = true;
     if (ranks.is_root()) {
@@ -96,7 +96,7 @@ SceneParameters load_scene(const RunOptions& options, const Problems& problems_s
     return scene;
 }
 
-/// Checks a restart without a scene, in which fewer things can go wrong. **Collective.**
+/// Checks a restart without a scene, in which fewer things can be wrong. **Collective.**
 void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
                          const Communicator& ranks) {
     PlaceProblems found;
@@ -107,15 +107,15 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
     found.agree(ranks);
 }
 
-/// Lets a run that was killed before its first checkpoint begin with the copy of its
-/// scene. **Collective.**
+/// If a run was killed before its first checkpoint, it begins again with the copy of its scene.
 RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
     if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
     std::string copy, overrides;
     on_root(ranks, options.folder, ExitCode::bad_input, [&] {
         if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
             copy = scene_copy_of(options.folder);
-        if (!copy.ends_with(".toml")) copy.clear(); // the copy does not have the lines of discs
+        // Because the copy does not contain the lines of discs
+        if (!copy.ends_with(".toml")) copy.clear();
         for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
     });
     ranks.broadcast(copy);

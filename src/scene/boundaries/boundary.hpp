@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a kind of side of the box says of itself, in one place.
+// The declaration of a kind of side of the box, in one place.
 //
 // Each kind is declared by one file of this folder: its keys, rules, checks, line in the summary
 // and allowance in the self-check. The reader of scenes, the pages, reports and the self-check loop
 // over `all_boundaries`, and name no kind. How discs meet a side is physics, and stands in
 // dynamics/boundaries.hpp for both methods.
 //
-// To add a kind: a file in this folder, its name in the list of src/scene/CMakeLists.txt, a value
-// and a word beside it in dynamics/effects.hpp, and what `Boundaries::rebound` does.
+// To add a kind: write a file in this folder, add its name to the list in src/scene/CMakeLists.txt,
+// add a value and a word to dynamics/effects.hpp, and add its physics to `Boundaries::rebound`.
 #pragma once
 
 #include <string>
@@ -21,47 +21,49 @@ namespace carrom {
 
 struct BoundaryDeclaration {
     BoundaryKind kind;
-    std::string_view help; ///< what a side of this kind is, for the page of keys
-    /// Whether discs bounce off it, so that `restitution` has a meaning.
+    std::string_view help; ///< description of a side of this kind, for the page of keys
+    /// Whether discs bounce off it, so that `restitution` applies.
     bool has_restitution = false;
-    // What other features ask of a side: a kind that does not say that it can, does not go with
-    // them.
-    bool is_at_rest = true;                         ///< its line stays where it is
-    bool takes_growing_discs = false;               ///< a disc may grow towards it
+    // Abilities that other features require of a side. A kind cannot be combined with a feature if
+    // it does not declare the ability.
+    bool is_at_rest = true;                         ///< its line never moves
+    bool takes_growing_discs = false;               ///< growing discs may touch it
     bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration
     /// Keys of one side, such as box.left.speed.
     std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
-    /// Tables and keys that all sides of this kind share.
+    /// Tables and keys that all sides of this kind have in common.
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
-    /// Checks of more than one number: of times, and of what depends on a right box and discs.
+    /// Checks that need several values: of times, and of values that depend on a valid box and
+    /// valid discs.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
-    /// Its part of the line about effects, for the side of that name.
+    /// The text for the side of that name in the summary's line about effects.
     std::string (*summary)(const Boundary&, std::string_view name) = nullptr;
     CheckAllowance (*allowance)(const Boundary&) = nullptr;
 };
 
-/// In the order of the list, which is that of the reference.
+/// All kinds in the order of the list, which is the order of the reference.
 const std::vector<BoundaryDeclaration>& all_boundaries();
 
-/// The keys of all four sides, side by side.
+/// The keys of all four sides, ordered by key.
 std::vector<Key> keys_of_boundaries();
-/// "left wall of restitution 0.9; top side open"; empty if all sides are elastic walls.
+/// Text such as "left wall of restitution 0.9; top side open"; empty if all sides are elastic
+/// walls.
 std::string summary_of_boundaries(const Effects& effects);
 CheckAllowance allowance_of_boundaries(const Effects& effects);
-/// Whether all sides have what growing discs need: see BoundaryDeclaration.
+/// Whether all sides have the abilities that growing discs need: see BoundaryDeclaration.
 bool do_sides_take_growing_discs(const Effects& effects);
 bool are_walls_at_rest(const Effects& effects);
 
-/// "box.left.speed" for side 0 and "speed".
+/// The key of a side, such as "box.left.speed" for side 0 and "speed".
 std::string side_key(std::size_t side, std::string_view name);
-/// The condition of a key that has a meaning for one kind of side only.
+/// The condition of a key that applies to one kind of side only.
 Need side_needs(std::size_t side, BoundaryKind kind);
-/// " of restitution 0.9" for summaries; empty if the wall is elastic.
+/// Text such as " of restitution 0.9" for summaries; empty if the wall is elastic.
 std::string loss_text(const Boundary& side);
-/// Whether the discs may fit into a box of this width and height.
+/// Whether the discs can fit into a box of this width and height.
 bool has_room(const SceneParameters& scene, double width, double height);
 
 } // namespace carrom

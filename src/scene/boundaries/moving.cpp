@@ -8,7 +8,8 @@ namespace carrom {
 
 namespace {
 
-/// Low walls may move in only: outwards they would leave the box, which begins at 0.
+/// The left and bottom walls may only move in, because outwards they would leave the box, which
+/// begins at 0.
 Range wall_speeds(std::size_t side) {
     if (side % 2 == 1) return {};
     return {.low = 0, .why = "the wall would leave the box; let the opposite one move out"};

@@ -12,7 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// In times between syncs, because phases at syncs are known to 2^-53 of the time since the start.
+/// In times between syncs, because phases at syncs are rounded to 2^-53 of the time since the
+/// start.
 constexpr double smallest_period = 1e-6;
 
 std::vector<Key> keys_of_oscillating_side(std::size_t side) {
@@ -46,14 +47,14 @@ std::vector<Rule> rules_of_oscillating_sides() {
     };
 }
 
-/// The pull at the wall changes little in a contact time.
+/// The acceleration at the wall must change little in a contact time.
 void check_contact_at_oscillating_walls(const SceneDraft& draft) {
     for (const Boundary& side : draft.scene.effects.boundaries)
         if (side.kind == BoundaryKind::oscillating)
             limit_contact_time(draft, side.period / 8, "an eighth of a wall's period");
 }
 
-/// Discs that are generated lie between the lines of the walls.
+/// Generated discs are between the lines of the walls.
 bool begins_before_its_line(const SceneParameters& scene, std::size_t side) {
     if (scene.generator == Generator::file) return false;
     const double place = oscillation_at(scene.effects.boundaries[side], 0).place;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A side beyond which the box repeats itself; always two opposite ones.
+// A side beyond which the box repeats itself. The opposite side must be of the same kind.
 #include "scene/boundaries/boundary.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -30,7 +30,7 @@ std::vector<Rule> rules_of_periodic_sides() {
     };
 }
 
-/// Holds for sheared sides, too.
+/// The check is also for sheared sides.
 void check_periodic_box(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A periodic side with images that move. Its rate, and what it does not go with, are those of the
+// A periodic side with images that move. Its rate and its rules of conflict are declared with the
 // flow (scene/effects/shear.cpp), because both sides share them.
 #include "scene/boundaries/boundary.hpp"
 

@@ -61,16 +61,16 @@ public:
     }
 
 private:
-    /// The angle that follows `angle` after the time between syncs.
+    /// A random angle for the direction after the time between syncs, if it is `angle` before.
     double later(double angle, DiscRandom random) const {
         if (kept_ < 1 && random.uniform() >= kept_) return random_angle(random);
         return wrapped_angle(spread_ > 0 ? angle + spread_ * random_normals(random).x : angle);
     }
 
     std::uint64_t seed_;
-    double speed_, momentum_; ///< that a disc gets at a sync: one of them is 0
+    double speed_, momentum_; ///< gained at a sync; one of the two is 0
     double spread_;           ///< root mean square of the turns between syncs
-    double kept_;             ///< the probability that a disc does not tumble between syncs
+    double kept_;             ///< probability that a disc does not tumble between syncs
 };
 
 const Need active{"without effects.activity.speed or effects.activity.force",
@@ -131,7 +131,7 @@ std::vector<Rule> rules_of_activity() {
     };
 }
 
-/// Directions that nearly always change between two syncs would leave no memory in the motion.
+/// Directions that nearly always change between two syncs would not affect the motion.
 void check_times_of_activity(const SceneDraft& draft) {
     constexpr double longest = 4;
     const Activity& activity = draft.scene.effects.activity;
@@ -145,7 +145,7 @@ void check_times_of_activity(const SceneDraft& draft) {
                                             key, rate, longest, longest / interval));
 }
 
-/// The largest speed of free discs whose directions stay.
+/// The largest speed of free discs whose directions do not change.
 double speed_of(const SceneParameters& scene) {
     const Activity& activity = scene.effects.activity;
     if (activity.force == 0 || scene.effects.thermostat.rate == 0) return activity.speed;

@@ -17,7 +17,8 @@ std::string summary_of(const Effects& effects) {
     const auto add_if = [&](const EffectDeclaration& effect) {
         if (effect.summary) add(effect.summary(effects));
     };
-    // What discs do to each other, what they are, what is around them, and what else acts on them.
+    // The order of the summary: contacts of discs, their bodies, their surroundings, and what else
+    // acts on them.
     const std::span all(all_effects());
     add_if(all.front());
     add(description(effects.species));
@@ -76,8 +77,8 @@ double usual_speed_of_effects(const SceneParameters& scene) {
     return speed;
 }
 
-/// Each effect at syncs has the count of its numbers before them, or `kept` is empty because no
-/// effect keeps any.
+/// `kept` has for each effect at syncs the count of its numbers, then the numbers, or is empty
+/// because no effect keeps any.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept) {
     std::vector<EndNumber> numbers;

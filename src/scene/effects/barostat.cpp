@@ -38,7 +38,7 @@ namespace carrom {
 namespace {
 
 constexpr int n_moves = 64;
-constexpr double cell_ratio = 1.1; ///< of lengths at both ends of a cell
+constexpr double cell_ratio = 1.1; ///< ratio of the lengths at both ends of a cell
 
 /// ln(a / b) for ratios of up to 1.5, by the series of 2 artanh((a - b) / (a + b)), to 2^-53.
 double log_ratio(double a, double b) {
@@ -56,7 +56,7 @@ double mean_squared_diameter(const SceneParameters& scene) {
     return sum / static_cast<double>(scene.n_discs);
 }
 
-/// The largest factor for which a periodic box is longer than four radii, less a little.
+/// The largest factor for which a periodic box is still slightly longer than four radii.
 double most_size(const SceneParameters& scene) {
     return scene.box.shortest() / (4 * (1 + 1e-6) * scene.radius);
 }
@@ -100,16 +100,17 @@ public:
     }
 
 private:
-    /// Numbers of no disc, so that another effect with the same seed has others.
+    /// An id that no disc has, so that the random numbers differ from those of another effect with
+    /// the same seed.
     static constexpr DiscId no_disc = ~DiscId{0};
 
     struct Cell {
-        double low = 1, high = cell_ratio; ///< sizes
+        double low = 1, high = cell_ratio; ///< range of sizes
     };
 
     double volume_at(double size) const { return volume_of_scene_ / (size * size); }
 
-    /// The cell of the present size, in the partition of this sync.
+    /// The cell that contains the present size, in the partition of this sync.
     Cell cell_at(std::int64_t n_syncs) const {
         double low = n_syncs % 2 == 0 ? 1 : std::sqrt(cell_ratio);
         while (size_ < low) low /= cell_ratio;
@@ -117,8 +118,9 @@ private:
         return {low, low * cell_ratio};
     }
 
-    /// Moves are some times as long as the closest pair leaves room for, V / (N (Z - 1)). The same
-    /// throughout the cell, so that moves there and back are as likely.
+    /// The range of moves is a multiple of the volume by which the closest pair limits it, V / (N
+    /// (Z - 1)). It is the same throughout the cell, so that moves in both directions have the same
+    /// probability.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
                      excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));
@@ -174,14 +176,14 @@ std::vector<Rule> rules_of_barostat() {
     };
 }
 
-/// Volumes change little from sync to sync, so by default there is one in each step.
+/// Volumes change little at each sync, so by default there is a sync in each step.
 void sync_in_each_step(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (has_barostat(scene) && !draft.settings.has("time.sync_every"))
         scene.sync_every = std::min(scene.sync_every, scene.micro_steps);
 }
 
-/// A run whose syncs are rarer than its end never moves.
+/// Reports a time between syncs that is longer than the run, which would never change the volume.
 void check_times_of_barostat(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!has_barostat(scene) || scene.steps == 0) return;

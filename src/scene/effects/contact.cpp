@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two discs that touch do to each other (dynamics/law.hpp).
+// What two touching discs do to each other (dynamics/law.hpp).
 #include <cmath>
 
 #include <fmt/format.h>
@@ -85,8 +85,8 @@ std::vector<Rule> rules_of_contacts() {
     };
 }
 
-/// A disc does not remember over a sync when it collided, so a contact time must be short beside
-/// the time between syncs.
+/// A disc does not remember its last collision over a sync, so a contact time must be short
+/// compared with the time between syncs.
 void check_contact_time(const SceneDraft& draft) {
     limit_contact_time(draft, steps_between_syncs(draft.scene) / 4,
                        "a quarter of the time between syncs ('time.sync_every')");
@@ -109,8 +109,8 @@ std::string summary_of_contacts(const Effects& effects) {
     return {};
 }
 
-/// Collisions take energy, spins included, unless surfaces do not rub, or stick and neither lose
-/// nor forget anything.
+/// Whether collisions take energy, that of spins included. They do not if surfaces are elastic and
+/// either do not rub, or stick without losing energy.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
     const bool keeps_slip = contact.tangential_restitution == -1 ||

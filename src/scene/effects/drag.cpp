@@ -32,7 +32,7 @@ std::vector<Rule> rules_of_drag() {
     };
 }
 
-/// Long times between syncs would leave almost nothing of the velocities.
+/// A long time between syncs would leave almost nothing of the velocities.
 void check_times_of_drag(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double interval = steps_between_syncs(scene);
@@ -56,7 +56,7 @@ EffectDeclaration drag() {
         .check_times = check_times_of_drag,
         .summary =
             [](const Effects& e) { return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : ""; },
-        // Where discs are pulled the loss depends on the flight, and all may be left.
+        // If discs are also pulled, the loss depends on the flight and may be 0.
         .energy_left =
             [](const Effects& e, double time) {
                 return e.acceleration().is_any() ? 1 : std::exp(-2 * e.drag * time);

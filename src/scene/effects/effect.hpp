@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an effect says of itself, in one place.
+// The declaration of an effect, in one place.
 //
-// Each file of this folder declares one effect: its tables, keys (a key says by itself whether it
-// is a seed), rules, checks, line in the summary, allowance in the self-check, energy beside that
-// of motion, and what it does at syncs. The reader of scenes, the pages, reports, restarts,
-// replicas, the self-check and the engines loop over `all_effects`, and name no effect. Beside the
-// discs' states and columns, a checkpoint has what an effect at syncs says that it keeps.
+// Each file of this folder declares one effect: its tables, keys (whether a key is a seed is in its
+// own declaration), rules, checks, line in the summary, allowance in the self-check, energy beside
+// that of motion, and what it does at syncs. The reader of scenes, the pages, reports, restarts,
+// replicas, the self-check and the engines loop over `all_effects`, and name no effect. Besides the
+// discs' states and columns, a checkpoint contains the values that an effect at syncs keeps.
 //
 // The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
 // above the dynamics, where the templates of the hot paths are, and below the engines. So an effect
 // that acts at syncs has its physics in its own file here; one that acts in collisions or in flight
-// has its physics in src/dynamics, and its words here.
+// has its physics in src/dynamics and its declaration here.
 //
-// To add an effect: a file in this folder, and its name in the list of src/scene/CMakeLists.txt.
+// To add an effect, write a file in this folder, and add its name to the list in
+// src/scene/CMakeLists.txt.
 #pragma once
 
 #include <cstdint>
@@ -31,143 +32,150 @@
 
 namespace carrom {
 
-/// What the self-check cannot hold against a run, because the effect does it.
+/// Changes that the self-check must not report, because an effect causes them.
 struct CheckAllowance {
     bool collisions_take_energy = false;
-    bool walls_give_energy = false; ///< an amount that only the run knows
-    bool acts_at_syncs = false; ///< velocities change there, by an energy that the engine adds up
-    bool acts_before_flights = false;  ///< and again right before the flights that follow
-    bool surfaces_give_energy = false; ///< in collisions: see EffectDeclaration::work_in_collision
+    bool walls_give_energy = false; ///< by an amount that is only known during the run
+    bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums up the energy
+    /// Velocities also change immediately before the flights after a sync
+    bool acts_before_flights = false;
+    /// During collisions: see EffectDeclaration::work_in_collision
+    bool surfaces_give_energy = false;
 };
 
-/// A disc as the box sees it. The unit of time is that of the effects beside it.
+/// A disc as the box sees it. The unit of time is that of the effects that are passed with it.
 struct ShownDisc {
     double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
     SizeAndMass has;
-    double sync_interval = 0; ///< the time between syncs
+    double sync_interval = 0; ///< time between syncs
     DiscId id = 0;
 };
 
-/// An energy that discs have beside that of their motion. Totals, reports and the self-check add it
-/// up for all discs in the box.
+/// An energy of discs other than their kinetic energy. Totals, reports and the self-check sum it
+/// over all discs in the box.
 struct OtherEnergy {
-    const char* name;       ///< in the report
-    const char* words;      ///< in the summary, after its value
-    double Totals::* value; ///< features of one name share it
+    const char* name;       ///< its name in the report
+    const char* words;      ///< text behind its value in the summary
+    double Totals::* value; ///< effects with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
-    /// Of an energy of places: what it can be for a mass of 1, to hold rounding against.
+    /// For an energy of position: its largest value for a mass of 1, by which rounding is judged.
     double (*largest)(const Effects&, const Box&) = nullptr;
-    /// It turns into energy of motion at syncs alone, where the engine adds up what discs get; so
-    /// the self-check leaves it out.
+    /// It turns into kinetic energy only at syncs, where the engine sums up the energy that discs
+    /// gain. So the self-check leaves it out.
     bool is_of_syncs = false;
 };
 
-/// The way of a disc between two inspections of the self-check, round periodic sides, too.
+/// The path of a disc between two inspections of the self-check, continued through periodic sides.
 struct Way {
     double x = 0, y = 0;
     SizeAndMass has;
 };
 
-/// A number of the state at the end of a run.
+/// A number in the report and the summary about the state at the end of a run.
 struct EndNumber {
-    const char* name;  ///< in the report
-    const char* label; ///< of its line in the summary
-    const char* words; ///< in the summary, after its value
+    const char* name;  ///< its name in the report
+    const char* label; ///< label of its line in the summary
+    const char* words; ///< text behind its value in the summary
     std::uint64_t value;
 };
 
-/// What an effect does to the momentum of all discs along an axis.
+/// How an effect changes the momentum of all discs along an axis.
 struct CommonMotion {
     bool is_stopped = false; ///< discs give momentum to something that does not move with them
-    bool is_driven = false;  ///< discs get momentum all in one direction
+    bool is_driven = false;  ///< discs gain momentum in one direction
 };
 
-/// How a velocity that all discs have in common counts.
+/// How the common velocity of all discs along an axis is treated.
 enum class Drift : std::uint8_t {
-    is_heat,   ///< in the temperature, because the axis has walls, or momentum goes to and fro
-    is_kept,   ///< apart from it, because nothing stops it: it has one of N degrees of freedom
-    is_driven, ///< apart from it, because it is a flow; what is about it fluctuates
+    /// Part of the temperature, because the axis has walls, or because momentum is exchanged in
+    /// both directions
+    is_heat,
+    is_kept,   ///< subtracted, because nothing stops it; it is one of N degrees of freedom
+    is_driven, ///< subtracted, because it is a flow; velocities relative to it fluctuate
 };
 
 struct EffectDeclaration {
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
-    /// Defaults that depend on its numbers, before any check.
+    /// Computes defaults that depend on the effect's numbers, before any check.
     void (*derive)(const SceneDraft&) = nullptr;
-    /// What a file that the scene names says, as settings that checkpoints keep, so that restarts
-    /// need no file. Called on rank 0; throws InputError.
+    /// The contents of a file that the scene names, as settings. Checkpoints store these, so that
+    /// restarts do not need the file. Called on rank 0; throws InputError.
     std::vector<std::string> (*settings_of_file)(const SceneParameters&) = nullptr;
-    /// Checks of more than one number: of times, and of what depends on a right box and discs.
+    /// Checks that need several values: of times, and of values that depend on a valid box and
+    /// valid discs.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
-    /// Its part of the line about effects; empty in a scene without it.
+    /// Its text in the summary's line about effects; empty in a scene without it.
     std::string (*summary)(const Effects&) = nullptr;
     CheckAllowance (*allowance)(const Effects&) = nullptr;
-    /// Nothing in a scene whose discs do not have it.
+    /// Its energy; nothing in a scene whose discs do not have it.
     std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
     // For the self-check, per micro-step: what the effect gives to discs that is no change of such
     // an energy.
     /// The share of the energy of motion that is left after a time.
     double (*energy_left)(const Effects&, double time) = nullptr;
-    /// The energy that a disc gets on its way.
+    /// The energy that a disc gains along its path.
     double (*work)(const Effects&, const Way&) = nullptr;
-    /// The energy that surfaces give in a collision of this impulse, with the sum of the radii.
+    /// The energy that surfaces give in a collision with this impulse and sum of radii.
     double (*work_in_collision)(const Effects&, double impulse, double radii) = nullptr;
-    /// Whether discs may come to rest on each other, or on a wall, so that they need a contact
-    /// time.
+    /// Whether discs may come to rest on each other or on a wall, so that a contact time is needed.
     bool (*lets_discs_rest)(const Effects&) = nullptr;
-    /// A speed per step that it is likely to give to discs.
+    /// A typical speed, per step, that the effect gives to discs.
     double (*usual_speed)(const SceneParameters&) = nullptr;
-    /// Nothing in a scene without it.
+    /// The object that acts at syncs; nothing in a scene without the effect.
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
-    /// Of an effect at syncs, from what it keeps after the last one.
+    /// The numbers at the end of a run, from the values that the effect kept after the last sync.
     EndNumber (*at_end)(std::span<const std::int64_t> kept) = nullptr;
-    /// Whether it keeps the mean energy of motion only together with what acts between syncs, so
-    /// that this energy jumps at each sync.
+    /// Whether the effect balances other changes between syncs, so that the kinetic energy jumps at
+    /// each sync.
     bool (*makes_energy_jump)(const Effects&) = nullptr;
-    /// Of an effect that exchanges momentum with discs other than by the sides that end an axis.
+    /// For an effect that exchanges momentum with discs in other ways than through the sides of the
+    /// box.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
-    /// Whether kernels of GPUs have it; those that say nothing are errors with machine.gpu.
+    /// Whether kernels of GPUs contain the effect. If it is not given, the effect is an error with
+    /// machine.gpu.
     bool (*runs_on_gpu)(const Effects&) = nullptr;
-    /// Why Z means nothing in a scene with the effect; empty if it means something.
+    /// Why Z is undefined in a scene with the effect; empty if it is defined.
     std::string (*reason_without_z)(const Effects&) = nullptr;
 };
 
-/// In the order of the list, which is that of the reference.
+/// All effects in the order of the list, which is the order of the reference.
 const std::vector<EffectDeclaration>& all_effects();
 
-/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there
-/// are none.
+/// One line for a summary, such as "restitution 0.9 of pairs; gravity (0, -0.001)"; empty if there
+/// are no effects.
 std::string summary_of(const Effects& effects);
-/// What the self-check cannot hold against a run with these effects and sides of the box.
+/// The changes that the self-check must not report with these effects and sides of the box.
 CheckAllowance allowance_of(const Effects& effects);
-/// In the order of the effects.
+/// The energies in the order of the effects.
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
-// Of all effects together: see EffectDeclaration.
+// These combine all effects: see EffectDeclaration.
 double energy_left_by(const Effects& effects, double time);
 double work_on_way(const Effects& effects, const Way& way);
 double work_in_collision(const Effects& effects, double impulse, double radii);
-/// The largest of all effects'.
+/// The largest typical speed of all effects.
 double usual_speed_of_effects(const SceneParameters& scene);
 /// `kept` is Engine::kept_by_effects.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept);
 /// Why Z is undefined, from the first effect that has a reason; otherwise empty.
 std::string reason_without_z(const Effects& effects);
-/// Whether the mean energy of motion jumps at syncs.
+/// Whether the mean kinetic energy jumps at syncs.
 bool does_energy_jump(const Effects& effects);
-/// Warns where it changes much between syncs, or where samples do not have its mean over time.
+/// Warns if the kinetic energy changes much between syncs, or if samples do not give its mean over
+/// time.
 void check_energy_jumps(const SceneDraft& draft);
-/// How the common velocity of all discs along `axis` counts. Temperature, pressure and
-/// displacements follow this alone.
+/// How the common velocity of all discs along `axis` is treated. Only this decides it for
+/// temperature, pressure and displacements.
 Drift drift_along(Axis axis, const Effects& effects);
-/// Why kT, P and Z are undefined for so many discs; empty if they are defined. One disc that
-/// nothing stops along an axis has no velocity there but the common one.
+/// Why kT, P and Z are undefined for this number of discs; empty if they are defined. A single disc
+/// that nothing stops along an axis has no velocity there except the common one.
 std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs);
-/// What all files of effects say. Called on rank 0; throws InputError.
+/// The settings from all files of effects. Called on rank 0; throws InputError.
 std::vector<std::string> settings_of_effect_files(const SceneParameters& scene);
-/// In the order in which they act.
+/// The effects at syncs, in the order in which they act.
 SyncEffects sync_effects_of(const SceneParameters& scene);
 
 } // namespace carrom

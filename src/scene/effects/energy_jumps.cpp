@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes in which the mean energy of motion changes between syncs and jumps back there. They need
-// frequent syncs, and samples at all times between two syncs, or before and after the jumps.
+// Checks scenes in which the mean kinetic energy changes between syncs and jumps back at syncs.
+// They need frequent syncs, and samples at all times between two syncs, or before and after the
+// jumps.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +23,8 @@ bool does_energy_jump(const Effects& effects) {
 
 namespace {
 
-/// The kT that a thermostat brings a gas to; that of kicks if discs are thin and lose energy.
+/// The kT to which a thermostat brings a gas. For kicks it is the steady state of a dilute
+/// inelastic gas.
 double temperature_in_the_end(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     if (t.has_temperature()) return t.temperature;
@@ -32,7 +34,7 @@ double temperature_in_the_end(const SceneParameters& scene) {
     return loss > 0 ? std::pow(t.strength / loss, 2.0 / 3) : 0;
 }
 
-/// A flow, or discs that lose energy, must not come far from their temperature between two acts.
+/// Warns if a flow, or discs that lose energy, move far from their temperature between two syncs.
 void warn_of_rare_acts(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.effects.thermostat.is_any() || scene.steps == 0) return;
@@ -47,7 +49,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
     constexpr double most = 4;
     const double density = static_cast<double>(scene.n_discs) / scene.area(),
                  often = 2 * std::sqrt(std::numbers::pi * temperature_in_the_end(scene)) * density *
-                         2 * scene.radius; // of a thin gas; dense ones collide more often
+                         2 * scene.radius; // for a dilute gas; in dense ones discs collide more
+                                           // often
     const bool changes = scene.effects.are_sheared() || are_pairs_lossy(scene.effects);
     if (changes && often * interval > most)
         scene.warnings.push_back(fmt::format(
@@ -56,8 +59,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
             often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
 }
 
-/// Samples at syncs are taken before and after effects act, in turns. Others that always come at
-/// one time between two syncs do not have the mean over time.
+/// Samples at syncs are taken before and after effects act, in turns. Samples that are always at
+/// the same time between two syncs do not give the mean over time.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A field that stands still (dynamics/external_field.hpp), by kicks at syncs: half a kick, a flight
-// from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). A kick gives
-// v -= (t / 2) grad V / m with the place at the sync; t is the time between syncs.
+// from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). A kick is v -= (t
+// / 2) grad V / m at the position at the sync; t is the time between syncs.
 //
-// The map is symplectic and the same backwards, so free discs keep an energy that differs from
-// m v^2 / 2 + V by a share (w t)^2 / 4 at most, w^2 = V'' / m, and no energy drifts away. A trap is
-// exact as a map: the disc stays on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...).
-// What outputs show at a sync is the state between the two halves. At other times it is the flight,
-// whose velocity is that of the middle between two syncs.
+// The map is symplectic and reversible, so free discs conserve an energy that differs from m v^2 /
+// 2 + V by a share of at most (w t)^2 / 4, with w^2 = V'' / m, and energy does not drift. In a trap
+// the disc stays exactly on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...). Outputs at a
+// sync show the state between the two halves. At other times they show the flight, whose velocity
+// is that half way between two syncs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -31,8 +31,8 @@ inline constexpr std::array words_of<FieldKind>{
 namespace {
 
 constexpr std::size_t most_values = std::size_t{1} << 18, most_strengths = 4096;
-/// w t by default at most, for the strongest curvature; from where a warning is due; and where no
-/// orbit is like the true one.
+/// Values of w t at the strongest curvature: the largest by default, the smallest for a warning,
+/// and the limit beyond which orbits differ completely from the true ones.
 constexpr double usual_turn = 0.05, large_turn = 0.5, largest_turn = 1;
 
 class FieldAtSyncs final : public SyncEffect {
@@ -62,7 +62,7 @@ private:
 
     ExternalField field_;
     Box box_;
-    double half_; ///< of the time between syncs
+    double half_; ///< half of the time between syncs
 };
 
 using FieldKinds = std::initializer_list<FieldKind>;
@@ -74,7 +74,7 @@ Need field_kinds(std::string text, FieldKinds kinds) {
             }};
 }
 
-/// Rows that are wrong are reported elsewhere, and leave no values.
+/// Wrong rows are reported elsewhere, and have no values.
 void take_rows_of_field(FieldValues& values, const Values& rows) {
     values = {};
     for (const Value& row : rows) {
@@ -238,7 +238,7 @@ std::vector<Rule> rules_of_field() {
     };
 }
 
-/// w t for the strongest curvature and the lightest disc.
+/// w t at the strongest curvature, for the lightest disc.
 double turn_between_syncs(const SceneParameters& scene) {
     const ExternalField& field = scene.effects.field;
     double lightest = scene.effects.species.empty() ? 1 : scene.effects.species.front().mass;

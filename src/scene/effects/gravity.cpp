@@ -16,7 +16,7 @@ namespace carrom {
 
 namespace {
 
-/// Syncs follow each other at least so often in a period.
+/// The least number of syncs in a period.
 constexpr double least_syncs = 8;
 
 const Need swaying{"without 'effects.gravity.amplitude_x' or 'effects.gravity.amplitude_y'",
@@ -52,9 +52,9 @@ std::vector<Key> keys_of_gravity() {
     };
 }
 
-/// Whether discs that gravity drives along periodic sides find a steady flow: something has to take
-/// the momentum along the sides `low` and `low + 1`, and something the energy. Obstacles take
-/// momentum, because discs have to go round them.
+/// Whether discs that gravity drives along periodic sides reach a steady flow. For that something
+/// must take the momentum along the sides `low` and `low + 1`, and something the energy. Obstacles
+/// take momentum, because discs collide with them.
 bool are_stopped(const SceneParameters& s, std::size_t low) {
     const Effects& e = s.effects;
     const ThermostatKind kind = e.thermostat.kind;
@@ -122,7 +122,7 @@ std::vector<Rule> rules_of_gravity() {
     };
 }
 
-/// Above the walls that gravity pulls to at the start.
+/// The height above the walls towards which gravity pulls at the start.
 double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box& box) {
     const auto height = [](double place, double pull, double length) {
         return pull < 0 ? place : length - place;
@@ -132,10 +132,10 @@ double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box
                             std::fabs(g.y) * height(disc.y, g.y, box.y));
 }
 
-/// Whether what is pulled with `g` falls by more than half the box from sync to sync.
+/// Whether a disc under the acceleration `g` falls by more than half the box between two syncs.
 bool falls_too_far(const SceneParameters& scene, double g) {
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return false; // a problem already
+    if (drag * time > longest_drag) return false; // reported already
     const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     return std::fabs(g) * fall > 0.5 * scene.box.longest();
 }
@@ -145,8 +145,8 @@ bool sways_too_fast(const SceneParameters& scene) {
     return g.sways() && least_syncs * steps_between_syncs(scene) > g.period;
 }
 
-/// Strong gravity needs syncs that follow each other sooner than they do by default. Where one in
-/// each micro-step is too late, check_fall says so.
+/// Strong gravity needs more frequent syncs than the default. If even one in each micro-step is not
+/// enough, check_fall reports it.
 void shorten_sync(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Gravity& g = scene.effects.gravity;
@@ -177,8 +177,8 @@ void check_period(const SceneDraft& draft) {
                                                std::ceil(least_syncs / period))));
 }
 
-/// The falling frame must not leave the box far behind: its coordinates would be coarser than the
-/// box's.
+/// The falling frame must stay near the box, because otherwise its coordinates would be coarser
+/// than the box's.
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!draft.knows_syncs()) return;
@@ -208,7 +208,7 @@ std::string summary_of_gravity(const Effects& effects) {
     return text;
 }
 
-/// Then what sides give to discs along themselves is not known beforehand.
+/// In this case the forces along surfaces are not known beforehand.
 bool do_surfaces_rub(const Effects& effects) {
     return std::ranges::any_of(effects.boundaries,
                                [](const Boundary& side) { return side.surface.rubs(); });

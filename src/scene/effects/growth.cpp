@@ -61,7 +61,8 @@ void check_growth(const SceneDraft& draft) {
     const double most = std::min({std::sqrt(densest / scene.packing()),
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
-    if (growth <= most || most < 1) return; // missing room at the start is reported elsewhere
+    // Because missing room at the start is reported elsewhere
+    if (growth <= most || most < 1) return;
     draft.refuse(
         {"effects.growth.rate"},
         fmt::format("after {} steps discs of radius {:g} would cover {:.4g} times the box; "

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contacts that last from sync to sync (dynamics/contact_impulses.hpp).
 //
-// Every rank gathers all discs, in the order of ids, and finds the same impulses: some 500 bytes
-// for each disc of the run on each rank. Impulses begin from those of the sync before, so
-// checkpoints keep them, 32 bytes a contact. While a heap bears itself, its states and impulses
-// repeat bit by bit, and a sync costs one comparison.
+// Every rank gathers all discs, in the order of ids, and finds the same impulses: which takes some
+// 500 bytes for each disc of the run on each rank. The solution begins from the impulses of the
+// sync before, so checkpoints store them, 32 bytes a contact. While a heap is at rest, its states
+// and impulses repeat bit by bit, and a sync costs one comparison.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t numbers_of_contact = 4; ///< in a checkpoint
+constexpr std::size_t numbers_of_contact = 4; ///< numbers of a contact in a checkpoint
 
 class LastingContacts final : public SyncEffect {
 public:
@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// The discs of this rank, in the order of ids because that of cells changes.
+    /// The discs of this rank in the order of ids, because the order of cells changes.
     static std::vector<HeapDisc> discs_of(const SyncDiscs& at) {
         std::vector<HeapDisc> mine;
         for (std::size_t i = 0; i < at.discs.size(); ++i) {
@@ -109,8 +109,10 @@ private:
 
     ContactImpulses impulses_;
     std::vector<KeptImpulse> kept_;
-    // What has been found is kept for a sync with the same states and impulses before it.
-    std::vector<HeapDisc> mine_, after_; ///< of this rank before it, of all afterwards
+    // The last result is kept for the case that the next sync begins with the same states and
+    // impulses.
+    /// Discs of this rank before the sync, and all discs after it
+    std::vector<HeapDisc> mine_, after_;
     std::vector<KeptImpulse> kept_before_;
     LastingForces forces_;
 };
@@ -169,14 +171,14 @@ double pull_of(const SceneParameters& scene) {
     return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
 }
 
-/// How high discs at rest fly between two syncs.
+/// The height by which discs at rest fly up between two syncs.
 double hop_of(const SceneParameters& scene) {
     const double time = steps_between_syncs(scene);
     return pull_of(scene) * time * time / 8;
 }
 
-/// By default syncs follow each other so closely that discs at rest fly up by a hundredth of the
-/// radius.
+/// The default time between syncs is so short that discs at rest fly up by at most a hundredth of
+/// the radius.
 void shorten_sync_for_hops(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!has_lasting(scene) || draft.settings.has("time.sync_every")) return;
@@ -188,13 +190,13 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-/// Returns whether discs at rest stay where they are, or nearly so.
+/// Returns whether discs at rest stay nearly where they are.
 bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
     if (!(hop_of(scene) > 0.05 * radius)) return true;
-    // A fall by half the box from sync to sync, four hops, is gravity's own problem. It asks for
-    // each axis, so a fall askew is one from half the box times sqrt(2) on.
+    // If discs fall by half the box between syncs, which is four hops, gravity reports it. It tests
+    // each axis separately, so for an oblique fall the limit is half the box times sqrt(2).
     if (hop_of(scene) > std::numbers::sqrt2 / 8 * scene.box.longest()) return false;
     const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
                                    static_cast<double>(scene.sync_every));
@@ -207,8 +209,8 @@ bool check_hops(const SceneDraft& draft) {
     return false;
 }
 
-/// Speeds that make the run slow: too small ones let discs bounce, and with too large ones each
-/// disc looks for partners far away.
+/// Warns of a speed that makes the run slow. If it is too small, discs bounce; if it is too large,
+/// each disc searches partners far away.
 void check_speed(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene), time = steps_between_syncs(scene);
@@ -235,7 +237,7 @@ void check_speed(const SceneDraft& draft) {
             speed, fallen, remedy));
 }
 
-/// Quantities whose rows have forces, which lasting contacts have at syncs alone.
+/// Reports quantities with forces in each row, because lasting contacts have forces only at syncs.
 void check_samples_of_forces(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements) return;
@@ -252,7 +254,8 @@ void check_samples_of_forces(const SceneDraft& draft) {
     }
 }
 
-/// The passes over contacts carry the weight of a heavy disc only slowly through light ones.
+/// Warns of very different masses, because sweeps over contacts transfer the weight of a heavy disc
+/// only slowly through light ones.
 void warn_of_unlike_masses(const SceneDraft& draft) {
     constexpr double most = 100;
     SceneParameters& scene = draft.scene;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that stand fixed in the box (dynamics/obstacles.hpp), and boxes that are no rectangles
+// Fixed bodies in the box (dynamics/obstacles.hpp), and boxes that are not rectangles
 // (dynamics/container.hpp).
 #include <cmath>
 
@@ -19,8 +19,8 @@ namespace {
 
 const Need some_obstacles{no_obstacles, has_obstacles};
 
-/// The largest coordinate and radius of an arc, over the box's longer edge. Farther centres would
-/// cost digits.
+/// The largest coordinate and radius of an arc, relative to the box's longer edge. Centres farther
+/// away would lose digits.
 constexpr double farthest_centre = 100;
 
 /// Rows [x, y, radius] of circles, or [x, y, radius, from, to].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls and obstacles that rub, and surfaces that slide (dynamics/rubbing.hpp).
+// Walls and obstacles with friction, and surfaces that slide (dynamics/rubbing.hpp).
 #include <algorithm>
 #include <cmath>
 
@@ -75,7 +75,7 @@ std::vector<Key> keys_of_rubbing() {
     return all;
 }
 
-/// A body's velocity along itself must be one that discs may have.
+/// The velocity of a surface along itself must be a valid speed of discs.
 void check_room_of_rubbing(const SceneDraft& draft) {
     const Effects& effects = draft.scene.effects;
     const auto hold = [&draft](const std::string& table, const Surface& surface) {
@@ -124,7 +124,7 @@ CheckAllowance allowance_of_rubbing(const Effects& effects) {
     return allowance;
 }
 
-/// The sides that lie along an axis act along it, and those at its ends do not.
+/// The sides parallel to an axis act along it, and the sides at its ends do not.
 CommonMotion common_motion_by_surfaces(const Effects& effects, Axis axis) {
     const std::size_t low = axis == Axis::x ? 2 : 0;
     CommonMotion motion;

@@ -66,7 +66,8 @@ std::vector<Rule> rules_of_shear() {
     };
 }
 
-/// A flow has the temperature that its rate and its losses give it, whatever it began with.
+/// Warns that the rate and the losses of a flow determine its temperature, so that the initial one
+/// has no effect.
 void warn_of_temperature(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.effects.are_sheared() || !draft.settings.has("discs.temperature")) return;

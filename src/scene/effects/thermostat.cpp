@@ -15,7 +15,7 @@
 // Spins count with the moment of inertia in place of the mass. Between sheared sides all velocities
 // are those about the flow.
 //
-// The operations are + - * / and sqrt, so the bits are the same on every machine.
+// Only + - * / and sqrt are used, so the bits are the same on every machine.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -37,7 +37,7 @@ inline constexpr std::array words_of<ThermostatKind>{
 
 namespace {
 
-/// The thermostat with a micro-step as the unit of time, and what all kinds need.
+/// A thermostat with the micro-step as the unit of time, and members for all kinds.
 class ThermostatEffect : public SyncEffect {
 public:
     explicit ThermostatEffect(const SceneParameters& scene)
@@ -52,14 +52,14 @@ protected:
     DiscRandom random_of(const SyncDiscs& at, DiscId id) const {
         return {setting_.seed, Purpose::sync, id, static_cast<std::uint64_t>(at.n_syncs)};
     }
-    /// The root mean square of a velocity's component in equilibrium, and that of a spin.
+    /// The root mean square in equilibrium of a velocity component, and of a spin.
     double thermal_speed(const SizeAndMass& body) const {
         return std::sqrt(setting_.temperature / body.mass);
     }
     double thermal_spin(const SizeAndMass& body) const {
         return thermal_speed(body) / (body.radius * std::sqrt(inertia_));
     }
-    /// Calls what(disc i, random numbers of it) for each disc in the box.
+    /// Calls what(i, random numbers of disc i) for each disc in the box.
     template <class What> void for_each(const SyncDiscs& at, const What& what) const {
         at.in_parts([&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -77,7 +77,7 @@ public:
 
     void act(const SyncDiscs& at) override {
         const double size = std::sqrt(setting_.strength * interval_);
-        // Numbers beyond 2^10 do not occur: one in exp(2^19) is as large.
+        // Larger numbers than 2^10 do not occur: one in exp(2^19) is as large.
         const double bound = n_discs_ * heaviest_ * size * 0x1p10;
         std::vector<ExactSum> sums(2, ExactSum(bound));
         sums.emplace_back(2 * n_discs_ * heaviest_);
@@ -149,12 +149,12 @@ public:
     using ThermostatEffect::ThermostatEffect;
 
     void act(const SyncDiscs& at) override {
-        double largest = 0; // the largest velocity, surfaces of rough discs included
+        double largest = 0; // the largest velocity, including those of rough discs' surfaces
         for (std::size_t i = 0; i < at.discs.size(); ++i)
             largest = std::max({largest, std::fabs(at.discs[i].vx), std::fabs(at.discs[i].vy),
                                 std::fabs(speed_of_surface(at, i))});
         largest = at.largest_over_ranks(largest);
-        if (!(largest > 0)) return; // all are at rest
+        if (!(largest > 0)) return; // all discs are at rest
         const double mass_bound = 2 * n_discs_ * heaviest_;
         std::vector<ExactSum> sums{ExactSum(mass_bound * largest), ExactSum(mass_bound * largest),
                                    ExactSum(mass_bound), ExactSum(2 * n_discs_)};
@@ -176,7 +176,8 @@ public:
             parts[0].add(0.5 * mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
         });
         const double now = energy[0].value(), blur = 0x1p-48 * largest;
-        // Discs that all fly alike differ from their mean by roundings, which must not become heat.
+        // If all discs fly alike, they differ from their mean only by roundings, which must not
+        // become heat.
         if (!(now > sums[2].value() * blur * blur)) return;
         const double wanted = n * setting_.temperature * (at.spins.empty() ? 1 : 1.5);
         const double factor = std::sqrt(wanted / now);
@@ -276,7 +277,7 @@ std::vector<Rule> rules_of_thermostat() {
              }}};
 }
 
-/// A sync that follows long after another one would leave nothing of the velocities.
+/// A long time between syncs would leave nothing of the velocities.
 void check_times_of_thermostat(const SceneDraft& draft) {
     constexpr double longest = 4;
     const SceneParameters& scene = draft.scene;
@@ -290,7 +291,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
-/// A bath leaves velocities distributed as they are where nothing else gives or takes energy.
+/// A bath does not change the distribution of velocities if nothing else gives or takes energy.
 bool makes_energy_jump(const Effects& effects) {
     const CheckAllowance others = allowance_of(effects);
     return effects.thermostat.is_any() &&
@@ -298,7 +299,7 @@ bool makes_energy_jump(const Effects& effects) {
             others.walls_give_energy || effects.are_sheared());
 }
 
-/// Velocities that a thermostat gives must be such as discs may have.
+/// A thermostat must give valid speeds to discs.
 void check_room_of_thermostat(const SceneDraft& draft) {
     const Thermostat& t = draft.scene.effects.thermostat;
     const double of_kick = std::sqrt(t.strength * steps_between_syncs(draft.scene));
@@ -326,8 +327,7 @@ std::string summary_of_thermostat(const Effects& effects) {
     return {};
 }
 
-/// Where noise heats discs that were at rest, they get as fast as it makes them in a flight of a
-/// radius.
+/// Discs at rest that noise heats reach about the speed that they gain in a flight of a radius.
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));

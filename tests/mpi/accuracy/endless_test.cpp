@@ -41,7 +41,7 @@ std::string end_of(const RunSetting& setting, const Communicator& world, Totals&
 
 } // namespace
 
-TEST_CASE("Collisions at a rounding of time from each other have no end where settings cannot "
+TEST_CASE("collisions at a rounding of time from each other have no end where settings cannot "
           "tell, and are told of") {
     const Communicator world = Communicator::world();
     Totals totals;

@@ -102,7 +102,7 @@ const std::array<Column, 3> table = {{
 } // namespace
 
 TEST_CASE(
-    "The time-stepped method loses as many collisions, and leaves as many overlaps, as is known") {
+    "the time-stepped method loses as many collisions, and leaves as many overlaps, as is known") {
     const Communicator world = Communicator::world();
     for (const Column& column : table) {
         for (std::size_t i = 0; i < column.losses.size(); ++i) {
@@ -122,7 +122,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Errors fall in first order when discs are few, more slowly when they are dense") {
+TEST_CASE("errors fall in first order when discs are few, more slowly when they are dense") {
     const Communicator world = Communicator::world();
     const auto order = [&](const Column& column) { // between 1/4 and 1/32
         const Mean coarse =
@@ -144,7 +144,7 @@ TEST_CASE("Errors fall in first order when discs are few, more slowly when they 
     CHECK(std::fabs(dense.value - 0.288) < 4 * std::hypot(dense.error, 0.021));
 }
 
-TEST_CASE("Precision and formula change no rate where discs are near to each other") {
+TEST_CASE("precision and formula change no rate where discs are near to each other") {
     const Communicator world = Communicator::world();
     const Column& column = table[1];
     const LossOfMethod usual = measure(column.packing, column.frequency, {Method::time_stepped, 4},
@@ -161,7 +161,7 @@ TEST_CASE("Precision and formula change no rate where discs are near to each oth
     }
 }
 
-TEST_CASE("Under the event-driven method no precision and no formula changes the rate, and the "
+TEST_CASE("under the event-driven method no precision and no formula changes the rate, and the "
           "stable one "
           "leaves no overlaps") {
     const Communicator world = Communicator::world();
@@ -180,7 +180,7 @@ TEST_CASE("Under the event-driven method no precision and no formula changes the
     }
 }
 
-TEST_CASE("Single precision rounds every state, keeps energy to its own rounding, and says so in "
+TEST_CASE("single precision rounds every state, keeps energy to its own rounding, and says so in "
           "the bits") {
     const Communicator world = Communicator::world();
     const SceneParameters scene = known_gas(0.3, 2.4595, 7);
@@ -203,7 +203,7 @@ TEST_CASE("Single precision rounds every state, keeps energy to its own rounding
     CHECK(is_double);
 }
 
-TEST_CASE("Micro-steps by a power of two are exact scaling: the same bits as velocities divided by "
+TEST_CASE("micro-steps by a power of two are exact scaling: the same bits as velocities divided by "
           "hand") {
     const Communicator world = Communicator::world();
     for (const auto& [method, k] : {std::pair{Method::time_stepped, std::int64_t{2}},

@@ -50,7 +50,7 @@ void check_delivery(SceneParameters scene, double accuracy, const Communicator& 
 
 } // namespace
 
-TEST_CASE("An accuracy is delivered on three scenes that the choice was not made for") {
+TEST_CASE("an accuracy is delivered on three scenes that the choice was not made for") {
     const Communicator world = Communicator::world();
     check_delivery(
         unknown_gas("count = 300\npacking = 0.05\nspeed = 0.3\nvelocities = 'uniform'\nseed = 5\n"),
@@ -63,7 +63,7 @@ TEST_CASE("An accuracy is delivered on three scenes that the choice was not made
                    0.3, world);
 }
 
-TEST_CASE("An accuracy is delivered where errors are small at first and grow for hundreds of "
+TEST_CASE("an accuracy is delivered where errors are small at first and grow for hundreds of "
           "collisions") {
     const Communicator world = Communicator::world();
     check_delivery(
@@ -71,7 +71,7 @@ TEST_CASE("An accuracy is delivered where errors are small at first and grow for
         world, 1, 60 * 16384 / 2.0);
 }
 
-TEST_CASE("What no pilot can see is left to the event-driven method, and the choice is written "
+TEST_CASE("what no pilot can see is left to the event-driven method, and the choice is written "
           "over the question") {
     const Communicator world = Communicator::world();
     SceneParameters scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
@@ -89,7 +89,7 @@ TEST_CASE("What no pilot can see is left to the event-driven method, and the cho
     CHECK((again.method == Method::event_driven && !again.accuracy && again.steps == 9));
 }
 
-TEST_CASE("Discs that never meet have no error to choose by") {
+TEST_CASE("discs that never meet have no error to choose by") {
     const Communicator world = Communicator::world();
     SceneParameters scene = read_scene(
         "[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, "

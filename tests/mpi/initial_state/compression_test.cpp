@@ -88,7 +88,7 @@ double least_gap(const std::vector<InputDisc>& discs, const SceneParameters& sce
 
 } // namespace
 
-TEST_CASE("Compressed discs do not overlap, and are the same on any ranks and threads") {
+TEST_CASE("compressed discs do not overlap, and are the same on any ranks and threads") {
     const Communicator world = Communicator::world();
     const std::string mixture = "discs.species=[{count=55,radius=1.5},{count=90,radius=1.07}] "
                                 "box.size=30 ";
@@ -128,7 +128,7 @@ TEST_CASE("Compressed discs do not overlap, and are the same on any ranks and th
     }
 }
 
-TEST_CASE("Compression goes on to more than eight tenths, and a run begins there") {
+TEST_CASE("compression goes on to more than eight tenths, and a run begins there") {
     const Communicator world = Communicator::world();
     const SceneParameters scene = compressed_scene("discs.count=100 discs.packing=0.82 " +
                                                    all_round);
@@ -141,7 +141,7 @@ TEST_CASE("Compression goes on to more than eight tenths, and a run begins there
     CHECK(system.totals().pair_collisions > 500);
 }
 
-TEST_CASE("Compression that jams ends with the packing fraction that it has reached") {
+TEST_CASE("compression that jams ends with the packing fraction that it has reached") {
     const Communicator world = Communicator::world();
     const SceneParameters scene = compressed_scene(
         "discs.count=100 discs.packing=0.9 discs.growth_rate=0.1");

@@ -196,7 +196,7 @@ Listing listing_of(const std::string& text) {
 
 } // namespace
 
-TEST_CASE("Random insertion follows its rule on any number of ranks") {
+TEST_CASE("random insertion follows its rule on any number of ranks") {
     for (const Texts& overrides :
          {Texts{"discs.packing=0.3"}, Texts{"discs.packing=0.45", "discs.seed=9"},
           Texts{"discs.packing=0.01"}, Texts{"discs.packing=0.4", "discs.count=7"},
@@ -218,7 +218,7 @@ TEST_CASE("Random insertion follows its rule on any number of ranks") {
     }
 }
 
-TEST_CASE("Random insertion of several sizes follows its rule") {
+TEST_CASE("random insertion of several sizes follows its rule") {
     const SceneParameters scene = read_scene(
         "[box]\nsize = 10\n[discs]\nspeed = 0.25\nspecies = [{count = 30, radius = 0.5}, "
         "{count = 150, radius = 0.12}, {count = 50, radius = 0.3}]\n[time]\nsteps = 1\n",
@@ -228,21 +228,21 @@ TEST_CASE("Random insertion of several sizes follows its rule") {
         check_generated(initial_state(scene, nullptr, ranks(), n_threads), by_the_rule);
 }
 
-TEST_CASE("Many random discs: all there, inside, apart, and always the same") {
+TEST_CASE("many random discs: all there, inside, apart, and always the same") {
     const SceneParameters scene = scene_of({"discs.packing=0.3", "discs.count=20000"});
     const Discs discs = initial_state(scene, nullptr, ranks());
     check_arrangement(discs, scene);
     CHECK(to_string(hash_of_all(discs)) == "ea31e7e50301b163d8a497ecbb08f66d");
 }
 
-TEST_CASE("Random discs are shared out evenly") {
+TEST_CASE("random discs are shared out evenly") {
     const Discs discs = initial_state(scene_of({"discs.packing=0.3", "discs.count=20000"}), nullptr,
                                       ranks());
     const std::uint64_t share = 20000 / static_cast<std::uint64_t>(ranks().size());
     CHECK(discs.size() < share + share / 5);
 }
 
-TEST_CASE("A lattice is its sites, shaken") {
+TEST_CASE("a lattice is its sites, shaken") {
     const SceneParameters scene = scene_of(
         {"discs.packing=0.8", "discs.count=3000", "discs.generator=lattice"});
     const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
@@ -258,7 +258,7 @@ TEST_CASE("A lattice is its sites, shaken") {
     check_arrangement(discs, scene);
 }
 
-TEST_CASE("A triangular lattice is its sites, row after row, along either edge") {
+TEST_CASE("a triangular lattice is its sites, row after row, along either edge") {
     const double height = std::sqrt(0.75);
     for (const bool stands : {false, true}) {
         Texts overrides = {"discs.generator=triangular", "discs.count=480", "discs.packing=0.9"};
@@ -291,7 +291,7 @@ TEST_CASE("A triangular lattice is its sites, row after row, along either edge")
     }
 }
 
-TEST_CASE("The legacy generator gives the course program's discs") {
+TEST_CASE("the legacy generator gives the course program's discs") {
     struct Case {
         std::uint64_t n;
         double box;
@@ -304,12 +304,12 @@ TEST_CASE("The legacy generator gives the course program's discs") {
     }
 }
 
-TEST_CASE("A box too full for the legacy generator is refused on every rank") {
+TEST_CASE("a box too full for the legacy generator is refused on every rank") {
     const SceneParameters scene = read_scene("100\n20\n1\n10\nperf\n", "t.in");
     CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
 }
 
-TEST_CASE("Streams reach generated discs of every kind") {
+TEST_CASE("streams reach generated discs of every kind") {
     for (const char* generator : {"random", "lattice", "legacy"}) {
         CAPTURE(generator);
         const Texts settings = {"discs.packing=0.2", fmt::format("discs.generator={}", generator)};
@@ -329,7 +329,7 @@ TEST_CASE("Streams reach generated discs of every kind") {
     }
 }
 
-TEST_CASE("Listed discs arrive, whatever their order, in shares") {
+TEST_CASE("listed discs arrive, whatever their order, in shares") {
     std::string text = "150000\n1000\n0.5\n1\nperf\n";
     Discs reference;
     for (DiscId i = 0; i < 150000; ++i) {
@@ -343,13 +343,13 @@ TEST_CASE("Listed discs arrive, whatever their order, in shares") {
     CHECK(discs.size() <= 150000 / static_cast<std::size_t>(ranks().size()) + 1);
 }
 
-TEST_CASE("Discs listed in the scene are spread once") {
+TEST_CASE("discs listed in the scene are spread once") {
     const SceneParameters scene = scene_of(
         {"discs.list=[[1,1,0,0],[2,2,1,0],[3,3,0,1]]", "discs.count=3"});
     check_same(initial_state(scene, nullptr, ranks()), scene.listed_discs);
 }
 
-TEST_CASE("Wrong lines are the same problems on every rank") {
+TEST_CASE("wrong lines are the same problems on every rank") {
     Listing listing = listing_of(
         "4\n10\n1\n1\nperf\n0 5 5 0 0\n1 5 5 x 0\n0 2 2 0 0\n2 0.5 5 0 0\n");
     std::vector<std::string> problems;
@@ -362,7 +362,7 @@ TEST_CASE("Wrong lines are the same problems on every rank") {
     CHECK(problems == Texts{"t.in:7", "t.in:8", "t.in:9", "t.in:0"});
 }
 
-TEST_CASE("A start that jams gives way to the next one on any number of ranks") {
+TEST_CASE("a start that jams gives way to the next one on any number of ranks") {
     std::size_t n_jams = 0;
     const int n_seeds = ranks().size() == 1 ? 6 : 2; // jams are a thousand rounds of talk
     for (int seed = 1; seed <= n_seeds; ++seed) {
@@ -382,7 +382,7 @@ TEST_CASE("A start that jams gives way to the next one on any number of ranks") 
     CHECK(n_jams > 0);
 }
 
-TEST_CASE("Discs that jam in every try are refused on every rank") {
+TEST_CASE("discs that jam in every try are refused on every rank") {
     if (ranks().size() > 2) return; // a hundred thousand rounds of talk, which tell no more
     SceneParameters scene = scene_of(
         {"discs.radius=2.49", "discs.count=4", "discs.generator=lattice"});

@@ -125,7 +125,7 @@ Texts problems_of_one_reader(const std::string& text, std::size_t n_discs) {
 
 } // namespace
 
-TEST_CASE("Files of discs are read by all ranks, whatever separates their lines") {
+TEST_CASE("files of discs are read by all ranks, whatever separates their lines") {
     for (const std::size_t n : {1u, 2u, 3u, 10u, 1009u, 150001u}) {
         const Texts lines = lines_of(n);
         const Discs expected = discs_in(lines);
@@ -143,7 +143,7 @@ TEST_CASE("Files of discs are read by all ranks, whatever separates their lines"
     }
 }
 
-TEST_CASE("A fault in any part of a file gives the messages of one reader") {
+TEST_CASE("a fault in any part of a file gives the messages of one reader") {
     constexpr std::size_t n = 200;
     const Texts lines = lines_of(n);
     const Texts wrong = {"",
@@ -168,7 +168,7 @@ TEST_CASE("A fault in any part of a file gives the messages of one reader") {
     }
 }
 
-TEST_CASE("Files with too many lines are refused as by one reader") {
+TEST_CASE("files with too many lines are refused as by one reader") {
     Texts lines = lines_of(100);
     for (int k = 0; k < 200; ++k) lines.push_back(lines[static_cast<std::size_t>(k % 100)]);
     const std::string text = joined(lines, "\n");

@@ -65,7 +65,7 @@ Sums sums_of(const SceneParameters& scene) {
 
 } // namespace
 
-TEST_CASE("Generated discs have the energy that is asked for, and no drift along periodic axes") {
+TEST_CASE("generated discs have the energy that is asked for, and no drift along periodic axes") {
     const Texts plain = {"discs.count=500", "discs.radius=0.1"}, mixed = {species};
     for (const Texts& discs : {plain, mixed}) {
         for (const char* motion : {"discs.speed=0.3", "discs.temperature=0.045"}) {
@@ -96,14 +96,14 @@ TEST_CASE("Generated discs have the energy that is asked for, and no drift along
     }
 }
 
-TEST_CASE("A temperature is that of every species, but for chance") {
+TEST_CASE("a temperature is that of every species, but for chance") {
     const Sums sums = sums_of(scene_of({species, "discs.temperature=2"}));
     // The energy of n discs scatters by 1/sqrt(n).
     CHECK(sums.energies[0] / 300 == Approx(2).epsilon(4 / std::sqrt(300.0)));
     CHECK(sums.energies[1] / 500 == Approx(2).epsilon(4 / std::sqrt(500.0)));
 }
 
-TEST_CASE("Velocities have the same bits on any number of ranks") {
+TEST_CASE("velocities have the same bits on any number of ranks") {
     const Communicator world = Communicator::world();
     for (const char* motion : {"discs.speed=0.3", "discs.temperature=7e-5"}) {
         const SceneParameters scene = scene_of(
@@ -114,7 +114,7 @@ TEST_CASE("Velocities have the same bits on any number of ranks") {
     }
 }
 
-TEST_CASE("A disc that is alone in a periodic box moves, and no speed is no motion") {
+TEST_CASE("a disc that is alone in a periodic box moves, and no speed is no motion") {
     const Texts round = {round_x, round_x2, round_y, round_y2};
     Texts one = round, still = round;
     one.insert(one.end(), {"discs.count=1", "discs.radius=1", "discs.speed=0.5"});

@@ -8,7 +8,7 @@
 
 using namespace carrom;
 
-TEST_CASE("A scene that would just fit is refused where discs crowd") {
+TEST_CASE("a scene that would just fit is refused where discs crowd") {
     const Communicator world = Communicator::world();
     const auto available = static_cast<double>(world.min(memory_per_rank(world))) * world.size();
     // Between what a disc takes in an even gas, at most 110 bytes, and with 48 more where they

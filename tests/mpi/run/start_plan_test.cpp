@@ -66,7 +66,7 @@ bool is_refused(const RunOptions& options, const std::string& words, const Commu
 
 } // namespace
 
-TEST_CASE("A plan without a restart begins with the scene") {
+TEST_CASE("a plan without a restart begins with the scene") {
     const Communicator world = Communicator::world();
     const Place place(world);
     RunOptions options;
@@ -78,7 +78,7 @@ TEST_CASE("A plan without a restart begins with the scene") {
     CHECK(plan.scene.n_discs == 1);
 }
 
-TEST_CASE("A plan to resume lists the checkpoints of the run's folder, newest first") {
+TEST_CASE("a plan to resume lists the checkpoints of the run's folder, newest first") {
     const Communicator world = Communicator::world();
     const Place place(world);
     for (const char* name :
@@ -103,7 +103,7 @@ TEST_CASE("A plan to resume lists the checkpoints of the run's folder, newest fi
     CHECK(planned(options, world) == "scene of the checkpoint\n" + expected);
 }
 
-TEST_CASE("A run that was killed before its first checkpoint begins with the copy of its scene") {
+TEST_CASE("a run that was killed before its first checkpoint begins with the copy of its scene") {
     const Communicator world = Communicator::world();
     const Place place(world);
     place.write("run/scene.toml", "# --set time.steps=5\n[box]\nsize = 10\n\n[discs]\ncount = 1\n"
@@ -123,7 +123,7 @@ TEST_CASE("A run that was killed before its first checkpoint begins with the cop
     CHECK(plan_start(options, {}, world).scene.steps == 10);
 }
 
-TEST_CASE("A plan to restart from a file or from a folder names it") {
+TEST_CASE("a plan to restart from a file or from a folder names it") {
     const Communicator world = Communicator::world();
     const Place place(world);
     place.write("kept/checkpoint-000000000003.h5");
@@ -143,7 +143,7 @@ TEST_CASE("A plan to restart from a file or from a folder names it") {
     CHECK(plan.restart.candidates.size() == 1);
 }
 
-TEST_CASE("A plan sees checkpoints that come after it") {
+TEST_CASE("a plan sees checkpoints that come after it") {
     const Communicator world = Communicator::world();
     const Place place(world);
     place.write("kept/checkpoint-000000000003.h5");
@@ -160,7 +160,7 @@ TEST_CASE("A plan sees checkpoints that come after it") {
     CHECK_FALSE(has_other_checkpoints(beginning, world));
 }
 
-TEST_CASE("Options that lead to no start are an error of the plan") {
+TEST_CASE("options that lead to no start are an error of the plan") {
     const Communicator world = Communicator::world();
     const Place place(world);
     RunOptions options;

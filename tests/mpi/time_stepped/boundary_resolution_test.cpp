@@ -138,7 +138,7 @@ const std::vector<Setting> settings = {{1, 6, 8192}, {7, 6, 8192}, {40, 6, 8192}
 
 } // namespace
 
-TEST_CASE("Resolution across strips is the sorted walk, by talk, by sort and by both") {
+TEST_CASE("resolution across strips is the sorted walk, by talk, by sort and by both") {
     const Communicator world = Communicator::world();
     for (const Setting& setting : settings) {
         for (std::uint32_t seed = 1; seed <= 12; ++seed) {
@@ -150,7 +150,7 @@ TEST_CASE("Resolution across strips is the sorted walk, by talk, by sort and by 
     }
 }
 
-TEST_CASE("Chains across strips are resolved, however often they cross") {
+TEST_CASE("chains across strips are resolved, however often they cross") {
     const Communicator world = Communicator::world();
     for (const Setting& setting : settings) {
         for (const bool is_tied : {false, true}) {
@@ -160,7 +160,7 @@ TEST_CASE("Chains across strips are resolved, however often they cross") {
     }
 }
 
-TEST_CASE("Where discs of two ranks meet at all, one round of talk decides what is first for both "
+TEST_CASE("where discs of two ranks meet at all, one round of talk decides what is first for both "
           "and what depends on it alone") {
     const Communicator world = Communicator::world();
     // Ranks 0 and 1 own discs 0, 1 and 2, 3: the pair of 1 and 2 comes first, so 0 with 1 and 2

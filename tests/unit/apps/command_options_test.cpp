@@ -54,7 +54,7 @@ std::vector<std::string> refused_places(const std::vector<std::string>& words) {
 
 } // namespace
 
-TEST_CASE("Options that are not given keep their defaults") {
+TEST_CASE("options that are not given keep their defaults") {
     const auto [options, problems] = checked({});
     CHECK(problems.empty());
     CHECK(options.digits == 17);
@@ -63,7 +63,7 @@ TEST_CASE("Options that are not given keep their defaults") {
     CHECK(options.overrides.empty());
 }
 
-TEST_CASE("Steps are an override like any other, and the last word") {
+TEST_CASE("steps are an override like any other, and the last word") {
     RunOptions given;
     given.overrides = {"time.steps=3", "box.size=4"};
     const auto [options, problems] = checked({{"--steps", "12"}}, given);
@@ -72,7 +72,7 @@ TEST_CASE("Steps are an override like any other, and the last word") {
           std::vector<std::string>{"time.steps=3", "box.size=4", "time.steps=12"});
 }
 
-TEST_CASE("Every wrong option is told, each by its name") {
+TEST_CASE("every wrong option is told, each by its name") {
     const auto [options, problems] = checked({{"--threads", "0"},
                                               {"--steps", "1.5"},
                                               {"--digits", "18"},
@@ -88,7 +88,7 @@ TEST_CASE("Every wrong option is told, each by its name") {
                                              "--window"});
 }
 
-TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter") {
+TEST_CASE("a window may be a hundred-thousandth of a micro-step, and no shorter") {
     CHECK(checked({{"--window", "1e-5"}}).problems.empty());
     for (const char* wrong : {"0.99e-5", "1e-300", "0", "-1", "inf"}) {
         const auto [options, problems] = checked({{"--window", wrong}});
@@ -98,7 +98,7 @@ TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter"
     }
 }
 
-TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at every inspection") {
+TEST_CASE("zero is a number of steps, and switches rebalancing off or on at every inspection") {
     const auto [options, problems] = checked(
         {{"--steps", "0"}, {"--rebalance-every", "0"}, {"--rebalance-above", "0"}});
     CHECK(problems.empty());
@@ -107,7 +107,7 @@ TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at ever
     CHECK(options.tuning.rebalance_above == 0);
 }
 
-TEST_CASE("A command line is refused for words that fit nowhere") {
+TEST_CASE("a command line is refused for words that fit nowhere") {
     using Places = std::vector<std::string>;
     CHECK(refused_places({"carrom", "run", "a.in", "b.in"}) == Places{"b.in"});
     CHECK(refused_places({"carrom", "run", "--thread", "3", "a.in", "--steps", "-4"}) ==
@@ -120,7 +120,7 @@ TEST_CASE("A command line is refused for words that fit nowhere") {
     CHECK(refused_places({"carrom", "info"}) == Places{"command line"});
 }
 
-TEST_CASE("Empty words are refused: they come from variables that are not set") {
+TEST_CASE("empty words are refused: they come from variables that are not set") {
     using Places = std::vector<std::string>;
     for (const char* option : {"--output", "--report", "--restart", "--set", "--threads"})
         CHECK(refused_places({"carrom", "run", "a.in", option, ""}) == Places{option});
@@ -132,7 +132,7 @@ TEST_CASE("Empty words are refused: they come from variables that are not set") 
     CHECK(refused_places({"carrom", "accuracy", "a.in", "--output", ""}) == Places{"--output"});
 }
 
-TEST_CASE("Only simulations need MPI, and only runs wait for the end of a step to stop") {
+TEST_CASE("only simulations need MPI, and only runs wait for the end of a step to stop") {
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"carrom", "--help"},
                                                {"carrom", "--version"},

@@ -59,7 +59,7 @@ private:
 
 } // namespace
 
-TEST_CASE("A table that a disk has no room for ends with a whole line, with code 4") {
+TEST_CASE("a table that a disk has no room for ends with a whole line, with code 4") {
     const OwnFile file("full_table.csv");
     CsvTable table(file.path(), header);
     table.append("a,1");
@@ -73,7 +73,7 @@ TEST_CASE("A table that a disk has no room for ends with a whole line, with code
     CHECK(text_of(file.path()) == "key,number\na,1\n");
 }
 
-TEST_CASE("A table is a new file, and there only with its first line") {
+TEST_CASE("a table is a new file, and there only with its first line") {
     const OwnFile file("new_table.csv");
     {
         CsvTable table(file.path(), header);
@@ -87,7 +87,7 @@ TEST_CASE("A table is a new file, and there only with its first line") {
     CHECK_THROWS_AS(CsvTable("/dev/null", header), InputError);
 }
 
-TEST_CASE("A table does not write over a file that has come meanwhile") {
+TEST_CASE("a table does not write over a file that has come meanwhile") {
     const OwnFile file("late_table.csv");
     CsvTable table(file.path(), header);
     std::ofstream(file.path()) << "another one";

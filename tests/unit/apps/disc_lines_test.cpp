@@ -30,7 +30,7 @@ template <class... Values> std::string printed(const char* format, Values... val
 
 } // namespace
 
-TEST_CASE("A line is what printf prints, with and without counters") {
+TEST_CASE("a line is what printf prints, with and without counters") {
     const DiscLine line{7, 0.1, 1e-5, -1.0 / 3, 1e17, 12, 34};
     CHECK(line_text(3, line, 17, false) ==
           "3 7 0.10000000000000001 1.0000000000000001e-05 -0.33333333333333331 1e+17\n");
@@ -39,7 +39,7 @@ TEST_CASE("A line is what printf prints, with and without counters") {
     CHECK(line_text(0, {0, 2, 5, 1, 0, 0, 0}, 17, false) == "0 0 2 5 1 0\n");
 }
 
-TEST_CASE("Numbers of every size are printed as printf prints them") {
+TEST_CASE("numbers of every size are printed as printf prints them") {
     std::mt19937_64 random(1);
     for (int k = 0; k < 20000; ++k) {
         const double value = std::bit_cast<double>(random());
@@ -54,7 +54,7 @@ TEST_CASE("Numbers of every size are printed as printf prints them") {
     }
 }
 
-TEST_CASE("The course program's look is eight decimals") {
+TEST_CASE("the course program's look is eight decimals") {
     const DiscLine line{41, 123.456789012, 0.5, -2, 1e-9, 0, 0};
     CHECK(line_text(12, line, 8, false) == printed("%d %d %10.8lf %10.8lf %10.8lf %10.8lf\n", 12,
                                                    41, line.x, line.y, line.vx, line.vy));

@@ -37,7 +37,7 @@ std::string content(const std::string& path) {
 
 } // namespace
 
-TEST_CASE("A report replaces the file that was there and leaves nothing beside it") {
+TEST_CASE("a report replaces the file that was there and leaves nothing beside it") {
     const ScratchFolder folder;
     const std::string path = folder.file("report.json");
     CHECK(write_whole_file(path, "first, and longer\n").empty());
@@ -46,7 +46,7 @@ TEST_CASE("A report replaces the file that was there and leaves nothing beside i
     CHECK(folder.n_files() == 1);
 }
 
-TEST_CASE("Places that cannot take a report are found out without a trace") {
+TEST_CASE("places that cannot take a report are found out without a trace") {
     const ScratchFolder folder;
     CHECK(write_problem_of_file(folder.file("report.json")).text.empty());
     CHECK(folder.n_files() == 0);
@@ -58,7 +58,7 @@ TEST_CASE("Places that cannot take a report are found out without a trace") {
           std::string::npos);
 }
 
-TEST_CASE("Files and links beside a report are left as they are") {
+TEST_CASE("files and links beside a report are left as they are") {
     const ScratchFolder folder;
     const std::string path = folder.file("report.json"), pid = std::to_string(::getpid());
     const std::string victim = folder.file("victim"), left_over = path + ".partial";
@@ -74,7 +74,7 @@ TEST_CASE("Files and links beside a report are left as they are") {
     CHECK(folder.n_files() == 5);
 }
 
-TEST_CASE("A file for data is emptied only when it is opened") {
+TEST_CASE("a file for data is emptied only when it is opened") {
     const ScratchFolder folder;
     const std::string path = folder.file("lines.txt");
     CHECK(write_problem_of_stream(path).text.empty());
@@ -95,7 +95,7 @@ TEST_CASE("A file for data is emptied only when it is opened") {
     CHECK(output.failure().empty());
 }
 
-TEST_CASE("A full disk is remembered, not fatal") {
+TEST_CASE("a full disk is remembered, not fatal") {
     if (!std::filesystem::exists("/dev/full")) return;
     DataOutput output("/dev/full");
     output.buffer().append(std::string("lost\n"));

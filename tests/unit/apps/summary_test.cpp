@@ -39,7 +39,7 @@ RunResult small_result() {
 
 } // namespace
 
-TEST_CASE("Rates are per disc, and per step or micro-step") {
+TEST_CASE("rates are per disc, and per step or micro-step") {
     CHECK(ns_per_disc_step(small_result()) == Approx(10));
     CHECK(energy_drift(small_result()) == Approx(0.25));
     CHECK(collisions_per_disc(small_scene(), small_result()) ==
@@ -47,7 +47,7 @@ TEST_CASE("Rates are per disc, and per step or micro-step") {
 }
 
 TEST_CASE(
-    "Rejected candidates are a share of all candidates, overlaps are per disc and in diameters") {
+    "rejected candidates are a share of all candidates, overlaps are per disc and in diameters") {
     RunResult result = small_result();
     CHECK(rejected_share(result) == 0);
     result.end.rejected_candidates = 50;
@@ -63,7 +63,7 @@ TEST_CASE(
           std::string::npos);
 }
 
-TEST_CASE("The summary names precision and arithmetic where they leave the default") {
+TEST_CASE("the summary names precision and arithmetic where they leave the default") {
     SceneParameters scene = small_scene();
     CHECK(summary_text(scene, small_result()).find("precision") == std::string::npos);
     scene.precision = Precision::single;
@@ -72,7 +72,7 @@ TEST_CASE("The summary names precision and arithmetic where they leave the defau
               .find("precision = \"single\", arithmetic = \"naive\"") != std::string::npos);
 }
 
-TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
+TEST_CASE("a run of no steps, and one of discs at rest, have rates of zero") {
     RunResult result = small_result();
     result.last_step = 0;
     result.start.kinetic_energy = 0;
@@ -84,7 +84,7 @@ TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
     CHECK(collisions_per_disc(small_scene(), result) == 0);
 }
 
-TEST_CASE("Imbalance is told where there are several ranks, of what ranks do without waiting for "
+TEST_CASE("imbalance is told where there are several ranks, of what ranks do without waiting for "
           "others") {
     RunResult result = small_result();
     CHECK(summary_text(small_scene(), result).find("imbalance") == std::string::npos);
@@ -103,7 +103,7 @@ TEST_CASE("Imbalance is told where there are several ranks, of what ranks do wit
     CHECK(report.at("phase_imbalance").at("sync") == 1.75);
 }
 
-TEST_CASE("The report is JSON with the numbers of the result") {
+TEST_CASE("the report is JSON with the numbers of the result") {
     const auto report = nlohmann::json::parse(report_text(small_scene(), small_result()));
     CHECK(report.at("n_discs") == 4);
     CHECK(report.at("steps") == 50);
@@ -116,7 +116,7 @@ TEST_CASE("The report is JSON with the numbers of the result") {
     CHECK(report.at("state_hash") == "00000000000000000000000000000000");
 }
 
-TEST_CASE("What nothing is averaged of is null, with the reason") {
+TEST_CASE("what nothing is averaged of is null, with the reason") {
     RunResult result = small_result();
     result.averages = {};
     const auto report = nlohmann::json::parse(report_text(small_scene(), result));
@@ -132,7 +132,7 @@ TEST_CASE("What nothing is averaged of is null, with the reason") {
     }
 }
 
-TEST_CASE("What is conserved or still changing has no error, and says so") {
+TEST_CASE("what is conserved or still changing has no error, and says so") {
     RunResult result = small_result();
     result.averages.steps = 50;
     result.averages.n_blocks = 40;

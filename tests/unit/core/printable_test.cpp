@@ -8,7 +8,7 @@
 
 using namespace carrom;
 
-TEST_CASE("Control characters are shown as escapes, all other bytes as they are") {
+TEST_CASE("control characters are shown as escapes, all other bytes as they are") {
     CHECK(printable("disc 7, 80 %") == "disc 7, 80 %");
     CHECK(printable("\x1b[2J\a\r\t\x7f") == "\\x1b[2J\\x07\\x0d\\x09\\x7f");
     CHECK(printable(std::string("a\0b", 3)) == "a\\x00b");
@@ -18,12 +18,12 @@ TEST_CASE("Control characters are shown as escapes, all other bytes as they are"
     CHECK(printable("\xc2") == "\xc2");
 }
 
-TEST_CASE("Ends of lines stay where lines are meant") {
+TEST_CASE("ends of lines stay where lines are meant") {
     CHECK(printable("a\nb") == "a\\x0ab");
     CHECK(printable("a\nb\r", true) == "a\nb\\x0d");
 }
 
-TEST_CASE("A problem is one line, whatever its place is called") {
+TEST_CASE("a problem is one line, whatever its place is called") {
     CHECK(to_string({"two\nlines\x1b.toml", 3, "has no\rend"}) ==
           "two\\x0alines\\x1b.toml:3: has no\\x0dend");
 }

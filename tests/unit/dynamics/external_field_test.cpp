@@ -42,7 +42,7 @@ void check_slopes(const ExternalField& field, double x, double y) {
 
 } // namespace
 
-TEST_CASE("Fields: the spline goes through its numbers, and is smooth") {
+TEST_CASE("fields: the spline goes through its numbers, and is smooth") {
     Numbers random(71);
     for (const bool is_periodic : {true, false}) {
         for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 17u}) {
@@ -62,7 +62,7 @@ TEST_CASE("Fields: the spline goes through its numbers, and is smooth") {
     }
 }
 
-TEST_CASE("Fields: a line between walls stays one, and goes on beyond them") {
+TEST_CASE("fields: a line between walls stays one, and goes on beyond them") {
     FieldValues values{5, 3, {}};
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 5; ++column)
@@ -77,7 +77,7 @@ TEST_CASE("Fields: a line between walls stays one, and goes on beyond them") {
         }
 }
 
-TEST_CASE("Fields: a sine on a grid is the sine, to the fourth power of the spacing") {
+TEST_CASE("fields: a sine on a grid is the sine, to the fourth power of the spacing") {
     double worst[2] = {0, 0};
     for (const int fine : {0, 1}) {
         const std::size_t n = fine == 0 ? 16 : 32;
@@ -99,7 +99,7 @@ TEST_CASE("Fields: a sine on a grid is the sine, to the fourth power of the spac
     CHECK(worst[1] < worst[0] / 14);
 }
 
-TEST_CASE("Fields: forces are the derivatives of potentials, below the largest curvature") {
+TEST_CASE("fields: forces are the derivatives of potentials, below the largest curvature") {
     Numbers random(72);
     std::vector<ExternalField> fields(4);
     fields[0].kind = FieldKind::trap;
@@ -123,7 +123,7 @@ TEST_CASE("Fields: forces are the derivatives of potentials, below the largest c
     }
 }
 
-TEST_CASE("Fields: strengths follow species by their ids") {
+TEST_CASE("fields: strengths follow species by their ids") {
     ExternalField field;
     CHECK(field.strength_of(12) == 1);
     field.strengths = {2, -1};

@@ -60,7 +60,7 @@ double bound(double share) { return 4 * std::sqrt(2 * share * (1 - share) / n_pa
 
 } // namespace
 
-TEST_CASE("The naive formula in single precision misses the known share of grazing hits, the "
+TEST_CASE("the naive formula in single precision misses the known share of grazing hits, the "
           "stable one next to none") {
     struct Known {
         double distance, eps, share, strict; ///< strict: found by a third program, of 400,000 pairs
@@ -77,7 +77,7 @@ TEST_CASE("The naive formula in single precision misses the known share of grazi
     }
 }
 
-TEST_CASE("In double precision the naive formula misses grazes at a thousand diameters, the stable "
+TEST_CASE("in double precision the naive formula misses grazes at a thousand diameters, the stable "
           "one none") {
     CHECK(missed<double>(1e3, 1e-2).naive == 0);
     CHECK(std::fabs(missed<double>(1e4, 1e-10).naive - 0.41) <
@@ -86,12 +86,12 @@ TEST_CASE("In double precision the naive formula misses grazes at a thousand dia
     CHECK(missed<double>(1e4, 1e-10).hits == Approx(1));
 }
 
-TEST_CASE("Contraction does not save the naive formula") {
+TEST_CASE("contraction does not save the naive formula") {
     CHECK(missed<float>(1e3, 1e-2).contracted > 0.1);
     CHECK(missed<float>(1e4, 0.3).contracted > 0.1);
 }
 
-TEST_CASE("The naive formula agrees with the stable one where neither loses digits") {
+TEST_CASE("the naive formula agrees with the stable one where neither loses digits") {
     Approaches approaches(1);
     for (int i = 0; i < 1000; ++i) {
         const Approach c = approaches.make(approaches.uniform(1.5, 4), approaches.uniform(0.1, 1),

@@ -22,7 +22,7 @@ std::vector<Species> species_of(std::size_t n, std::uint64_t last_count) {
 
 } // namespace
 
-TEST_CASE("Each disc has the radius and the mass of its species, be they few or many") {
+TEST_CASE("each disc has the radius and the mass of its species, be they few or many") {
     for (const std::size_t n : {1u, 3u, 8u, 9u, 40u}) {
         const std::vector<Species> species = species_of(n, 5);
         const SpeciesTable table(species, 7);
@@ -38,7 +38,7 @@ TEST_CASE("Each disc has the radius and the mass of its species, be they few or 
     CHECK(SpeciesTable({}, 7).of(3).mass == 1);
 }
 
-TEST_CASE("More species than 16 bits can number have their radii, too") {
+TEST_CASE("more species than 16 bits can number have their radii, too") {
     for (const std::size_t n : {65'536u, 65'537u}) {
         std::vector<Species> species;
         for (std::size_t k = 0; k < n; ++k)
@@ -53,7 +53,7 @@ TEST_CASE("More species than 16 bits can number have their radii, too") {
     }
 }
 
-TEST_CASE("Copies of a table share its memory, and outlive it") {
+TEST_CASE("copies of a table share its memory, and outlive it") {
     const std::vector<Species> many = species_of(20, 5);
     const auto copy_of = [](const SpeciesTable& table) { return table; };
     const SpeciesTable first(many, 1), second = copy_of(first);

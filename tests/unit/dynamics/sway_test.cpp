@@ -88,7 +88,7 @@ Flight random_flight(Numbers& random) {
 
 } // namespace
 
-TEST_CASE("Sway: a frame at rest at a sync falls by the double integral of a sine") {
+TEST_CASE("sway: a frame at rest at a sync falls by the double integral of a sine") {
     Numbers random(61);
     for (int k = 0; k < 2000; ++k) {
         const Gravity g = random_gravity(random);
@@ -113,7 +113,7 @@ TEST_CASE("Sway: a frame at rest at a sync falls by the double integral of a sin
     }
 }
 
-TEST_CASE("Sway: contacts with walls are the first roots, and none is missed") {
+TEST_CASE("sway: contacts with walls are the first roots, and none is missed") {
     Numbers random(62);
     int n_contacts = 0, n_free = 0;
     for (int k = 0; k < 3000; ++k) {
@@ -143,7 +143,7 @@ TEST_CASE("Sway: contacts with walls are the first roots, and none is missed") {
     CHECK(n_free > 300);
 }
 
-TEST_CASE("Sway: a disc at a wall leaves it, and comes back when it is pressed") {
+TEST_CASE("sway: a disc at a wall leaves it, and comes back when it is pressed") {
     Gravity g;
     g.amplitude_y = 0.01, g.period = 80;
     Sway sway(g);                                        // pulls up for half a period
@@ -156,7 +156,7 @@ TEST_CASE("Sway: a disc at a wall leaves it, and comes back when it is pressed")
     CHECK(back < 10.01);
 }
 
-TEST_CASE("Sway: integrals of velocities over flights are those of many points") {
+TEST_CASE("sway: integrals of velocities over flights are those of many points") {
     Numbers random(63);
     for (int k = 0; k < 50; ++k) {
         Effects effects;

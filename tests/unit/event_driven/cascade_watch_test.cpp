@@ -18,7 +18,7 @@ std::uint64_t collisions_until_end(double apart) {
 
 } // namespace
 
-TEST_CASE("Collisions at one time, or without end in a slot, are seen, and frequent ones are not") {
+TEST_CASE("collisions at one time, or without end in a slot, are seen, and frequent ones are not") {
     CHECK(collisions_until_end(0) == 110000);
     // A disc of speed 0.01 in a slot that is 2e-15 wider than itself.
     CHECK(collisions_until_end(2e-13) == 5500000);

@@ -63,7 +63,7 @@ bool are_same(const Event& a, const Event& b) {
 
 } // namespace
 
-TEST_CASE("Events come out in the total order, stale ones never") {
+TEST_CASE("events come out in the total order, stale ones never") {
     for (const std::uint32_t n_discs : {2u, 30u, 3000u}) {
         CAPTURE(n_discs);
         Predictions predictions(n_discs, n_discs);
@@ -93,7 +93,7 @@ TEST_CASE("Events come out in the total order, stale ones never") {
     }
 }
 
-TEST_CASE("Millions of predictions that go stale take the memory of those that do not") {
+TEST_CASE("millions of predictions that go stale take the memory of those that do not") {
     Predictions predictions(20, 1);
     const EventOrder before = predictions.order();
     const auto is_current = [&](const Event& event) { return predictions.is_current(event); };

@@ -88,7 +88,7 @@ std::vector<std::uint32_t> first_of(const std::vector<std::uint32_t>& list, std:
 
 } // namespace
 
-TEST_CASE("Flights: all that touch are found among some runs of slots") {
+TEST_CASE("flights: all that touch are found among some runs of slots") {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const Flights flights(seed);
         std::mt19937 random(seed);
@@ -116,7 +116,7 @@ TEST_CASE("Flights: all that touch are found among some runs of slots") {
     }
 }
 
-TEST_CASE("Flights: discs of several sizes are found as near as the sum of their radii") {
+TEST_CASE("flights: discs of several sizes are found as near as the sum of their radii") {
     const Flights flights(31);
     std::mt19937 random(32);
     std::vector<float> radii(flights.n + filter_padding);
@@ -159,7 +159,7 @@ TEST_CASE("Flights: discs of several sizes are found as near as the sum of their
     CHECK(n_touching > 200);
 }
 
-TEST_CASE("Flights: of a column each pair that touches is found from its first disc") {
+TEST_CASE("flights: of a column each pair that touches is found from its first disc") {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const Flights flights(seed);
         for (int column = 0; column < n_columns; ++column) {

@@ -45,7 +45,7 @@ auto jam_at(double jam, double a) {
 
 } // namespace
 
-TEST_CASE("A jam before the end is found, near it, whatever the windows are") {
+TEST_CASE("a jam before the end is found, near it, whatever the windows are") {
     const JamWatch::Growth growth{0.001, 64, 735, 200};
     for (const double a : {1e5, 8e6, 1e8})
         for (const int n_windows : {1, 7}) {
@@ -59,7 +59,7 @@ TEST_CASE("A jam before the end is found, near it, whatever the windows are") {
         }
 }
 
-TEST_CASE("Runs that end before the jam, and gases in which collisions are frequent, go on") {
+TEST_CASE("runs that end before the jam, and gases in which collisions are frequent, go on") {
     const JamWatch::Growth growth{0.001, 64, 700, 200};
     CHECK(watch(growth, 0, 1, jam_at(708.6, 1e8)).sign == JamWatch::Sign::none);
     CHECK(watch(growth, 0, 1, [](double t) { return 1e8 * t; }).sign == JamWatch::Sign::none);
@@ -70,7 +70,7 @@ TEST_CASE("Runs that end before the jam, and gases in which collisions are frequ
     CHECK(watch({0.001, 64, 480, 200}, 0, 1, freezing).sign == JamWatch::Sign::none);
 }
 
-TEST_CASE("A run that begins a moment before the jam finds it as well") {
+TEST_CASE("a run that begins a moment before the jam finds it as well") {
     const JamWatch::Growth growth{0.001, 64, 735, 200};
     for (const double start : {704.0, 708.0, 708.5}) {
         const Ending found = watch(growth, start, 1, jam_at(708.6, 8e6));
@@ -79,7 +79,7 @@ TEST_CASE("A run that begins a moment before the jam finds it as well") {
     }
 }
 
-TEST_CASE("With losses collisions go as 1 / (t_J - t), and the jam is found") {
+TEST_CASE("with losses collisions go as 1 / (t_J - t), and the jam is found") {
     const JamWatch::Growth growth{0.01, 16, 100, 20};
     const auto lossy = [](double t) { return t < 60 ? -1e5 * std::log((60 - t) / 60) : 1e300; };
     const Ending found = watch(growth, 0, 1, lossy);
@@ -87,7 +87,7 @@ TEST_CASE("With losses collisions go as 1 / (t_J - t), and the jam is found") {
     CHECK(std::abs(found.safe - 60) < 0.1);
 }
 
-TEST_CASE("Discs that do not grow have no bins") {
+TEST_CASE("discs that do not grow have no bins") {
     JamWatch watched({0, 64, 100, 10});
     watched.start(0, 0);
     CHECK(!watched.is_on());

@@ -56,7 +56,7 @@ TEST_CASE("Maxwell velocities: speeds, components and moments") {
     CHECK(std::fabs(mean(sample.product)) < 4 * rms * rms / 2 / root_n);
 }
 
-TEST_CASE("Uniform velocities: speeds up to sqrt(3) times their root mean square") {
+TEST_CASE("uniform velocities: speeds up to sqrt(3) times their root mean square") {
     const double rms = 1;
     const double largest = std::sqrt(3.0) * rms;
     const Sample sample = sample_of(VelocityKind::uniform);
@@ -66,7 +66,7 @@ TEST_CASE("Uniform velocities: speeds up to sqrt(3) times their root mean square
     CHECK(*std::max_element(sample.speed.begin(), sample.speed.end()) <= largest * (1 + 1e-15));
 }
 
-TEST_CASE("The default seed's velocities stay what they are") {
+TEST_CASE("the default seed's velocities stay what they are") {
     // A seed names its discs for ever: these are the bits of the first release.
     for (const auto& [kind, bits] :
          {std::pair{VelocityKind::maxwell, "c74526b503958107f3be3495a260f322"},
@@ -82,7 +82,7 @@ TEST_CASE("The default seed's velocities stay what they are") {
     }
 }
 
-TEST_CASE("Streams add up where they overlap") {
+TEST_CASE("streams add up where they overlap") {
     SceneParameters scene;
     scene.streams = {{0, 0, 2, 2, 1, 0}, {1, 1, 3, 3, 0.5, -1}};
     CHECK(stream_velocity(scene, {0.5, 0.5}) == Velocity{1, 0});

@@ -54,21 +54,21 @@ void check_lattice(std::uint64_t n, double box, double radius) {
 
 } // namespace
 
-TEST_CASE("Lattices at packings 0.7, 0.85 and 0.9 neither overlap nor leave the box") {
+TEST_CASE("lattices at packings 0.7, 0.85 and 0.9 neither overlap nor leave the box") {
     check_lattice(1000, 10, radius_of(1000, 10, 0.7));
     check_lattice(20000, 1, radius_of(20000, 1, 0.7));
     check_lattice(20000, 1e6, radius_of(20000, 1e6, 0.85));
     check_lattice(100000, 3, radius_of(100000, 3, 0.9));
 }
 
-TEST_CASE("Lattices of few discs are sound too") {
+TEST_CASE("lattices of few discs are sound too") {
     for (std::uint64_t n = 1; n < 200; ++n) {
         check_lattice(n, 10, radius_of(n, 10, 0.3));
         if (n > 12) check_lattice(n, 10, radius_of(n, 10, 0.6));
     }
 }
 
-TEST_CASE("Four discs sit in a square, one in the middle") {
+TEST_CASE("four discs sit in a square, one in the middle") {
     const auto four = widest_lattice(4, 10, 1);
     REQUIRE(four.has_value());
     CHECK(four->free_radius == Approx(1.5));
@@ -81,13 +81,13 @@ TEST_CASE("Four discs sit in a square, one in the middle") {
     CHECK(widest_lattice(1, 10, 5).has_value());
 }
 
-TEST_CASE("Where no lattice fits there is none") {
+TEST_CASE("where no lattice fits there is none") {
     CHECK_FALSE(widest_lattice(50, 10, radius_of(50, 10, 0.9)).has_value());
     CHECK_FALSE(widest_lattice(2, 10, 4).has_value());
     CHECK_FALSE(widest_lattice(100000, 3, radius_of(100000, 3, 0.9068)).has_value());
 }
 
-TEST_CASE("Shaking fills the free radius evenly") {
+TEST_CASE("shaking fills the free radius evenly") {
     const auto lattice = widest_lattice(10000, 100, 0.2);
     REQUIRE(lattice.has_value());
     double x = 0, y = 0, square = 0;
@@ -106,7 +106,7 @@ TEST_CASE("Shaking fills the free radius evenly") {
           4 * std::sqrt(1.0 / 12) / 100); // uniform in the unit disc: the square is uniform
 }
 
-TEST_CASE("The default seed's lattice stays what it is") {
+TEST_CASE("the default seed's lattice stays what it is") {
     const auto lattice = widest_lattice(1000, 64, radius_of(1000, 64, 0.7));
     REQUIRE(lattice.has_value());
     StateHash hash;

@@ -23,7 +23,7 @@ const std::string& good = test::good_scene;
 
 } // namespace
 
-TEST_CASE("Oscillating walls are read, and refused where they leave no room") {
+TEST_CASE("oscillating walls are read, and refused where they leave no room") {
     const Texts shaken = {"box.bottom.kind=oscillating", "box.bottom.amplitude=2",
                           "box.bottom.period=10"};
     const auto with = [&](Texts more) {
@@ -59,7 +59,7 @@ TEST_CASE("Oscillating walls are read, and refused where they leave no room") {
 }
 
 // A disc may stand where the wall is not at the start, and not where it is.
-TEST_CASE("Listed discs begin before oscillating walls") {
+TEST_CASE("listed discs begin before oscillating walls") {
     const std::string one = "[box]\nsize = 100\n[discs]\nradius = 1\n[time]\nsteps = 10\n"
                             "[box.bottom]\nkind = 'oscillating'\namplitude = 2\nperiod = 10\n";
     const auto problems = [&](const std::string& phase, const std::string& y) {
@@ -79,7 +79,7 @@ TEST_CASE("Listed discs begin before oscillating walls") {
     CHECK(has(problems("-1.5707963267948966", "-1.01"), "is not inside the box"));
 }
 
-TEST_CASE("Discs that grow need room until the last step") {
+TEST_CASE("discs that grow need room until the last step") {
     CHECK(read_scene(good, "s.toml", {"effects.growth.rate=0.25"}).effects.growth == 0.25);
     CHECK(read_scene(good, "s.toml", {"effects.growth.rate=0.25"}).last_packing() ==
           Approx(50 * 3.5 * 3.5 * 3.14159265358979 / 1e4));
@@ -114,7 +114,7 @@ TEST_CASE("Discs that grow need room until the last step") {
                   "cannot have growing discs together with"));
 }
 
-TEST_CASE("A compressed start has a rate of growth, and knows no obstacles") {
+TEST_CASE("a compressed start has a rate of growth, and knows no obstacles") {
     const SceneParameters scene = read_scene(
         good, "s.toml", {"discs.generator=compressed", "discs.growth_rate=0.1"});
     CHECK(scene.generator == Generator::compressed);

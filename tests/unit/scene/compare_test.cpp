@@ -21,7 +21,7 @@ std::vector<std::string> differences(const std::vector<std::string>& overrides) 
 
 } // namespace
 
-TEST_CASE("What has no say in the bits is no difference") {
+TEST_CASE("what has no say in the bits is no difference") {
     CHECK(differences({}).empty());
     CHECK(differences({"time.steps=9", "output.text=ends", "output.folder=a",
                        "output.trajectory.every_steps=2"})
@@ -31,7 +31,7 @@ TEST_CASE("What has no say in the bits is no difference") {
               .empty());
 }
 
-TEST_CASE("Everything else is, and is named") {
+TEST_CASE("everything else is, and is named") {
     for (const char* override :
          {"box.size=101", "discs.count=11", "discs.radius=1.5", "discs.generator=lattice",
           "discs.speed=2", "discs.velocities=uniform", "discs.seed=1", "time.method=time-stepped",

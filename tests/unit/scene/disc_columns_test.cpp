@@ -54,7 +54,7 @@ const std::string four_lines =
 } // namespace
 
 TEST_CASE(
-    "Columns of a file of discs are species in the order of ids, whatever the order of lines") {
+    "columns of a file of discs are species in the order of ids, whatever the order of lines") {
     const SceneParameters scene = scene_with(from_file("[\"radius\", \"mass\"]"), four_lines);
     CHECK(scene.effects.species == std::vector<Species>{{2, 2, 5}, {1, 3, 7}, {1, 1, 1}});
     CHECK(scene.radius == 3);
@@ -76,7 +76,7 @@ TEST_CASE(
     CHECK(physical_differences(scene, other).size() == 2); // species, columns
 }
 
-TEST_CASE("Spins at the start come from a file, a list or species") {
+TEST_CASE("spins at the start come from a file, a list or species") {
     const SceneParameters file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough,
                                             "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
     CHECK(file.effects.species.empty());
@@ -116,7 +116,7 @@ TEST_CASE("Spins at the start come from a file, a list or species") {
                    "row 1 of 'discs.list': the spin must be finite"));
 }
 
-TEST_CASE("Wrong columns are refused where they are named") {
+TEST_CASE("wrong columns are refused where they are named") {
     const DiscColumns whole = columns_of(
         four_lines,
         read_scene(SceneText{"s.toml", from_file("[\"radius\", \"mass\"]"), 0, false, {}}));
@@ -144,7 +144,7 @@ TEST_CASE("Wrong columns are refused where they are named") {
     CHECK(mentions(problems_in(from_file("[\"radius\"]"), wide), "does not fit into a box"));
 }
 
-TEST_CASE("Lines with wrong columns are told by their number, with all else that is wrong") {
+TEST_CASE("lines with wrong columns are told by their number, with all else that is wrong") {
     const std::string text = from_file("[\"radius\", \"mass\"]", 8);
     const std::string lines =
         "0 10 10 1 0 2 5\n1 20 20 0 0 -1 5\n2 30 30 0 0 2 0\n3 40 40 0 0 nan 1\n4 50 50 0 0 2\n5 "

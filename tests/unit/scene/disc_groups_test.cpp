@@ -31,7 +31,7 @@ using Counts = std::vector<std::uint64_t>;
 
 } // namespace
 
-TEST_CASE("Shares give whole numbers of the right sum, to the largest rest") {
+TEST_CASE("shares give whole numbers of the right sum, to the largest rest") {
     const auto shares = [](const std::string& count, const std::string& a, const std::string& b,
                            const std::string& c) {
         return counts_of(scene_of(count + "\nspecies = [{share = " + a +
@@ -46,7 +46,7 @@ TEST_CASE("Shares give whole numbers of the right sum, to the largest rest") {
     CHECK(shares("packing = 0.3", "0.5", "0.25", "0.25") == Counts{127, 64, 64});
 }
 
-TEST_CASE("Groups count by species, then in their order, and are written as they were read") {
+TEST_CASE("groups count by species, then in their order, and are written as they were read") {
     const SceneParameters scene = scene_of(
         "species = [{radius = 1}, {radius = 2, mass = 3}]\n"
         "[[discs.groups]]\ncount = 3\nspecies = 2\ntemperature = 0\n"
@@ -68,7 +68,7 @@ TEST_CASE("Groups count by species, then in their order, and are written as they
     CHECK(physical_differences(scene, again).empty());
 }
 
-TEST_CASE("A scene without its frozen discs is the one that its settings say") {
+TEST_CASE("a scene without its frozen discs is the one that its settings say") {
     for (const char* discs :
          {"radius = 1\ncount = 40\nfreeze = [[0, 0, 50, 50]]\n",
           "species = [{count = 4, radius = 2}, {count = 16, radius = 1, region = [0, 0, 50, 50]}, "

@@ -60,7 +60,7 @@ Outcome read_all(const std::string& text, const SceneParameters& scene,
 
 } // namespace
 
-TEST_CASE("Discs come back bit for bit, in any order of ids and any chunks") {
+TEST_CASE("discs come back bit for bit, in any order of ids and any chunks") {
     std::mt19937_64 engine(11);
     const auto uniform = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
@@ -81,7 +81,7 @@ TEST_CASE("Discs come back bit for bit, in any order of ids and any chunks") {
     }
 }
 
-TEST_CASE("Each wrong line is one problem, and the good ones are still read") {
+TEST_CASE("each wrong line is one problem, and the good ones are still read") {
     const std::string text = "0 5 5 0 0\n"                        // 6
                              "1 5 5 0\n"                          // 7 short
                              "2 5 5 0 0 7\n"                      // 8 trailing rubbish
@@ -106,14 +106,14 @@ TEST_CASE("Each wrong line is one problem, and the good ones are still read") {
     CHECK(mentions(outcome.problems, "3 of 12 discs are missing: 9-11"));
 }
 
-TEST_CASE("A file of discs counts its lines from its own start and is named with its folder") {
+TEST_CASE("a file of discs counts its lines from its own start and is named with its folder") {
     SceneParameters scene = scene_of(1);
     scene.name = "folder/s.toml";
     scene.discs_file = "d.txt";
     CHECK(places_of(read_all("\n0 5 5\n", scene).problems) == Texts{"folder/d.txt:2"});
 }
 
-TEST_CASE("Discs of another run have no lines, so problems name the discs") {
+TEST_CASE("discs of another run have no lines, so problems name the discs") {
     SceneParameters scene = scene_of(4);
     scene.name = "folder/s.toml";
     scene.lines_before_discs = 0;
@@ -129,7 +129,7 @@ TEST_CASE("Discs of another run have no lines, so problems name the discs") {
     CHECK(read_all(text, scene).problems.back().text == "and 10 more discs with problems");
 }
 
-TEST_CASE("Of many problems the first 20 are listed and the rest are counted") {
+TEST_CASE("of many problems the first 20 are listed and the rest are counted") {
     std::string text;
     for (int i = 0; i < 1000; ++i) text += fmt::format("{} 0 0 0 0\n", i);
     const Outcome outcome = read_all(text, scene_of(1000));
@@ -137,7 +137,7 @@ TEST_CASE("Of many problems the first 20 are listed and the rest are counted") {
     CHECK(outcome.problems.back().text == "and 980 more lines with problems");
 }
 
-TEST_CASE("Missing ids are summed up as ranges") {
+TEST_CASE("missing ids are summed up as ranges") {
     CHECK(read_all("", scene_of(7)).problems ==
           std::vector<Problem>{{"t.in", 0, "7 of 7 discs are missing: 0-6"}});
     CHECK(read_all("0 5 5 0 0\n2 5 5 0 0\n", scene_of(3)).problems ==
@@ -151,7 +151,7 @@ TEST_CASE("Missing ids are summed up as ranges") {
               {"t.in", 0, "50 of 100 discs are missing: 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, ..."}});
 }
 
-TEST_CASE("A centre may be off the range of centres by the rounding of L, not more") {
+TEST_CASE("a centre may be off the range of centres by the rounding of L, not more") {
     SceneParameters scene = scene_of(1);
     scene.radius = 0.1;
     const double high = scene.box.x - scene.radius;
@@ -168,7 +168,7 @@ TEST_CASE("A centre may be off the range of centres by the rounding of L, not mo
     CHECK(n_problems(5) == 0); // a disc of radius L/2 just fits
 }
 
-TEST_CASE("Lines are cut, not swallowed, when they have no end") {
+TEST_CASE("lines are cut, not swallowed, when they have no end") {
     const std::string text = "0 5 5 0 0\n" + std::string(3'000'000, '7') + "\n1 5 5 0 0\n" +
                              std::string(5000, ' ');
     const Outcome outcome = read_all(text, scene_of(2));
@@ -176,7 +176,7 @@ TEST_CASE("Lines are cut, not swallowed, when they have no end") {
     CHECK(places_of(outcome.problems) == Texts{"t.in:7", "t.in:9"});
 }
 
-TEST_CASE("All that is wrong with a line is told") {
+TEST_CASE("all that is wrong with a line is told") {
     const Outcome outcome = read_all("0 five 5 0 six 7\n1 nan 5 inf 0\n", scene_of(2));
     CHECK(places_of(outcome.problems) == Texts{"t.in:6", "t.in:7"});
     CHECK(mentions(outcome.problems,
@@ -185,7 +185,7 @@ TEST_CASE("All that is wrong with a line is told") {
                    "the position nan is not a finite number; the velocity inf is not"));
 }
 
-TEST_CASE("A line that does not end, and lines that are never right, end the reading") {
+TEST_CASE("a line that does not end, and lines that are never right, end the reading") {
     struct Endless : std::streambuf {
         explicit Endless(std::string text) : text_(std::move(text)) {}
         int_type underflow() override {
@@ -215,7 +215,7 @@ TEST_CASE("A line that does not end, and lines that are never right, end the rea
     CHECK(words.n_blocks <= DiscReader::most_wrong_lines / 1000 + 1000);
 }
 
-TEST_CASE("A file of discs may begin with a mark of the byte order") {
+TEST_CASE("a file of discs may begin with a mark of the byte order") {
     SceneParameters scene = scene_of(1);
     scene.discs_file = "d.txt";
     CHECK(read_all("\xef\xbb\xbf"
@@ -224,7 +224,7 @@ TEST_CASE("A file of discs may begin with a mark of the byte order") {
               .problems.empty());
 }
 
-TEST_CASE("The line reader agrees with getline on any lengths of lines") {
+TEST_CASE("the line reader agrees with getline on any lengths of lines") {
     std::mt19937_64 engine(3);
     std::string text;
     for (int i = 0; i < 3000; ++i) text += std::string(engine() % 4097, 'a') + '\n';
@@ -243,7 +243,7 @@ TEST_CASE("The line reader agrees with getline on any lengths of lines") {
     CHECK_FALSE(reader.next(line));
 }
 
-TEST_CASE("Lines of a scene that is wrong itself are looked at as far as it is known") {
+TEST_CASE("lines of a scene that is wrong itself are looked at as far as it is known") {
     const auto places = [](const std::string& text, const SceneParameters& scene) {
         std::istringstream stream(text);
         return places_of(disc_line_problems(stream, scene));

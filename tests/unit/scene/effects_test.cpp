@@ -24,7 +24,7 @@ const std::string& good = test::good_scene;
 
 } // namespace
 
-TEST_CASE("Effects are read, parameters of others are refused by name") {
+TEST_CASE("effects are read, parameters of others are refused by name") {
     const SceneParameters scene = read_scene(
         good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n",
         "s.toml");
@@ -55,7 +55,7 @@ TEST_CASE("Effects are read, parameters of others are refused by name") {
               "cannot have time.accuracy together with effects"));
 }
 
-TEST_CASE("Sides are read, and contradictions explained") {
+TEST_CASE("sides are read, and contradictions explained") {
     const SceneParameters scene = read_scene(good, "s.toml",
                                              {"box.left.kind=thermal", "box.left.temperature=2",
                                               "box.right.kind=moving", "box.right.speed=-0.5",
@@ -97,7 +97,7 @@ TEST_CASE("Sides are read, and contradictions explained") {
               "cannot have an open side together with walls that move"));
 }
 
-TEST_CASE("Obstacles are read, each wrong one is named") {
+TEST_CASE("obstacles are read, each wrong one is named") {
     const SceneParameters scene = read_scene(good, "s.toml",
                                              {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
                                               "effects.obstacles.segments=[[0, 0, 30, 40]]",
@@ -129,7 +129,7 @@ TEST_CASE("Obstacles are read, each wrong one is named") {
     CHECK(physical_differences(scene, other).size() == 2);
 }
 
-TEST_CASE("Gravity is read, and refused where the falling frame would leave the box") {
+TEST_CASE("gravity is read, and refused where the falling frame would leave the box") {
     CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.method=event-driven"})
               .effects.gravity == Gravity{0, -0.02});
     CHECK(has(problems_with({"effects.gravity.y=-0.02", "time.method=time-stepped"}),
@@ -150,7 +150,7 @@ TEST_CASE("Gravity is read, and refused where the falling frame would leave the 
               "take more time.micro_steps"));
 }
 
-TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
+TEST_CASE("drag is read, and refused beside what it does not go with yet") {
     const std::string all = "time.method=event-driven";
     CHECK(read_scene(good, "s.toml", {"effects.drag.rate=0.02", all}).effects.drag == 0.02);
     CHECK(has(problems_with({"effects.drag.rate=0.02", "time.method=time-stepped"}),
@@ -170,7 +170,7 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
               .empty()); // falls 42 from sync to sync instead of 61
 }
 
-TEST_CASE("Rough discs are read, and refused beside what does not go with them yet") {
+TEST_CASE("rough discs are read, and refused beside what does not go with them yet") {
     const Texts rough{"effects.contact.kind=rough", "effects.contact.restitution=0.9",
                       "effects.contact.tangential_restitution=0.5"};
     const auto with = [&](Texts more) {
@@ -204,7 +204,7 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
               "needs discs that turn, effects.contact.kind = \"rough\""));
 }
 
-TEST_CASE("Classes of discs are read, by table and by list") {
+TEST_CASE("classes of discs are read, by table and by list") {
     const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
     const std::string two = "[[discs.species]]\ncount = 3\nradius = 2\nmass = "
                             "7\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
@@ -257,7 +257,7 @@ TEST_CASE("Classes of discs are read, by table and by list") {
               .size() == 2);
 }
 
-TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
+TEST_CASE("periodic sides are read, in pairs, where they make sense") {
     const Texts along_y{"box.bottom.kind=periodic", "box.top.kind=periodic"};
     const Effects effects = read_scene(good, "s.toml", along_y).effects;
     CHECK(effects.is_periodic_y());
@@ -315,7 +315,7 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(has(with({"discs.radius=26", "discs.count=1"}), "too small to be periodic"));
 }
 
-TEST_CASE("Periodic sides bound what can be measured, and the sizes of discs") {
+TEST_CASE("periodic sides bound what can be measured, and the sizes of discs") {
     const Texts along_y{"box.bottom.kind=periodic", "box.top.kind=periodic"};
     const auto measuring = [&](const char* names, bool is_around) {
         Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"}
@@ -355,7 +355,7 @@ TEST_CASE("Periodic sides bound what can be measured, and the sizes of discs") {
     }));
 }
 
-TEST_CASE("A restart cannot change effects") {
+TEST_CASE("a restart cannot change effects") {
     const Texts there{"effects.gravity.y=-0.02", "time.method=event-driven",
                       "box.top.restitution=0.5"};
     const Texts here{"effects.gravity.y=-0.01", "time.method=event-driven", "box.top.kind=thermal",
@@ -367,7 +367,7 @@ TEST_CASE("A restart cannot change effects") {
               .empty());
 }
 
-TEST_CASE("Active discs are read, and refused without a friction") {
+TEST_CASE("active discs are read, and refused without a friction") {
     const Texts bath{"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
                      "effects.thermostat.temperature=0.5"};
     const auto with = [&](Texts more) {

@@ -204,7 +204,7 @@ Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
 
 } // namespace
 
-TEST_CASE("Every key says what it takes") {
+TEST_CASE("every key says what it takes") {
     std::set<std::string> names;
     for (const Key& key : keys()) {
         CAPTURE(key.name);
@@ -235,7 +235,7 @@ TEST_CASE("Every key says what it takes") {
     }
 }
 
-TEST_CASE("What is written of a scene reads as the same scene, whatever it names") {
+TEST_CASE("what is written of a scene reads as the same scene, whatever it names") {
     Draw draw(31);
     std::set<std::string> written;
     int n_read = 0;
@@ -289,7 +289,7 @@ TEST_CASE("What is written of a scene reads as the same scene, whatever it names
     }
 }
 
-TEST_CASE("Spins, masses and a column of radii are written as they were read") {
+TEST_CASE("spins, masses and a column of radii are written as they were read") {
     const std::string rough =
         "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
     for (const char* discs :
@@ -314,7 +314,7 @@ TEST_CASE("Spins, masses and a column of radii are written as they were read") {
     CHECK(again.disc_columns.size() == 3);
 }
 
-TEST_CASE("Keys and words of older versions name the new ones") {
+TEST_CASE("keys and words of older versions name the new ones") {
     CHECK(mentions(problems_in(good + "collisions = \"one\"\n"),
                    "'time.collisions' is now 'time.method'; write time.method = \"time-stepped\" "
                    "for \"one\""));
@@ -329,7 +329,7 @@ TEST_CASE("Keys and words of older versions name the new ones") {
     CHECK(mentions(classes, "'discs.classes' is now 'discs.species'"));
 }
 
-TEST_CASE("Misspelt effects and outputs name the right ones") {
+TEST_CASE("misspelt effects and outputs name the right ones") {
     const std::vector<std::pair<std::string, std::string>> pairs = {
         {"effects.gravty.y=1", "effects.gravity.y"},
         {"effects.contact.restituton=1", "effects.contact.restitution"},
@@ -344,7 +344,7 @@ TEST_CASE("Misspelt effects and outputs name the right ones") {
                    "did you mean 'effects.gravity'?"));
 }
 
-TEST_CASE("Text that would overrun the parser, and floods of problems, end in few lines") {
+TEST_CASE("text that would overrun the parser, and floods of problems, end in few lines") {
     std::string deep = "a";
     for (int i = 0; i < 40000; ++i) deep += ".a";
     for (const std::string& text : {deep + " = 1", '[' + deep + ']', "[[" + deep + "]]",
@@ -367,7 +367,7 @@ TEST_CASE("Text that would overrun the parser, and floods of problems, end in fe
     CHECK(problems_in(rows + "]\n").size() == 21);
 }
 
-TEST_CASE("A name of a file has no NUL, and a speed can be followed") {
+TEST_CASE("a name of a file has no NUL, and a speed can be followed") {
     CHECK(
         mentions(problems_in(good + "[output]\nfolder = \"a\\u0000b\"\n"), "has a NUL character"));
     CHECK(mentions(problems_in(good, {"discs.speed=1e60", "time.method=event-driven"}),

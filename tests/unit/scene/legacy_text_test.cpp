@@ -23,7 +23,7 @@ std::vector<Problem> problems_in(const std::string& text, const Texts& overrides
 
 } // namespace
 
-TEST_CASE("A header alone asks for the legacy generator") {
+TEST_CASE("a header alone asks for the legacy generator") {
     const SceneParameters scene = read_scene("1000\n20000\n1\n500\nperf\n", "t.in");
     CHECK(scene.n_discs == 1000);
     CHECK(scene.box.x == 20000);
@@ -39,7 +39,7 @@ TEST_CASE("A header alone asks for the legacy generator") {
           Generator::legacy);
 }
 
-TEST_CASE("Lines after the header are discs, and the stream is left at the first") {
+TEST_CASE("lines after the header are discs, and the stream is left at the first") {
     std::istringstream stream("2\n\n10\n1\n5\nprint\n\n\n1 2 3 4 5\n0 5 5 0 0\n");
     const SceneText text = read_scene_text(stream, "t.in");
     CHECK(text.discs_follow);
@@ -54,7 +54,7 @@ TEST_CASE("Lines after the header are discs, and the stream is left at the first
     CHECK(read_scene(text, {"discs.generator=lattice"}).generator == Generator::lattice);
 }
 
-TEST_CASE("Overrides work on the legacy text format") {
+TEST_CASE("overrides work on the legacy text format") {
     const SceneParameters scene = read_scene(
         "100\n20000\n1\n500\nperf\n", "t.in",
         {"box.size=3", "discs.packing=0.25", "time.steps=7", "output.text=none", "discs.seed=5"});
@@ -71,7 +71,7 @@ TEST_CASE("Overrides work on the legacy text format") {
           Texts{"--set box.sze", "--set discs.speed"});
 }
 
-TEST_CASE("Each wrong header has its problems at their lines") {
+TEST_CASE("each wrong header has its problems at their lines") {
     struct Wrong {
         std::string text;
         Texts places;
@@ -112,7 +112,7 @@ TEST_CASE("Each wrong header has its problems at their lines") {
     CHECK(places_of(problems_in("1" + std::string(4999, '1'))) == Texts{"t.in:1"});
 }
 
-TEST_CASE("Files that cannot be read are a problem of their own") {
+TEST_CASE("files that cannot be read are a problem of their own") {
     CHECK(problems_of([] { open_input("/no/such/file.in"); }).size() == 1);
     CHECK(problems_of([] { open_input("/"); }).size() == 1);
 }

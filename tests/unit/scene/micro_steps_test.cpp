@@ -10,7 +10,7 @@
 
 using namespace carrom;
 
-TEST_CASE("A unit says how a number scales") {
+TEST_CASE("a unit says how a number scales") {
     CHECK(dimension_of("length") == Dimension{1, 0, 0});
     CHECK(dimension_of("steps") == Dimension{0, 1, 0});
     CHECK(dimension_of("1/step") == Dimension{0, -1, 0});
@@ -24,7 +24,7 @@ TEST_CASE("A unit says how a number scales") {
     CHECK(dimension_of("micro-steps") == Dimension{});
 }
 
-TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
+TEST_CASE("effects in micro-steps are those of steps in another unit of time") {
     SceneParameters scene;
     scene.micro_steps = 5;
     Effects& e = scene.effects;
@@ -72,7 +72,7 @@ TEST_CASE("Effects in micro-steps are those of steps in another unit of time") {
     CHECK(per_micro_step(scene) == e);
 }
 
-TEST_CASE("Effects know the energy of a disc") {
+TEST_CASE("effects know the energy of a disc") {
     Effects effects;
     CHECK(other_energies_of(effects).empty());
     const Box box(30, 20);

@@ -85,7 +85,7 @@ const std::string legacy =
 
 } // namespace
 
-TEST_CASE("Damaged TOML scenes give a scene or problems") {
+TEST_CASE("damaged TOML scenes give a scene or problems") {
     for (const std::string& text : {toml, listed}) {
         REQUIRE_FALSE(is_refused(text, "s.toml"));
         Damage damage(17);
@@ -96,7 +96,7 @@ TEST_CASE("Damaged TOML scenes give a scene or problems") {
     }
 }
 
-TEST_CASE("Damaged legacy texts give a scene or problems") {
+TEST_CASE("damaged legacy texts give a scene or problems") {
     REQUIRE_FALSE(is_refused(legacy, "t.in"));
     Damage damage(19);
     int n_refused = 0;
@@ -105,7 +105,7 @@ TEST_CASE("Damaged legacy texts give a scene or problems") {
     CHECK(n_refused < 2000);
 }
 
-TEST_CASE("Damaged overrides give a scene or problems") {
+TEST_CASE("damaged overrides give a scene or problems") {
     Damage damage(23);
     int n_refused = 0;
     const std::vector<std::string> good = {

@@ -13,7 +13,7 @@
 
 using namespace carrom;
 
-TEST_CASE("Numbers are the whole text, or none") {
+TEST_CASE("numbers are the whole text, or none") {
     CHECK(parse_double("1.5") == 1.5);
     CHECK(parse_double("+1.5e2") == 150);
     CHECK(parse_double("-.5") == -0.5);
@@ -29,7 +29,7 @@ TEST_CASE("Numbers are the whole text, or none") {
     CHECK_FALSE(parse_id("-1").has_value());
 }
 
-TEST_CASE("A double written with 17 digits is read back bit for bit, in text and in TOML") {
+TEST_CASE("a double written with 17 digits is read back bit for bit, in text and in TOML") {
     std::mt19937_64 engine(5);
     for (int i = 0; i < 300; ++i) {
         const double size = std::ldexp(1 + static_cast<double>(engine() >> 11) * 0x1p-53,
@@ -49,7 +49,7 @@ TEST_CASE("A double written with 17 digits is read back bit for bit, in text and
     }
 }
 
-TEST_CASE("Words are parted by blanks") {
+TEST_CASE("words are parted by blanks") {
     std::vector<std::string_view> words;
     split_words("  a\tb   c \r", 5, words);
     CHECK(words == std::vector<std::string_view>{"a", "b", "c"});
@@ -59,7 +59,7 @@ TEST_CASE("Words are parted by blanks") {
     CHECK(words.empty());
 }
 
-TEST_CASE("Edit distance counts insertions, deletions and replacements") {
+TEST_CASE("edit distance counts insertions, deletions and replacements") {
     CHECK(edit_distance("", "abc") == 3);
     CHECK(edit_distance("kitten", "sitting") == 3);
     CHECK(edit_distance("steps", "steps") == 0);

@@ -14,7 +14,7 @@ using namespace carrom;
 using test::mentions;
 using test::problems_of;
 
-TEST_CASE("Words of other programs are errors that name what there is") {
+TEST_CASE("words of other programs are errors that name what there is") {
     const std::string scene = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = "
                               "10\n";
     for (const auto& [setting, advice] : {
@@ -37,7 +37,7 @@ TEST_CASE("Words of other programs are errors that name what there is") {
     }
 }
 
-TEST_CASE("A wrong word has no other errors that only follow from it") {
+TEST_CASE("a wrong word has no other errors that only follow from it") {
     const std::string scene = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = "
                               "10\n";
     for (const auto& [setting, number] : {
@@ -57,7 +57,7 @@ TEST_CASE("A wrong word has no other errors that only follow from it") {
     }
 }
 
-TEST_CASE("A word of the command line drops what the scene's other word needed") {
+TEST_CASE("a word of the command line drops what the scene's other word needed") {
     const std::string scene =
         "[box]\nsize = 100\nbottom = {kind = \"thermal\", temperature = 1, velocity = 0.1}\n"
         "[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n"
@@ -88,7 +88,7 @@ TEST_CASE("A word of the command line drops what the scene's other word needed")
                    "'box.bottom.temperature' has no meaning"));
 }
 
-TEST_CASE("A table on the command line is that of a scene") {
+TEST_CASE("a table on the command line is that of a scene") {
     const std::string scene = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = "
                               "10\n";
     const auto sizes =
@@ -120,7 +120,7 @@ TEST_CASE("A table on the command line is that of a scene") {
     }
 }
 
-TEST_CASE("A flow that does not keep its temperature has a warning") {
+TEST_CASE("a flow that does not keep its temperature has a warning") {
     std::string scene = "[box]\nsize = 100\n";
     for (const std::string side : {"left", "right"}) scene += side + ".kind = \"periodic\"\n";
     for (const std::string side : {"bottom", "top"}) scene += side + ".kind = \"sheared\"\n";

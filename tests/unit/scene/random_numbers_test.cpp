@@ -23,7 +23,7 @@ TEST_CASE("Philox gives the words its authors publish") {
                                        0x7e68b68aec7ba23b});
 }
 
-TEST_CASE("Another seed, purpose, disc, attempt or block gives other words") {
+TEST_CASE("another seed, purpose, disc, attempt or block gives other words") {
     std::set<std::array<std::uint64_t, 4>> all;
     for (const std::uint64_t seed : {1u, 2u})
         for (const Purpose purpose : {Purpose::position, Purpose::shake, Purpose::velocity})
@@ -34,7 +34,7 @@ TEST_CASE("Another seed, purpose, disc, attempt or block gives other words") {
     CHECK(all.size() == 2 * 3 * 3 * 2 * 2);
 }
 
-TEST_CASE("Unit numbers are uniform from 0 to below 1") {
+TEST_CASE("unit numbers are uniform from 0 to below 1") {
     CHECK(unit_number(0) == 0);
     CHECK(unit_number(~std::uint64_t{0}) == 1 - 0x1p-53);
     std::vector<double> sample;
@@ -48,7 +48,7 @@ TEST_CASE("Unit numbers are uniform from 0 to below 1") {
           4 * (1.0 / 12) / std::sqrt(n_samples));
 }
 
-TEST_CASE("The first exponential numbers of many discs have the exponential distribution") {
+TEST_CASE("the first exponential numbers of many discs have the exponential distribution") {
     std::vector<double> sample;
     for (DiscId id = 0; id < n_samples; ++id) {
         DiscRandom random(5, Purpose::velocity, id);
@@ -62,7 +62,7 @@ TEST_CASE("The first exponential numbers of many discs have the exponential dist
           Approx(24).epsilon(4 * std::sqrt(40320 - 576) / 24 / std::sqrt(n_samples)));
 }
 
-TEST_CASE("Directions have length 1 and no preference") {
+TEST_CASE("directions have length 1 and no preference") {
     std::vector<double> angles;
     double longest = 0, shortest = 2;
     for (DiscId id = 0; id < n_samples; ++id) {

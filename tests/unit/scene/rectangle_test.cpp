@@ -34,7 +34,7 @@ double nearest_distance(const std::vector<Point>& sites) {
 
 } // namespace
 
-TEST_CASE("A box is a square of one length or a rectangle of two") {
+TEST_CASE("a box is a square of one length or a rectangle of two") {
     CHECK(read_scene(with_line(2, "size = [30, 20.5]"), "s.toml").box == Box(30, 20.5));
     CHECK(read_scene(with_line(2, "size = [30, 30]"), "s.toml").box == Box(30));
     CHECK(read_scene(good, "s.toml", {"box.size=[20, 80]"}).box == Box(20, 80));
@@ -46,7 +46,7 @@ TEST_CASE("A box is a square of one length or a rectangle of two") {
     CHECK(read_scene(packed, "s.toml").radius == Approx(std::sqrt(250 / (10 * std::numbers::pi))));
 }
 
-TEST_CASE("What is no box gets one line with the key and what is accepted") {
+TEST_CASE("what is no box gets one line with the key and what is accepted") {
     const std::string accepted = "'box.size' must be a number from 2^-230 to 2^250, or two, "
                                  "[Lx, Ly], not ";
     CHECK(problem_of_size("[1]") == accepted + "an array of 1");
@@ -62,7 +62,7 @@ TEST_CASE("What is no box gets one line with the key and what is accepted") {
     CHECK(problem_of_size("40", {"box.size=[20]"}) == accepted + "an array of 1");
 }
 
-TEST_CASE("Discs and periodic sides must fit along both edges") {
+TEST_CASE("discs and periodic sides must fit along both edges") {
     CHECK(mentions(problems_in(with_line(2, "size = [1000, 1.9]")),
                    "a disc of radius 1 does not fit into a box of sides 1000 and 1.9"));
     const Texts round_y = {"box.bottom.kind=periodic", "box.top.kind=periodic"},
@@ -80,7 +80,7 @@ TEST_CASE("Discs and periodic sides must fit along both edges") {
                    "the course program's box is a square"));
 }
 
-TEST_CASE("A rectangle's text is read as it is written, and tells boxes apart") {
+TEST_CASE("a rectangle's text is read as it is written, and tells boxes apart") {
     const SceneParameters wide = read_scene(with_line(2, "size = [50, 20.25]"), "s.toml"),
                           square = read_scene(good, "s.toml");
     const Key& key = *find_key("box.size");
@@ -93,7 +93,7 @@ TEST_CASE("A rectangle's text is read as it is written, and tells boxes apart") 
     CHECK(physical_differences(wide, wide).empty());
 }
 
-TEST_CASE("Lattices in rectangles keep their gaps to walls and to each other") {
+TEST_CASE("lattices in rectangles keep their gaps to walls and to each other") {
     for (const Box& box : {Box(100, 20), Box(20, 100), Box(300, 4.5), Box(31, 30), Box(500, 2.1)}) {
         for (const std::uint64_t n : {1u, 7u, 40u, 60u}) {
             const double radius = 1;

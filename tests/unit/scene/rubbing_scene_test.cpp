@@ -23,7 +23,7 @@ std::vector<Problem> rubbing_problems(const std::vector<std::string>& overrides)
 
 } // namespace
 
-TEST_CASE("Walls that rub and slide are read, and keys without a meaning named") {
+TEST_CASE("walls that rub and slide are read, and keys without a meaning named") {
     const SceneParameters scene = read_scene(
         rubbing_scene, "s.toml",
         {"box.top.tangential_restitution=0.5", "box.top.friction=0.2", "box.top.velocity=0.1",

@@ -5,12 +5,12 @@
 using namespace carrom;
 using namespace carrom::test;
 
-TEST_CASE("An override without a key is shown as it was written") {
+TEST_CASE("an override without a key is shown as it was written") {
     CHECK(places_of(problems_in(good, {"=3"})) == Texts{"--set =3"});
     CHECK(places_of(problems_in(good, {" = 3"})) == Texts{"--set  = 3"});
 }
 
-TEST_CASE("A mark of the byte order at the start of a file is no part of it") {
+TEST_CASE("a mark of the byte order at the start of a file is no part of it") {
     CHECK(problems_in("\xef\xbb\xbf" + good).empty());
     CHECK(read_scene("\xef\xbb\xbf"
                      "2\n10\n1\n5\nperf\n",
@@ -21,7 +21,7 @@ TEST_CASE("A mark of the byte order at the start of a file is no part of it") {
     CHECK(places_of(problems_of([] { read_scene("\xef\xbb\xbf", "s.in"); })) == Texts{"s.in"});
 }
 
-TEST_CASE("A packing or a radius that cannot be says what the bound is") {
+TEST_CASE("a packing or a radius that cannot be says what the bound is") {
     CHECK(mentions(problems_in(with_line(5, "packing = 0.95")),
                    "at most 0.9069, not 0.95: equal discs cover no more of the plane"));
     CHECK(mentions(problems_in(with_line(5, "radius = 1e-9"), {"time.method=time-stepped"}),
@@ -31,7 +31,7 @@ TEST_CASE("A packing or a radius that cannot be says what the bound is") {
     CHECK(all.warnings[0].find("discs of radius 1e-09 in a box of side 100") == 0);
 }
 
-TEST_CASE("Keys that have no say in the discs are refused") {
+TEST_CASE("keys that have no say in the discs are refused") {
     CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nseed = 1\nvelocities = 'uniform'"))
               .size() == 2);
     CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).empty());
@@ -42,7 +42,7 @@ TEST_CASE("Keys that have no say in the discs are refused") {
     CHECK(problems_in(with_line(4, "file = 'd'\nlist = [[1, 1, 1, 1]]")).size() == 1);
 }
 
-TEST_CASE("Discs listed in the scene must lie in the box and move") {
+TEST_CASE("discs listed in the scene must lie in the box and move") {
     const std::string head = "[box]\nsize = 10\n[discs]\nradius = 1\nlist = [\n";
     const std::string tail = "]\n[time]\nsteps = 1\n";
     CHECK(problems_in(head + "[1, 9, 0, 0],\n[1, 9, 0, 0]\n" + tail)
@@ -69,7 +69,7 @@ TEST_CASE("Discs listed in the scene must lie in the box and move") {
           Texts{"s.toml:5"});
 }
 
-TEST_CASE("Streams need a region and a finite velocity") {
+TEST_CASE("streams need a region and a finite velocity") {
     const std::string head = good + "[[discs.streams]]\n";
     CHECK(problems_in(head + "region = [0, 0, 1, 1]\nvelocity = [1, 2]\n").empty());
     for (const char* wrong :
@@ -96,7 +96,7 @@ TEST_CASE("Streams need a region and a finite velocity") {
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
 }
 
-TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
+TEST_CASE("a wrong scene keeps what its lines of discs can be held to") {
     const auto partly = [](const std::string& more) {
         std::vector<Problem> problems;
         const SceneParameters scene = read_scene(
@@ -113,7 +113,7 @@ TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
     CHECK(partly("count = 2\nradius = 1\n[box]\nsize = nan") == std::vector<double>{2, 0, 0});
 }
 
-TEST_CASE("A wrong value is told though the command line replaces it") {
+TEST_CASE("a wrong value is told though the command line replaces it") {
     CHECK(places_of(problems_in(with_line(7, "steps = -3"), {"time.steps=5"})) ==
           Texts{"s.toml:7"});
     CHECK(places_of(problems_in(with_line(7, "steps = 'ten'"), {"time.steps=-5"})) ==
@@ -121,7 +121,7 @@ TEST_CASE("A wrong value is told though the command line replaces it") {
     CHECK(problems_in(with_line(7, "steps = 3"), {"time.steps=5"}).empty());
 }
 
-TEST_CASE("A message says what is accepted") {
+TEST_CASE("a message says what is accepted") {
     const auto says = [](const std::string& override, const std::string& text) {
         const auto problems = problems_in(good, {override});
         return problems.size() == 1 && mentions(problems, text);
@@ -135,7 +135,7 @@ TEST_CASE("A message says what is accepted") {
     CHECK(says("box.periodic=true", "try: box.left.kind = \"periodic\""));
 }
 
-TEST_CASE("A run too short for a window of diffusion is warned of, with what would fit") {
+TEST_CASE("a run too short for a window of diffusion is warned of, with what would fit") {
     const auto warnings = [](Texts more) {
         more.insert(more.end(), {"output.measurements.quantities=[\"diffusion\"]",
                                  "output.measurements.every_steps=3", "output.folder=f"});
@@ -158,7 +158,7 @@ TEST_CASE("A run too short for a window of diffusion is warned of, with what wou
     CHECK(too_short[0].ends_with("try: output.measurements.every_steps = 2 or less"));
 }
 
-TEST_CASE("What a warning of a short run proposes makes the warning go away") {
+TEST_CASE("what a warning of a short run proposes makes the warning go away") {
     const auto warnings = [](const std::string& quantity, Texts more) {
         more.insert(more.end(), {"output.measurements.quantities=[\"" + quantity + "\"]",
                                  "output.folder=f", "time.steps=20"});

@@ -6,7 +6,7 @@
 using namespace carrom;
 using namespace carrom::test;
 
-TEST_CASE("A scene has what its text says and the defaults for the rest") {
+TEST_CASE("a scene has what its text says and the defaults for the rest") {
     const SceneParameters scene = read_scene(good, "folder/s.toml");
     CHECK(scene.name == "folder/s.toml");
     CHECK(scene.text == good);
@@ -25,7 +25,7 @@ TEST_CASE("A scene has what its text says and the defaults for the rest") {
     CHECK(scene.packing() == Approx(50 * 3.14159265358979 / 10000));
 }
 
-TEST_CASE("Every key of a scene is taken over") {
+TEST_CASE("every key of a scene is taken over") {
     const SceneParameters scene = read_scene(
         "[box]\nsize = 1e2\n[discs]\ncount = 1e2\npacking = 0.25\ngenerator = 'lattice'\n"
         "speed = 0.5\nvelocities = \"uniform\"\nseed = 0x10\n"
@@ -50,7 +50,7 @@ TEST_CASE("Every key of a scene is taken over") {
     CHECK(scene.text_output == TextOutput::every_step);
 }
 
-TEST_CASE("An accuracy stands in for the settings that it chooses, and the command line wins over "
+TEST_CASE("an accuracy stands in for the settings that it chooses, and the command line wins over "
           "the scene") {
     const std::string asks =
         "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 5\naccuracy = 0.1\n";
@@ -64,7 +64,7 @@ TEST_CASE("An accuracy stands in for the settings that it chooses, and the comma
     CHECK_THROWS_AS(read_scene(asks + "micro_steps = 2\n", "s.toml"), InputError);
 }
 
-TEST_CASE("Precision and arithmetic are knobs of both methods") {
+TEST_CASE("precision and arithmetic are knobs of both methods") {
     const SceneParameters plain = read_scene(good, "s.toml");
     CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable &&
            !plain.contraction));
@@ -89,7 +89,7 @@ TEST_CASE("Precision and arithmetic are knobs of both methods") {
         InputError);
 }
 
-TEST_CASE("Discs can be listed in the scene or in a file beside it") {
+TEST_CASE("discs can be listed in the scene or in a file beside it") {
     const SceneParameters listed = read_scene(
         "[box]\nsize = 10\n[discs]\nradius = 5\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n",
         "s.toml");
@@ -105,7 +105,7 @@ TEST_CASE("Discs can be listed in the scene or in a file beside it") {
     CHECK(discs_path(filed) == "folder/d.txt");
 }
 
-TEST_CASE("Overrides replace what the text says, and what excludes them there") {
+TEST_CASE("overrides replace what the text says, and what excludes them there") {
     const SceneParameters scene = read_scene(good, "s.toml",
                                              {"box.size=30", "discs.packing = 0.2",
                                               "output.text=ends", "discs.speed=2.5", "time.steps=5",
@@ -126,7 +126,7 @@ TEST_CASE("Overrides replace what the text says, and what excludes them there") 
           std::vector<InputDisc>{{0, 2, 3, 4, 5}});
 }
 
-TEST_CASE("A dense random scene becomes a lattice, and says so") {
+TEST_CASE("a dense random scene becomes a lattice, and says so") {
     const SceneParameters scene = read_scene(good, "s.toml", {"discs.packing=0.7"});
     CHECK(scene.generator == Generator::lattice);
     REQUIRE(scene.warnings.size() == 1);
@@ -134,12 +134,12 @@ TEST_CASE("A dense random scene becomes a lattice, and says so") {
     CHECK(read_scene(good, "s.toml", {"discs.packing=0.5"}).generator == Generator::random);
 }
 
-TEST_CASE("Micro-steps that are no power of two are allowed with a warning") {
+TEST_CASE("micro-steps that are no power of two are allowed with a warning") {
     CHECK(read_scene(good, "s.toml", {"time.micro_steps=1024"}).warnings.empty());
     CHECK(read_scene(good, "s.toml", {"time.micro_steps=10"}).warnings.size() == 1);
 }
 
-TEST_CASE("One wrong value is one problem at its line") {
+TEST_CASE("one wrong value is one problem at its line") {
     struct Wrong {
         int line;
         std::string text;
@@ -169,7 +169,7 @@ TEST_CASE("One wrong value is one problem at its line") {
     }
 }
 
-TEST_CASE("One wrong further value is one problem at its line") {
+TEST_CASE("one wrong further value is one problem at its line") {
     const Texts all = {"[discs]\nspeed = nan",
                        "[discs]\nspeed = -1",
                        "[discs]\nspeed = 1e100",
@@ -222,7 +222,7 @@ TEST_CASE("One wrong further value is one problem at its line") {
     }
 }
 
-TEST_CASE("What goes wrong together is told where it can be mended") {
+TEST_CASE("what goes wrong together is told where it can be mended") {
     CHECK(places_of(problems_in(with_line(4, "count = 10_000_000"))) ==
           Texts{"s.toml:5"}); // the radius is too large
     CHECK(places_of(problems_in(with_line(7, "steps = 3\nmicro_steps = 9007199254740992"))) ==
@@ -230,7 +230,7 @@ TEST_CASE("What goes wrong together is told where it can be mended") {
 }
 
 TEST_CASE(
-    "Numbers too large for any type, and text that is not TOML, are one problem with a line") {
+    "numbers too large for any type, and text that is not TOML, are one problem with a line") {
     CHECK(places_of(problems_in(with_line(4, "count = 10000000000000000000"))) ==
           Texts{"s.toml:4"});
     CHECK(places_of(problems_in(with_line(2, "[ = 3"))) == Texts{"s.toml:2"});
@@ -239,14 +239,14 @@ TEST_CASE(
     CHECK(places_of(problems_in(with_line(5, "radius = \xff"))) == Texts{"s.toml:5"});
 }
 
-TEST_CASE("What is missing is named") {
+TEST_CASE("what is missing is named") {
     const auto problems = problems_in("");
     CHECK(places_of(problems) == Texts{"s.toml", "s.toml", "s.toml", "s.toml"});
     for (const char* key : {"box.size", "discs.count", "discs.radius", "time.steps"})
         CHECK(mentions(problems, key));
 }
 
-TEST_CASE("All problems of a scene come at once, in the order of lines, those of overrides last") {
+TEST_CASE("all problems of a scene come at once, in the order of lines, those of overrides last") {
     const std::string text =
         "[box]\nsise = 10\nsize = nan\n[discs]\ncount = 0\npacking = 1.5\nradius = -1\nlist = [[1, "
         "2, 3],\n"
@@ -285,7 +285,7 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
     CHECK(mentions(problems, "no such key 'output.movie'; [output] has text, folder"));
 }
 
-TEST_CASE("Outputs to files are read and checked") {
+TEST_CASE("outputs to files are read and checked") {
     const SceneParameters scene = read_scene(
         std::string(good) + "[output]\nfolder = 'a b'\ncollisions = "
                             "true\n[output.checkpoint]\nevery_steps = 1e3\nevery_minutes = 0.5\n"
@@ -335,7 +335,7 @@ TEST_CASE("Outputs to files are read and checked") {
     }
 }
 
-TEST_CASE("Misspelt keys name the nearest known one") {
+TEST_CASE("misspelt keys name the nearest known one") {
     const std::vector<std::pair<std::string, std::string>> pairs = {
         {"time.stepz=1", "time.steps"},     {"discs.pakcing=0.1", "discs.packing"},
         {"disks.radius=1", "discs.radius"}, {"steps=1", "time.steps"},
@@ -346,7 +346,7 @@ TEST_CASE("Misspelt keys name the nearest known one") {
     }
 }
 
-TEST_CASE("Where no known key is near none is guessed: those that there are get listed") {
+TEST_CASE("where no known key is near none is guessed: those that there are get listed") {
     for (const char* wrong : {"a=1", "box.q=1", "foo=1", "discs.zzzzzzzqqqqq=1", "box.sidelength=3",
                               "time.tau=1", "output.trajectory.colour='x'"}) {
         CAPTURE(wrong);

@@ -47,7 +47,7 @@ std::pair<int, int> neighbours_of(const TriangularLattice& lattice, const Box& b
 
 } // namespace
 
-TEST_CASE("Each site of a triangular lattice has six neighbours") {
+TEST_CASE("each site of a triangular lattice has six neighbours") {
     for (const auto& [columns, rows] : {std::pair(4, 4), {5, 6}, {12, 4}, {3, 20}, {29, 30}}) {
         for (const double spacing : {1.0, 2.7}) {
             const Box lying(columns * spacing, rows * spacing * row_height);
@@ -71,7 +71,7 @@ TEST_CASE("Each site of a triangular lattice has six neighbours") {
     }
 }
 
-TEST_CASE("A triangular lattice fits edges of five digits, and not another shape") {
+TEST_CASE("a triangular lattice fits edges of five digits, and not another shape") {
     CHECK(triangular_lattice(870, {29, 25.981}));
     CHECK(triangular_lattice(870, {29, 25.9831}));
     CHECK_FALSE(triangular_lattice(870, {29, 25.99}));
@@ -81,7 +81,7 @@ TEST_CASE("A triangular lattice fits edges of five digits, and not another shape
     CHECK(triangular_lattice(10000 * 11548ull, {10000, 11548 * row_height})->rows == 11548);
 }
 
-TEST_CASE("A box that no triangular lattice fits gets the nearest one that does") {
+TEST_CASE("a box that no triangular lattice fits gets the nearest one that does") {
     for (const auto& [n, box] : {std::pair(870u, Box(29)),
                                  {100u, Box(10, 10)},
                                  {1u, Box(3, 2)},
@@ -104,7 +104,7 @@ TEST_CASE("A box that no triangular lattice fits gets the nearest one that does"
     }
 }
 
-TEST_CASE("Scenes of triangular lattices") {
+TEST_CASE("scenes of triangular lattices") {
     const SceneParameters scene = read_scene(periodic_scene(120, "[10, 10.3923]", 0.49), "s.toml");
     CHECK(scene.generator == Generator::triangular);
     CHECK(mentions(problems_in(periodic_scene(120, "10", 0.4)),

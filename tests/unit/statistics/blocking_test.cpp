@@ -54,7 +54,7 @@ Claims claims_of(std::size_t n, double correlation_time, int n_runs) {
 
 } // namespace
 
-TEST_CASE("The claimed error is the scatter between runs, with and without correlation") {
+TEST_CASE("the claimed error is the scatter between runs, with and without correlation") {
     for (const double share : {0.0, 1.0 / 256, 1.0 / 64, 1.0 / 32}) {
         const Claims claims = claims_of(3000, 3000 * share, 400);
         CAPTURE(share, claims.scatter_over_claim, claims.share_changing);
@@ -64,7 +64,7 @@ TEST_CASE("The claimed error is the scatter between runs, with and without corre
     }
 }
 
-TEST_CASE("The correlation time is that of the series where blocks are shorter") {
+TEST_CASE("the correlation time is that of the series where blocks are shorter") {
     const Claims claims = claims_of(3000, 60, 400); // blocks have 32 samples
     CAPTURE(claims.correlation_time);
     CHECK(claims.correlation_time > 50);
@@ -72,7 +72,7 @@ TEST_CASE("The correlation time is that of the series where blocks are shorter")
     CHECK(claims_of(3000, 0, 100).correlation_time < 20);
 }
 
-TEST_CASE("A trend is reported, a constant is known to be one") {
+TEST_CASE("a trend is reported, a constant is known to be one") {
     const auto changes = [](auto value) {
         std::vector<double> x = series(1000, 0, 7);
         for (std::size_t k = 0; k < x.size(); ++k)
@@ -88,7 +88,7 @@ TEST_CASE("A trend is reported, a constant is known to be one") {
     CHECK_FALSE(constant.is_changing);
 }
 
-TEST_CASE("Short series have no error, and memory does not grow") {
+TEST_CASE("short series have no error, and memory does not grow") {
     CHECK(std::isnan(mean_of({1, 2, 4}).error));
     CHECK(mean_of({1, 2, 4}).value == Approx(7.0 / 3));
     CHECK(mean_of({1, 2, 4, 3}).error > 0);
@@ -100,7 +100,7 @@ TEST_CASE("Short series have no error, and memory does not grow") {
     CHECK(blocks.means()[2].error == 0);
 }
 
-TEST_CASE("The error of a sum allows for values that vary together") {
+TEST_CASE("the error of a sum allows for values that vary together") {
     const std::vector<double> noise = series(20000, 1, 7);
     VectorBlocks blocks(2);
     double mean = 0, square = 0;
@@ -120,7 +120,7 @@ TEST_CASE("The error of a sum allows for values that vary together") {
     CHECK(blocks.means()[0].error > 100 * variance.error);
 }
 
-TEST_CASE("Blocks that go on from a checkpoint's words have the same bits") {
+TEST_CASE("blocks that go on from a checkpoint's words have the same bits") {
     const std::vector<double> x = series(777, 5, 3);
     VectorBlocks whole(2), first(2);
     for (std::size_t k = 0; k < x.size(); ++k) {

@@ -120,7 +120,7 @@ void check_alike(const Counts& counts) {
 
 } // namespace
 
-TEST_CASE("Effects that change nothing give the plain bits") {
+TEST_CASE("effects that change nothing give the plain bits") {
     const PlainDynamics plain(box_size, radius);
     Effects effects;
     check_alike(compare(plain, WalledDynamics(box_size, radius, effects)));
@@ -130,7 +130,7 @@ TEST_CASE("Effects that change nothing give the plain bits") {
     check_alike(compare(plain, WalledMixedDynamics(box_size, radius, effects)));
 }
 
-TEST_CASE("Parts that change nothing give the plain bits") {
+TEST_CASE("parts that change nothing give the plain bits") {
     const PlainDynamics plain(box_size, radius);
     check_alike(compare(plain, PeriodicDynamics(box_size, radius, Effects{})));
     check_alike(compare(plain, PeriodicMixedDynamics(box_size, radius, Effects{})));
@@ -139,7 +139,7 @@ TEST_CASE("Parts that change nothing give the plain bits") {
 }
 
 // Nor do parts that change something: each combination differs where its part acts.
-TEST_CASE("Discs that grow touch earlier, and part faster") {
+TEST_CASE("discs that grow touch earlier, and part faster") {
     Effects effects;
     effects.growth = 1e-3;
     const PlainDynamics plain(box_size, radius);
@@ -161,7 +161,7 @@ TEST_CASE("Discs that grow touch earlier, and part faster") {
     CHECK(n_contacts > 300);
 }
 
-TEST_CASE("An effect that loses energy does not give the plain bits") {
+TEST_CASE("an effect that loses energy does not give the plain bits") {
     Effects effects;
     effects.contact = {ContactKind::restitution, 0.9};
     const Counts counts = compare(PlainDynamics(box_size, radius),
@@ -169,7 +169,7 @@ TEST_CASE("An effect that loses energy does not give the plain bits") {
     CHECK(counts.differences > 1000);
 }
 
-TEST_CASE("In double precision the study's walls and collisions have the plain bits") {
+TEST_CASE("in double precision the study's walls and collisions have the plain bits") {
     // A contact that rounding puts beyond touching does not count in the study.
     const bool with_contact_times = false;
     for (const ContactFormula formula :
@@ -179,7 +179,7 @@ TEST_CASE("In double precision the study's walls and collisions have the plain b
                             with_contact_times));
 }
 
-TEST_CASE("The study's states in single precision are floats near the plain ones") {
+TEST_CASE("the study's states in single precision are floats near the plain ones") {
     const PlainDynamics plain(box_size, radius);
     const StudyDynamics<float> single(box_size, radius, {}, ContactFormula::stable);
     Discs discs;

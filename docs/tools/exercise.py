@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The exercises of docs/classroom.md: `python3 docs/exercises/exercise.py 1` (to 5).
+"""The exercises of docs/classroom.md: `python3 docs/tools/exercise.py 1` (to 5).
 
 Each one prints the commands that it runs, then a table. `--short` takes seconds, `--check` ends
 with code 1 if the result is not the expected one. CARROM names the program, MPIRUN the launcher.
