@@ -104,20 +104,24 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
 
 void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator) {
-    constexpr std::size_t most_named = 5;
+    const std::size_t most_named = scene.groups.empty() ? 5 : 1; // a group is moved as a whole
     if (!scene.effects.obstacles.are_any()) return;
     const Obstacles obstacles(scene.box, scene.radius, scene.effects);
     const SpeciesTable species_table(scene.effects.species, scene.radius);
     const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box.longest());
+    const char* const remedy =
+        scene.groups.empty() ? "move one of them"
+                             : "lattices and compressed discs know nothing of it; move the region "
+                               "of their group, or take generator = \"random\"";
     std::vector<Problem> problems;
     for (const InputDisc& disc : discs) {
         const auto overlap = obstacles.deepest_overlap(disc.x, disc.y,
                                                        species_table.of(disc.id).radius, least);
         if (overlap.body == ObstacleContact::no_body || problems.size() == most_named) continue;
         problems.push_back({scene.name, 0,
-                            fmt::format("disc {} at {} overlaps {} by {:.3g}; move one of them",
-                                        disc.id, shown_place(scene, disc.x, disc.y),
-                                        obstacles.name_of(overlap.body), overlap.depth)});
+                            fmt::format("disc {} at {} overlaps {} by {:.3g}; {}", disc.id,
+                                        shown_place(scene, disc.x, disc.y),
+                                        obstacles.name_of(overlap.body), overlap.depth, remedy)});
     }
     agree_on_problems(communicator, problems);
 }

@@ -288,6 +288,7 @@ void check_temperature(const SceneDraft& draft) {
     if (!scene.temperature || *scene.temperature == 0) return;
     double lightest = scene.effects.species.empty() ? 1 : INFINITY;
     for (const Species& one : scene.effects.species) lightest = std::min(lightest, one.mass);
+    if (!column_problem(DiscColumn::mass, lightest).empty()) return; // a problem already
     const double speed = std::sqrt(2 * (*scene.temperature / lightest));
     std::string text = speed_problem(speed, scene);
     if (!(speed >= smallest_size && speed <= 0x1p-8 * largest_size))

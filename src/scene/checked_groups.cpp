@@ -82,6 +82,7 @@ private:
         if (group.temperature) speed = std::sqrt(2 * (*group.temperature / body.mass));
         const bool is_zero = group.temperature == 0.0 || group.speed == 0.0;
         if ((!group.temperature && !group.speed) || is_zero) return {};
+        if (!column_problem(DiscColumn::mass, body.mass).empty()) return {}; // a problem already
         if (!(speed >= smallest_size && speed <= 0x1p-8 * largest_size))
             return fmt::format("its {} must be 0, or give speeds from 2^-250 to 2^242, not {}",
                                group.speed ? "speed" : "temperature",

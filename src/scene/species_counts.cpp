@@ -145,8 +145,13 @@ private:
         double square = 0; // mean of r^2
         for (std::size_t k = 0; k < rows_.size(); ++k)
             square += weights[k] * (*rows_[k])[1] * (*rows_[k])[1];
-        return count_of_packing(std::get<double>(packing->value.data), draft_.scene.area(),
-                                std::sqrt(square));
+        const double n = count_of_packing(std::get<double>(packing->value.data),
+                                          draft_.scene.area(), std::sqrt(square));
+        if (n >= 1 && n <= static_cast<double>(largest_count)) return n;
+        refuse(fmt::format("'discs.packing' gives {} discs of the radii in 'discs.species'; from 1 "
+                           "to {} are possible",
+                           n, largest_count));
+        return 0;
     }
 
     bool are_counts_right() {

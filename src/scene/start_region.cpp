@@ -2,8 +2,12 @@
 #include "scene/start_region.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/box_text.hpp"
 #include "scene/key_members.hpp"
@@ -20,9 +24,8 @@ struct Crowd {
     double largest = 0, area = 0;
 };
 
-/// Of the discs from `first` to `end` - 1.
-Crowd crowd_of(const SceneParameters& scene, DiscId first, DiscId end) {
-    Crowd crowd;
+/// Adds discs from `first` to `end` - 1.
+void add_discs(Crowd& crowd, const SceneParameters& scene, DiscId first, DiscId end) {
     const auto add = [&crowd](double radius, std::uint64_t n) {
         crowd.count += n;
         crowd.largest = std::max(crowd.largest, radius);
@@ -35,7 +38,26 @@ Crowd crowd_of(const SceneParameters& scene, DiscId first, DiscId end) {
         if (low < high) add(one.radius, high - low);
         begin += one.count;
     }
-    return crowd;
+}
+
+/// The regions in which discs begin. Species of one region share its room.
+std::vector<std::pair<StartRegion, Crowd>> crowds_of(const SceneParameters& scene) {
+    std::vector<RegionRun> runs = scene.regions;
+    if (runs.empty()) runs.push_back({scene.n_discs, scene.region});
+    std::vector<std::pair<StartRegion, Crowd>> crowds;
+    std::map<std::array<double, 4>, std::size_t> known;
+    DiscId first = 0;
+    for (const RegionRun& run : runs) {
+        if (const auto region = run.region ? run.region : scene.region) {
+            const auto& [x_low, y_low, x_high, y_high] = *region;
+            const auto [at, is_new] = known.try_emplace({x_low, y_low, x_high, y_high},
+                                                        crowds.size());
+            if (is_new) crowds.push_back({*region, {}});
+            add_discs(crowds[at->second].second, scene, first, run.end);
+        }
+        first = run.end;
+    }
+    return crowds;
 }
 
 std::string text_of(const SceneParameters& scene, const StartRegion& r) {
@@ -112,18 +134,12 @@ void check_regions(const SceneDraft& draft) {
     if (!scene.regions.empty() && scene.generator != Generator::random)
         return draft.refuse({"discs.species"}, "a region of a species has no meaning without "
                                                "discs.generator = \"random\"");
-    std::vector<RegionRun> runs = scene.regions;
-    if (runs.empty()) runs.push_back({scene.n_discs, scene.region});
-    DiscId first = 0;
-    for (const RegionRun& run : runs) {
-        const std::optional<StartRegion> region = run.region ? run.region : scene.region;
-        const std::string text = region
-                                     ? problem_of(scene, *region, crowd_of(scene, first, run.end))
-                                     : "";
+    for (const auto& [region, crowd] : crowds_of(scene)) {
+        const std::string text = problem_of(scene, region, crowd);
         if (!text.empty())
-            draft.refuse({run.region && !scene.regions.empty() ? "discs.species" : "discs.region"},
-                         fmt::format("the region {} {}", text_of(scene, *region), text));
-        first = run.end;
+            draft.refuse({scene.regions.empty() || region == scene.region ? "discs.region"
+                                                                          : "discs.species"},
+                         fmt::format("the region {} {}", text_of(scene, region), text));
     }
 }
 

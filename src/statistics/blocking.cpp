@@ -107,15 +107,17 @@ bool are_eighths_in_order(std::span<const double> terms) {
     constexpr std::size_t n_parts = 8;
     const std::size_t length = terms.size() / n_parts;
     if (length < 2) return false;
-    int rising = 0, pairs = 0;
+    int rising = 0, falling = 0, pairs = 0; // equal means, as of rare events, are neither
     for (std::size_t last = 1; last < n_parts; ++last) {
         for (std::size_t first = 0; first < last; ++first) {
             ++pairs;
-            rising += mean_of(terms.subspan(first * length, length)) <
-                      mean_of(terms.subspan(last * length, length));
+            const double before = mean_of(terms.subspan(first * length, length)),
+                         after = mean_of(terms.subspan(last * length, length));
+            rising += before < after;
+            falling += before > after;
         }
     }
-    return rising <= 1 || rising >= pairs - 1;
+    return falling >= pairs - 1 || rising >= pairs - 1;
 }
 
 } // namespace

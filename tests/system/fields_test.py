@@ -271,6 +271,19 @@ class GravityInTime(ProgramTest):
         for first in (20, 21):
             self.check_restart(scene, ("--overwrite",), first=first, last=40)
 
+    def test_check_beside_other_effects(self):
+        """Kicks at syncs give an energy that depends on the frame, and drag takes a part of it."""
+        scene = self.write("scene.toml", SWAYED.format(
+            size="30, 24", restitution=1, steps=20, sync=2,
+            discs="count = 100\nradius = 0.6\nspeed = 0.3"))
+        for tables in ("thermostat={kind = \"langevin\", rate = 0.5, temperature = 0.1}",
+                       "field={kind = \"trap\", stiffness_x = 0.01}"):
+            self.run_program(1, "run", scene, "--set", f"effects.{tables}", "--check")
+        # Discs that begin at rest, so that a part of the first kicks is a large share.
+        scene = self.write("drag.toml", DENSE.replace("speed = 0.6", "speed = 0") +
+                           FIELDS["sine"] + "[effects.drag]\nrate = 0.01\n")
+        self.run_program(1, "run", scene, "--check")
+
     def test_what_does_not_go_together(self):
         scene = self.write("scene.toml", SWAYED.format(
             size="30, 24", restitution=0.9, steps=40, sync=8,

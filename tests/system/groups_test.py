@@ -120,6 +120,13 @@ class Shares(Starts):
                  "it needs count, packing, share or share_of_area"),
                 (one.format("packing = 1.5", "count = 4"),
                  "its packing must be greater than 0 and at most 1, not 1.5"),
+                ("packing = 1e-9\n" + one.format("share = 0.5", "share = 0.5"),
+                 "'discs.packing' gives 0 discs of the radii in 'discs.species'"),
+                ("packing = 0.3\n" +
+                 one.format("share = 0.5", "share = 0.5").replace("2}", "1e30}"),
+                 "'discs.packing' gives 0 discs"),
+                ("temperature = 1\n" + one.format("count = 3, mass = 0", "count = 4"),
+                 "row 1 of 'discs.species': the mass must be from 2^-100 to 2^100, not 0"),
                 ("packing = 0.2\n" + one.format("count = 3", "count = 4"),
                  "'discs.packing' has no meaning where 'discs.species' has counts")))
 
@@ -225,8 +232,9 @@ region = [10, 0, 20, 10]
         self.write_scene("pins", "radius = 0.5\n[[discs.groups]]\ncount = 100\nregion = "
                          '[0, 0, 20, 20]\ngenerator = "lattice"\n')
         inside = "effects.obstacles.discs=[[10, 10, 3]]"
-        self.run_program(3, "run", "pins.toml", "--set", inside, code=2,
-                         says="overlaps fixed disc 1 by")
+        run = self.run_program(3, "run", "pins.toml", "--set", inside, code=2,
+                               says=("overlaps fixed disc 1 by", "move the region of their group"))
+        self.assertEqual(run.err.count("overlaps"), 1, run.err)
         beside = "effects.obstacles.discs=[[30, 30, 3]]"
         self.run_program(3, "run", "pins.toml", "--set", beside, "--check", "--quiet", "--steps", 5)
 

@@ -125,6 +125,9 @@ class Regions(ProgramTest):
                 (count + "region = [[0, 0, 5, 9], [1, 1, 9, 9]]", "must be numbers, [x0, y0, x1"),
                 (count + 'region = [0, 0, 9, 9]\ngenerator = "lattice"',
                  'no meaning without discs.generator = "random"'),
+                ("species = [{count = 9, radius = 0.5, region = [0, 0, 5, 5]}, "
+                 "{count = 9, radius = 0.4}, {count = 9, radius = 0.5, region = [0, 0, 5, 5]}]",
+                 "the region [0, 0, 5, 5] would be covered to 0.5655 by 18 discs"),
                 ('generator = "compressed"\n' + TWO_GASES, "a region of a species has no meaning"),
                 (TWO_GASES.replace("[10, 0, 20, 20]", "[10, 0, 20, 21]"), "[10, 0, 20, 21] must")))
 

@@ -73,7 +73,11 @@ std::string windows_text(const RollbackCounts& runs) {
 }
 
 std::string estimate_text(const Estimate& estimate) {
+    if (std::isnan(estimate.value)) return "undefined";
     if (estimate.is_conserved) return fmt::format("{:.7g} (conserved)", estimate.value);
+    const bool has_ends = std::isfinite(estimate.first) && std::isfinite(estimate.last);
+    if (estimate.is_changing && !has_ends) // no collision, or no disc, in the first or last block
+        return fmt::format("{:.5g} (still changing)", estimate.value);
     if (estimate.is_changing)
         return fmt::format("{:.5g} (from {:.5g} to {:.5g})", estimate.value, estimate.first,
                            estimate.last);

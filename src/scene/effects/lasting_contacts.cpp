@@ -272,7 +272,7 @@ void warn_of_unlike_masses(const SceneDraft& draft) {
 
 void check_heap(const SceneDraft& draft) {
     if (!has_lasting(draft.scene) || !(smallest_radius_of(draft.scene) > 0)) return;
-    if (!draft.knows_syncs()) return;
+    if (!draft.knows_syncs() || pull_of(draft.scene) == 0) return; // a conflict already
     if (check_hops(draft)) check_speed(draft);
     warn_of_unlike_masses(draft);
     check_samples_of_forces(draft);

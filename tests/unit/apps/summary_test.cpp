@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "catch.hpp"
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/run_command/report.hpp"
 #include "apps/run_command/summary.hpp"
@@ -156,6 +158,27 @@ TEST_CASE("what is conserved or still changing has no error, and says so") {
     CHECK(report.at("compressibility").at("first") == 29.5);
     CHECK(report.at("compressibility").at("last") == 28.5);
     CHECK(report.at("pressure").at("correlation_time") == 3);
+}
+
+TEST_CASE("What has no number, as kT once all discs have left, is named in words") {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                     infinite = std::numeric_limits<double>::infinity();
+    RunResult result = small_result();
+    result.averages.steps = 50;
+    result.averages.n_blocks = 40;
+    for (const auto& [first, last] : {std::pair(0.5, nan), std::pair(infinite, 0.5)}) {
+        Estimate& temperature = result.averages.temperature;
+        temperature.value = 0.25;
+        temperature.is_changing = true;
+        temperature.first = first, temperature.last = last;
+        result.averages.pressure_tensor.xx.value = nan;
+        result.averages.pressure_tensor.yy.value = 0.5;
+        const std::string text = summary_text(small_scene(), result);
+        CHECK(text.find("kT = 0.25 (still changing)\n") != std::string::npos);
+        CHECK(text.find("pressure xx undefined, xy ") != std::string::npos);
+        CHECK(text.find("nan") == std::string::npos);
+        CHECK(text.find("inf") == std::string::npos);
+    }
 }
 
 } // namespace carrom

@@ -88,6 +88,15 @@ TEST_CASE("a trend is reported, a constant is known to be one") {
     CHECK_FALSE(constant.is_changing);
 }
 
+TEST_CASE("a rare event is no trend, early or late in a series") {
+    for (const std::size_t at : {0, 3, 20, 60, 63}) {
+        std::vector<double> x(64);
+        x[at] = 1;
+        CAPTURE(at);
+        CHECK_FALSE(mean_of(x).is_changing);
+    }
+}
+
 TEST_CASE("short series have no error, and memory does not grow") {
     CHECK(std::isnan(mean_of({1, 2, 4}).error));
     CHECK(mean_of({1, 2, 4}).value == Approx(7.0 / 3));
