@@ -94,7 +94,7 @@ public:
 
     /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest
     /// share exceeds the mean by more than the factor `above`. Discs count where they are at
-    /// `time`; the next migration moves them.  **Collective.**
+    /// `time`; the next migration moves them. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
