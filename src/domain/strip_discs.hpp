@@ -141,7 +141,6 @@ public:
     const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
     /// Number of discs on all ranks, departed ones included.
     std::uint64_t n_with_departed() const { return n_with_departed_; }
-    ///< included
 
     /// Drops the discs of the halo.
     void forget_halo() {
