@@ -94,7 +94,7 @@ public:
 
     /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest
     /// share exceeds the mean by more than the factor `above`. Discs count where they are at
-    /// `time`; the next migration moves them.  **Collective.**
+    /// `time`; the next migration moves them. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -141,7 +141,6 @@ public:
     const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
     /// Number of discs on all ranks, departed ones included.
     std::uint64_t n_with_departed() const { return n_with_departed_; }
-    ///< included
 
     /// Drops the discs of the halo.
     void forget_halo() {

@@ -79,7 +79,7 @@ private:
     /// + e) / 2.
     CARROM_DEVICE double normal_at(double /*speed*/) const { return normal_; }
 
-    /// `impulse` is in units of that of an elastic contact of equal masses, The velocity of each
+    /// `impulse` is in units of that of an elastic contact of equal masses. The velocity of each
     /// disc changes by 2 m' / (m + m') of it, where m' is the mass of the other disc. For equal
     /// masses this is a factor of 1, which changes no bit.
     template <class Real>

@@ -35,7 +35,7 @@ concept Space = std::is_trivially_copyable_v<S> &&
                 requires(S changing, const S space, const DiscState& p, DiscState& q,
                          std::int64_t n, double d, Axis axis) {
                     { S::is_periodic } -> std::convertible_to<bool>; // whether discs have images
-                    { S::has_moving_images } -> std::convertible_to<bool>; // which have velocities
+                    { S::has_moving_images } -> std::convertible_to<bool>; // images have velocities
                     changing.begin_interval(n); // from now on times count from micro-step n
                     // The position of q relative to p; d, d is the difference of stored positions
                     // at the time d.

@@ -19,12 +19,13 @@ namespace carrom {
 
 namespace {
 
-constexpr double first_packing = 0.3; ///< the random gas has it
-/// Shares by which radii grow in a stretch: at first, at most, and of the room that is left.
+constexpr double first_packing = 0.3; ///< packing of the random gas
+/// Shares by which radii grow in a stretch: the first one, the largest one, and relative to the
+/// room that is left.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
-/// With less room discs have jammed: the pressure is N kT / A over the room.
+/// If less room than this is left, discs have jammed: the pressure is N kT / A divided by the room.
 constexpr double jammed_room = 1e-6;
-/// Radii grow by this share more than is wanted, so that rounding leaves no overlap.
+/// Radii grow by this share more than required, so that rounding leaves no overlap.
 constexpr double margin = 0x1p-30;
 
 class Compression {
@@ -34,7 +35,7 @@ public:
         : scene_(scene), communicator_(communicator), tuning_(tuning),
           size_(std::min(1.0, std::sqrt(first_packing / scene.packing()))) {}
 
-    /// Returns places; the velocities have no meaning.
+    /// Returns positions; velocities have no meaning.
     std::vector<InputDisc> run() {
         discs_ = insert_at_random(stretch(), communicator_, tuning_.threads);
         if (size_ == 1) return std::move(discs_);
@@ -56,7 +57,8 @@ public:
     }
 
 private:
-    /// The scene of one stretch: a step of one micro-step. Masses are equal, walls plain.
+    /// The scene of one stretch, which is a step of one micro-step. Masses are equal, and walls
+    /// plain.
     SceneParameters stretch() const {
         SceneParameters scene;
         scene.name = scene_.name;
@@ -74,10 +76,9 @@ private:
         return scene;
     }
 
-    /// Discs begin and end with a root mean square speed of 1. In the stretch's step
-    /// they fly as far as the rate of growth asks for. Returns the growth that is left
-    /// before discs jam: the nearer they come to that, the faster they heat up. If
-    /// gaps shrink from a to b, speeds grow by a / b.
+    /// Discs begin and end with a root mean square speed of 1. The rate of growth determines how
+    /// far they fly in the step. Returns the growth that is left before discs jam: the nearer they
+    /// are to it, the faster they heat up. If gaps shrink from a to b, speeds grow by a / b.
     double run_stretch() {
         const double speed = 2 * scene_.radius * size_ * growth_ / scene_.growth_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;
@@ -113,8 +114,8 @@ private:
     const SceneParameters& scene_;
     const Communicator& communicator_;
     const Tuning& tuning_;
-    double size_;                  ///< size of radii, over the wanted ones
-    double growth_ = first_growth; ///< in the next stretch, as a share
+    double size_;                  ///< present radii relative to the scene's
+    double growth_ = first_growth; ///< share by which radii grow in the next stretch
     std::vector<InputDisc> discs_;
 };
 

@@ -25,8 +25,8 @@ CellSizes cell_sizes(const DiscSystem& system) {
 }
 
 /// The orders of all discs of the view that are at most `reach_beyond` from the own ones; or those
-/// of own discs whose id is a multiple of `ids_apart`, if that is not 0. The view is good until
-/// images are forgotten. **Collective.**
+/// of own discs whose id is a multiple of `ids_apart`, if that is not 0. The view is valid until
+/// images are removed. **Collective.**
 LocalView find_orders(DiscSystem& system, double reach_beyond, std::uint64_t ids_apart,
                       std::vector<BondOrder>& orders) {
     const Extent box = system.box();
@@ -108,7 +108,7 @@ std::vector<BondOrder> bond_orders(DiscSystem& system) {
     const LocalView now = find_orders(system, 0, 0, orders);
     orders.resize(now.population.n_own);
     system.engine().forget_images();
-    orders.resize(system.discs().size()); // departed discs come last, and have no order
+    orders.resize(system.discs().size()); // departed discs come last and have no order
     return orders;
 }
 

@@ -19,17 +19,18 @@ namespace carrom {
 
 namespace {
 
-/// Lists of no more than this are given back to the system one by one.
+/// The largest number of discs in a list that is returned to the system as a whole.
 constexpr std::size_t discs_in_part = 1 << 16;
-/// Room for the halo, to the square root of the number of own discs: 32 discs deep on each side
-/// of the box. Without it all discs would move when it grows.
+/// Room for the halo, to the square root of the number of own discs: 32 discs deep on each side of
+/// the box. Without it all discs would be copied when the halo grows.
 constexpr double halo_per_root = 128;
 
-/// Moves the discs into many lists and frees the one list, which a parameter alone
-/// might keep until the end of the expression that the call is in.
+/// Moves the discs into many lists and frees the original list. A parameter alone might keep it
+/// until the end of the caller's expression.
 std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     std::vector<std::vector<InputDisc>> parts;
-    parts.reserve(discs.size() / discs_in_part + 1); // allocated first, so it is below them
+    // Allocated first, so that it is below them in memory
+    parts.reserve(discs.size() / discs_in_part + 1);
     for (auto begin = discs.begin(); begin != discs.end();
          begin += static_cast<std::ptrdiff_t>(parts.back().size()))
         parts.emplace_back(begin,
@@ -38,8 +39,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Frees inputs as it makes states, because both together would take the most memory
-/// of a run.
+/// Frees inputs while it makes states, because both together would be the largest memory of a run.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -49,7 +49,7 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
-    for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap shrinks
+    for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap can shrink
         for (const InputDisc& input : parts.back()) {
             DiscState& disc = state.discs.emplace_back(DiscState{});
             disc.id = input.id;
@@ -76,7 +76,7 @@ std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState sta
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
-/// The speed per micro-step that discs are likely to have, now or later; the same on all ranks.
+/// A typical speed of discs per micro-step, now or later; the same on all ranks.
 double usual_speed(const SceneParameters& scene, std::span<const DiscState> own,
                    const Communicator& ranks) {
     const Effects& effects = scene.effects;
@@ -96,8 +96,8 @@ double heaviest_of(const SceneParameters& scene) {
     return heaviest;
 }
 
-/// Whether nothing is left that may change it. Averages need more samples where it changes, and
-/// each ends a window, which in a slow gas costs as much as ten steps.
+/// Whether nothing can change the kinetic energy. Otherwise averages need more samples, each of
+/// which ends a window, which in a slow gas costs as much as ten steps.
 bool keep_energy_of_motion(Effects effects) {
     effects.species.clear();
     if (effects.contact.kind == ContactKind::none) effects.contact = {};
@@ -141,8 +141,8 @@ DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averaged_system_(
           std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
-    // Terms are some 2^45 units, and sums come to 2^80 of them. The largest are those of whole
-    // flights. Rare longer ones take another path.
+    // Terms are some 2^45 units, and sums are up to 2^80 units. The largest terms are those of
+    // whole flights. Rare larger terms are added in another way.
     const double speed = usual_speed(scene, engine_->own(), communicator),
                  flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
@@ -154,12 +154,12 @@ DiscSystem::~DiscSystem() = default;
 void DiscSystem::advance_towards(std::int64_t last_step) {
     if (check_ && step() < last_step)
         advance_checked();
-    else // at most to the first step after a sync
+    else // up to the first step after a sync
         engine_->advance_towards(last_step);
 }
 
 void DiscSystem::begin_stress_sums(double bound) {
-    if (stress_ && bound == stress_bound_) return; // the run may go on from a checkpoint
+    if (stress_ && bound == stress_bound_) return; // the run may continue from a checkpoint
     stress_bound_ = bound;
     stress_ = std::make_unique<StressSums>(bound);
     engine_->add_stress_to(stress_.get());

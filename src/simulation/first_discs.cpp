@@ -18,7 +18,7 @@ namespace carrom {
 namespace {
 
 /// The scene of a group alone, whose box is the group's region. `number` counts groups, so that
-/// equal groups do not begin alike. A region that goes all along a period is periodic, too.
+/// equal groups get different random numbers. A region that covers a whole period is periodic, too.
 SceneParameters scene_of_group(const SceneParameters& scene, const DiscGroup& group, double radius,
                                std::uint64_t number) {
     const StartRegion region = region_of(scene, group);
@@ -39,7 +39,7 @@ SceneParameters scene_of_group(const SceneParameters& scene, const DiscGroup& gr
     return alone;
 }
 
-/// The places of a group that is no random one, with its ids. **Collective.**
+/// The positions of a group whose generator is not random, with its ids. **Collective.**
 std::vector<InputDisc> places_of(const SceneParameters& scene, const DiscGroup& group, DiscId first,
                                  std::uint64_t number, const Communicator& communicator,
                                  const Tuning& tuning) {

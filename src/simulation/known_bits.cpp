@@ -51,7 +51,8 @@ std::string hash_of(Method method) {
     return to_string(system.totals().hash);
 }
 
-/// A run that is told to stop meanwhile knows of no difference. It stops on all ranks together.
+/// If a stop is requested meanwhile, no difference is reported. The run stops on all ranks
+/// together.
 std::string difference_here() try {
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const std::string hash = hash_of(method);

@@ -10,12 +10,12 @@ namespace carrom {
 
 namespace {
 
-/// Blocks that differ by less than this share of their mean differ by rounding.
+/// Blocks whose difference is below this share of their mean differ only by rounding.
 constexpr double rounding_share = 1e-10;
-/// Halves of a run are compared where each has at least this many blocks.
+/// Halves of a run are compared if each has at least this many blocks.
 constexpr std::size_t fewest_blocks_of_half = 8;
-/// Halves of a run at rest are rarely further apart: with independent blocks, in one
-/// run of 2000.
+/// In a steady run the halves rarely differ by more than this: with independent blocks in one run
+/// of 2000.
 constexpr double most_deviations = 4;
 /// Blocks that follow a trend are equivalent to one or two independent ones.
 constexpr double fewest_independent = 3;
@@ -58,8 +58,8 @@ std::vector<Level> levels_of(std::span<const double> terms) {
     return levels;
 }
 
-/// Jonsson's choice: the shortest blocks for which they and all longer ones show no
-/// more correlation of neighbours than chance explains.
+/// Jonsson's choice: the shortest blocks for which these and all longer ones have no more
+/// correlation between neighbours than expected by chance.
 const Level& independent_level(std::span<const Level> levels) {
     double sum = 0;
     std::size_t chosen = levels.size() - 1;
@@ -87,7 +87,7 @@ bool differ_by_rounding(std::span<const double> terms) {
     return largest > 0 && most - least <= rounding_share * largest;
 }
 
-/// The difference of the halves' means over its error; 0 if the halves are too short to tell.
+/// The difference of the halves' means divided by its error; 0 if the halves are too short.
 double deviation_of_halves(std::span<const double> terms) {
     const std::size_t half = terms.size() / 2;
     if (half < fewest_blocks_of_half) return 0;
@@ -100,9 +100,9 @@ double deviation_of_halves(std::span<const double> terms) {
     return difference > 0 ? difference / std::sqrt(square(first) + square(last)) : 0;
 }
 
-/// Whether the means of eighths of a run rise or fall all the way: at most one of 28 pairs is out
-/// of order. Chance does that in one of 2000 runs at rest (Kendall, Biometrika 30, 81 (1938)). A
-/// trend that is steep at first is seen here rather than by halves.
+/// Whether the means of eighths of a run rise or fall throughout: at most one of 28 pairs is out of
+/// order. By chance this happens in one of 2000 steady runs (Kendall, Biometrika 30, 81 (1938)). It
+/// detects a trend that is steep at first better than halves do.
 bool are_eighths_in_order(std::span<const double> terms) {
     constexpr std::size_t n_parts = 8;
     const std::size_t length = terms.size() / n_parts;

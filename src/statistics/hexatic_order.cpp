@@ -14,25 +14,25 @@ namespace carrom {
 
 namespace {
 
-/// A side that is shorter than this, over the distance of its two discs, is a corner
-/// at which more than three cells meet, as in a square lattice.
+/// A side that is shorter than this, relative to the distance of its two discs, counts as a corner
+/// where more than three cells meet, as in a square lattice.
 constexpr double shortest_side = 1e-9;
 
-/// The part of the reach within which most cells are whole.
+/// The part of the reach within which most cells are complete.
 constexpr double usual_part = 0.6;
 
-/// Another disc, relative to the disc whose cell is wanted.
+/// Another disc, relative to the disc whose cell is computed.
 struct Seen {
     double dx = 0, dy = 0, squared = 0;
     DiscId id = 0;
-    double larger = 0; ///< the square of the first disc's radius less that of this one
+    double larger = 0; ///< squared radius of the first disc minus that of this one
 
     friend bool operator<(const Seen& a, const Seen& b) {
         return std::tie(a.squared, a.id, a.dx, a.dy) < std::tie(b.squared, b.id, b.dx, b.dy);
     }
 };
 
-/// Finds cells one by one. Each thread has one finder.
+/// Computes cells one by one. Each thread has one finder.
 class CellFinder {
 public:
     CellFinder(const LocalView& local_view, const Extent& box, const CellSizes& sizes, double reach)
@@ -42,15 +42,16 @@ public:
         if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
     }
 
-    /// Returns whether the cell is complete, so that no disc beyond the reach could cut it.
+    /// Returns whether the cell is complete, which means that no disc beyond the reach could cut
+    /// it.
     bool find(LocalIndex index, BondOrder& order) {
         const DiscState& disc = view_.population.discs[index];
         const double x = x_in_box(disc), y = y_in_box(disc);
         order = {};
         if (!is_in_box(disc)) return true;
         const double smaller = sizes_.largest_squared_radius() - sizes_.squared_radius_of(disc.id);
-        // Most cells are whole already within a part of the reach, which has fewer discs to sort.
-        // Discs are cut in the order of distance, so such a cell has the same bits.
+        // Most cells are complete within a part of the reach, which has fewer discs to sort. Discs
+        // cut the cell in the order of distance, so such a cell has the same bits.
         for (const double range : {usual_part * reach_, reach_}) {
             find_neighbours(index, range);
             cell_.begin(std::max(-reach_, box_.x_low - x), std::min(reach_, box_.x_high - x),

@@ -53,7 +53,7 @@ MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* s
         const DiscState& disc = own[static_cast<std::size_t>(i)];
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
-        departed += disc.has_departed(); // such a disc is at rest
+        departed += disc.has_departed(); // departed discs are at rest
         const double vx = disc.vx * per_unit, vy = disc.vy * per_unit;
         const double square = vx * vx + vy * vy;
         speeds += fixed(std::sqrt(square));
@@ -113,7 +113,7 @@ void add_integrals(const StressSums& mine, const Communicator& communicator, Mot
 }
 
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample) {
-    if (flights.weight == 0) return; // a sync has just been
+    if (flights.weight == 0) return; // immediately after a sync
     // A stored velocity is (v - frame's) / slowing.
     const double unit = sample.speed_unit, slowing = frame.slowing;
     const double ax = flights.shift_x * slowing - frame.vx,
@@ -161,16 +161,16 @@ DriftOfInterval drift_of(Drift kind, const AveragedSystem& system, const MotionS
     return {kind, velocity(before), velocity(after)};
 }
 
-/// The mean of a b over an interval. A drift that is kept changes evenly, if at all. One that
-/// fluctuates has a mean square at samples that is its mean square over time, and that of the
-/// straight line between two samples is as much as a third smaller.
+/// The mean of a b over an interval. A drift that nothing stops changes linearly, if at all. For a
+/// drift that fluctuates, the mean square at samples equals the mean square over time, whereas a
+/// straight line between two samples would have up to a third less.
 double mean_product(const DriftOfInterval& a, const DriftOfInterval& b) {
     const double at_ends = (a.before * b.before + a.after * b.after) / 2;
     if (a.kind == Drift::is_driven || b.kind == Drift::is_driven) return at_ends;
     return at_ends - (a.after - a.before) * (b.after - b.before) / 6;
 }
 
-/// N over the degrees of freedom that are left along an axis.
+/// N divided by the number of degrees of freedom that are left along an axis.
 double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
     if (kind == Drift::is_heat) return 1;
     if (system.n_discs == 1) return std::numeric_limits<double>::quiet_NaN();
@@ -179,13 +179,13 @@ double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
 
 } // namespace
 
-/// Two numbers are not exact: how the kinetic energy is shared between the axes, and a drift
-/// that changes between samples. Both count with the weight 1 / N only, and only along an axis
-/// where a drift is no heat.
+/// Two numbers are not exact: the distribution of the kinetic energy over the axes, and a drift
+/// that changes between samples. Both have only the weight 1 / N, and only along an axis where the
+/// drift does not belong to the temperature.
 namespace {
 
-/// What is left of a sum of squares along an axis, where `all` is that of both. Discs that have one
-/// velocity leave a rounding, which is no heat.
+/// The rest of a sum of squares along an axis after a subtraction; `all` is the sum along both
+/// axes. Discs with equal velocities leave a rounding error, which is set to 0.
 double rest(double sum, double taken, double all) {
     const double left = sum - taken;
     return std::fabs(left) <= 0x1p-44 * all ? 0 : left;
@@ -222,12 +222,12 @@ MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSamp
                                   after.stress.xy - before.stress.xy,
                                   after.stress.yy - before.stress.yy};
     result.stress += result.kinetic;
-    if (!system.has_flow) result.stress += -1.0 * all; // the sums have it already
+    if (!system.has_flow) result.stress += -1.0 * all; // because it is already in the sums
     return result;
 }
 
 double temperature_at(const AveragedSystem& system, const MotionSample& sample) {
-    MotionSample before = sample, after = sample; // a step further, as if nothing changed
+    MotionSample before = sample, after = sample; // two equal samples, one step apart
     before.energy = 0;
     after.energy = system.velocity_unit * sample.speed_unit * sample.speed_unit *
                    (sample.motion.xx + sample.motion.yy);

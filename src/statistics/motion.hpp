@@ -89,10 +89,8 @@ struct MotionIntegrals {
     MotionIntegrals& operator+=(const MotionIntegrals& other);
     double pressure(double Tensor::* part) const { return stress.*part / area; }
     double pressure() const { return (stress.xx + stress.yy) / (2 * area); }
-    double energy() const {
-        return (kinetic.xx + kinetic.yy) / 2;
-    } ///< integral of N kT over
-      ///< time, in steps
+    /// Integral of N kT over time, in steps.
+    double energy() const { return (kinetic.xx + kinetic.yy) / 2; }
     double temperature() const { return energy() / n_discs; }
 };
 MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSample& before,

@@ -33,8 +33,8 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
 #pragma omp for schedule(dynamic, 1)
         for (int column = 0; column < n_columns; ++column) {
             visit_near_pairs_of(*local_view.grid, column, [&](LocalIndex a, LocalIndex b) {
-                // The lower id comes first, so that the difference has the same bits
-                // on every rank, in whatever order its discs lie.
+                // The lower id comes first, so that the difference has the same bits on every rank,
+                // in any order of its discs.
                 if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
                 if (a >= population.n_own) return; // the owner of the lower id counts the pair
                 const DiscState &p = population.discs[a], &q = population.discs[b];

@@ -19,7 +19,7 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t block = 1 << 16;
-constexpr std::array columns = {"x", "y", "vx", "vy"}; // a disc's line, behind its id
+constexpr std::array columns = {"x", "y", "vx", "vy"}; // columns of a disc's line, after its id
 
 [[noreturn]] void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});
@@ -41,7 +41,7 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
     return static_cast<std::size_t>(found - summary.steps.begin());
 }
 
-/// How many discs of each species are there.
+/// The number of discs of each species without the departed ones.
 std::vector<std::uint64_t> count_species(const std::vector<Species>& species,
                                          const std::vector<std::uint64_t>& departed) {
     std::vector<std::uint64_t> counts;
@@ -56,7 +56,7 @@ std::vector<std::uint64_t> count_species(const std::vector<Species>& species,
     return counts;
 }
 
-/// The row in the file of the disc that has the new number `id`.
+/// The row in the file of the disc with the new number `id`.
 std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departed) {
     std::uint64_t row = id;
     for (const std::uint64_t left : departed) {
@@ -66,7 +66,7 @@ std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departe
     return row;
 }
 
-/// Makes the lines of a block of discs when they are asked for.
+/// Makes the lines of a block of discs when they are read.
 class LinesOfDiscs : public std::streambuf {
 public:
     LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places,
@@ -88,7 +88,7 @@ protected:
         return traits_type::to_int_type(*gptr());
     }
 
-    /// For `tellg`, and to begin anew.
+    /// For `tellg`, and to start reading again.
     pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
         if (from == std::ios::beg && offset == 0) return begin_anew();
         if (from != std::ios::cur || offset != 0) return pos_type(off_type(-1));
@@ -108,7 +108,7 @@ private:
         setg(nullptr, nullptr, nullptr);
         return pos_type(0);
     }
-    /// Of the discs of the next rows that are there.
+    /// Makes the lines of the next discs that have not departed.
     void make_lines() {
         const std::uint64_t begin = row_, end = std::min(begin + block, file_.summary().n_rows);
         read(begin, end);
@@ -128,8 +128,8 @@ private:
     std::uint64_t departed(std::ptrdiff_t k) const {
         return share_.departed[static_cast<std::size_t>(k)];
     }
-    /// The file has been checked, so what is damaged now has been changed since. Other ranks do not
-    /// know of it, so this must not look like an error of all ranks.
+    /// The file has been checked, so any damage is new. Other ranks do not have this error, so it
+    /// must not look like an error of all ranks.
     void read(std::uint64_t begin, std::uint64_t end) {
         try {
             file_.read(frame_, begin, end, rows_);
@@ -147,14 +147,14 @@ private:
     std::vector<std::size_t> places_; ///< columns of the file
     double moved_x_, moved_y_;        ///< between the corners of the two boxes
     ShareOfDiscs share_;
-    std::uint64_t first_row_, row_ = 0;     ///< in the file
-    std::uint64_t next_ = 0, n_before_ = 0; ///< the next disc's new id; bytes of earlier blocks
-    std::ptrdiff_t next_left_ = 0;          ///< the place in `share_.departed`
+    std::uint64_t first_row_, row_ = 0;     ///< index in the file
+    std::uint64_t next_ = 0, n_before_ = 0; ///< new id of the next disc; bytes of earlier blocks
+    std::ptrdiff_t next_left_ = 0;          ///< index in `share_.departed`
     std::string lines_;
     Rows rows_;
 };
 
-/// A stream that owns what it reads from, and throws what that throws.
+/// A stream that owns its source, and passes on exceptions of the source.
 class StreamOfDiscs : public std::istream {
 public:
     explicit StreamOfDiscs(std::unique_ptr<LinesOfDiscs> lines)
