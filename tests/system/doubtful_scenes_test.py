@@ -215,6 +215,26 @@ class DoubtfulScenes(ProgramTest):
                     self.run_program(ranks, "run", f"{name}.toml", "--quiet", code=3, patience=60,
                                      says="disc 0 collides without end")
 
+    def test_short_periods(self):
+        """Few discs in an extremely long box would have more images than memory holds."""
+        scene = """
+            [box]
+            size = [10, {}]
+            left.kind = "periodic"
+            right.kind = "periodic"
+            [discs]
+            count = 2
+            radius = 0.5
+            [time]
+            steps = 1
+            """
+        self.write("long.toml", scene.format(1e16))
+        run = self.run_program(1, "run", "long.toml", code=2, patience=60,
+                               says="the periodic side 10 is too short beside the other one")
+        self.assertEqual(len(run.err.splitlines()), 1, run.err)
+        self.write("shorter.toml", scene.format(1e9))
+        self.run_program(1, "run", "shorter.toml", "--quiet")
+
     def test_unlike_masses(self):
         for mass, is_warned in ((200, True), (0.005, True), (90, False)):
             self.write("heap.toml", HEAP.format(mass))

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A side beyond which the box repeats itself. The opposite side must be of the same kind.
+#include <cmath>
+
 #include "scene/boundaries/boundary.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -44,6 +46,22 @@ void check_periodic_box(const SceneDraft& draft) {
                              period, least));
 }
 
+/// The engines search as far as discs are apart. Each period on that way is an image of the disc.
+void check_images(const SceneDraft& draft) {
+    constexpr double most = 0x1p20;
+    const SceneParameters& scene = draft.scene;
+    const Periods periods = scene.effects.periods(scene.box);
+    const double period = periods.shortest();
+    if (!periods.are_any() || scene.n_discs == 0) return;
+    const double apart = std::sqrt(scene.box.x / static_cast<double>(scene.n_discs)) *
+                         std::sqrt(scene.box.y);
+    if (apart <= most * period) return;
+    draft.refuse({"box.size"},
+                 fmt::format("the periodic side {} is too short beside the other one: discs are "
+                             "{:.3g} apart on average, and may be 2^20 such sides apart at most",
+                             period, apart));
+}
+
 } // namespace
 
 namespace boundaries {
@@ -54,7 +72,11 @@ BoundaryDeclaration periodic() {
             .takes_growing_discs = true,
             .runs_on_gpu = [](const Boundary&) { return true; },
             .rules = rules_of_periodic_sides(),
-            .check_room = check_periodic_box,
+            .check_room =
+                [](const SceneDraft& draft) {
+                    check_periodic_box(draft);
+                    check_images(draft);
+                },
             .summary = [](const Boundary&,
                           std::string_view name) { return fmt::format("{} side periodic", name); }};
 }
