@@ -57,7 +57,8 @@ public:
     Dynamics(const Box& box, double radius, const Effects& effects = {},
              ContactFormula formula = ContactFormula::stable)
         : Dynamics(box, radius, effects, formula,
-                   SpeciesTable(effects.species, Arithmetic::rounded(radius))) {}
+                   SpeciesTable(effects.species, Arithmetic::rounded(radius)),
+                   PairTable(effects.contact)) {}
 
     /// The part that kernels of a GPU run.
     const Base& motion() const { return *this; }
@@ -165,14 +166,16 @@ public:
 
 private:
     Dynamics(const Box& box, double radius, const Effects& effects, ContactFormula formula,
-             SpeciesTable species)
-        : Base(box, radius, effects, formula, species.view()), species_(std::move(species)),
-          sides_(box_, radius_, effects), flight_(effects) {
+             SpeciesTable species, PairTable pairs)
+        : Base(box, radius, effects, formula, species.view(), pairs.view()),
+          species_(std::move(species)), pairs_(std::move(pairs)), sides_(box_, radius_, effects),
+          flight_(effects) {
         if (may_have_obstacles && effects.obstacles.are_any())
             obstacles_ = std::make_shared<const Obstacles>(box_, radius_, effects);
     }
 
     SpeciesTable species_; ///< owns the table that bodies read
+    PairTable pairs_;      ///< owns the table that the law reads
     typename Surroundings::Sides sides_;
     typename Surroundings::Flight flight_;
     std::shared_ptr<const Obstacles> obstacles_; ///< null if there are none; copies share it

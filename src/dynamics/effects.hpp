@@ -28,6 +28,30 @@ namespace carrom {
 /// What two touching discs do to each other.
 enum class ContactKind { elastic, none, restitution, rough };
 
+/// A row of `effects.contact.pairs`: numbers of contacts between discs of two rows of
+/// `discs.species`, counted from 1, in either order. NaN where those of all pairs hold.
+struct ContactPair {
+    double first = 1, second = 1;
+    double restitution = 1, tangential_restitution = -1, friction = 0;
+
+    friend bool operator==(const ContactPair& a, const ContactPair& b) {
+        const auto is_same = [](double x, double y) {
+            return x == y || (std::isnan(x) && std::isnan(y));
+        };
+        return a.first == b.first && a.second == b.second &&
+               is_same(a.restitution, b.restitution) &&
+               is_same(a.tangential_restitution, b.tangential_restitution) &&
+               is_same(a.friction, b.friction);
+    }
+};
+/// Consecutive ids, up to `end`, of the discs of one row of `discs.species`, counted from 0.
+struct SpeciesRow {
+    DiscId end = 0;
+    std::size_t row = 0;
+
+    friend bool operator==(const SpeciesRow&, const SpeciesRow&) = default;
+};
+
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
     double restitution = 1;  ///< share of the normal relative velocity that remains, 0 to 1
@@ -42,7 +66,9 @@ struct ContactEffect {
         std::numeric_limits<double>::infinity(); ///< coefficient of Coulomb's friction: the
                                                  ///< tangential impulse is at most this times the
                                                  ///< normal one
-    double inertia = 0.5; ///< moment of inertia in m r^2; 0.5 for a uniform disc
+    double inertia = 0.5;             ///< moment of inertia in m r^2; 0.5 for a uniform disc
+    std::vector<ContactPair> pairs{}; ///< with other numbers than these (pair_table.hpp)
+    std::vector<SpeciesRow> rows{};   ///< in the order of ids; empty without `discs.species`
 
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };

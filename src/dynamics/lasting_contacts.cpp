@@ -14,6 +14,10 @@ namespace {
 
 double friction_of(const Surface& surface) { return surface.rubs() ? surface.friction : 0; }
 
+double friction_of(ContactKind kind, const PairFactors& pair) {
+    return kind == ContactKind::rough && pair.tangential != 0 ? pair.friction : 0;
+}
+
 } // namespace
 
 /// Numbers of the cells from `low` to `high` along one axis. In a periodic box each cell occurs
@@ -119,10 +123,8 @@ struct LastingContactFinder::Search {
 
 LastingContactFinder::LastingContactFinder(const Box& box, const Effects& effects)
     : box_(box), effects_(effects),
-      pair_friction_(effects.contact.kind == ContactKind::rough &&
-                             effects.contact.tangential_restitution != -1
-                         ? effects.contact.friction
-                         : 0) {}
+      pair_friction_(friction_of(effects.contact.kind, PairFactors::common(effects.contact))),
+      pairs_(effects.contact) {}
 
 std::vector<LastingContact> LastingContactFinder::find(std::span<const HeapDisc> discs,
                                                        std::span<const double> radii,
@@ -140,6 +142,7 @@ void LastingContactFinder::add_pairs(Search& search) const {
     const auto nearest = [](double far, double period) {
         return period == 0 ? far : far - period * std::round(far / period);
     };
+    const PairView pairs = pairs_.view();
     LastingContact contact;
     contact.friction = pair_friction_;
     for (std::uint32_t i = 0; i < search.discs.size(); ++i) {
@@ -150,6 +153,9 @@ void LastingContactFinder::add_pairs(Search& search) const {
             disc.x - reach, disc.x + reach, disc.y - reach, disc.y + reach, [&](std::uint32_t j) {
                 if (j <= i) return;
                 contact.b = j;
+                if (pairs.are_any())
+                    contact.friction = friction_of(effects_.contact.kind,
+                                                   pairs.of(disc.id, search.discs[j].id));
                 search.add(contact, nearest(search.discs[j].x - disc.x, periods.x),
                            nearest(search.discs[j].y - disc.y, periods.y), search.radii[j]);
             });

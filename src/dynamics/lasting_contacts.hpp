@@ -12,6 +12,7 @@
 
 #include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/pair_table.hpp"
 
 namespace carrom {
 
@@ -59,7 +60,8 @@ private:
 
     Box box_;
     Effects effects_;
-    double pair_friction_;
+    double pair_friction_; ///< of pairs that no row names
+    PairTable pairs_;
 };
 
 } // namespace carrom

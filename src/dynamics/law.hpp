@@ -11,6 +11,8 @@
 //                 `tangential_restitution`; where that takes more than `friction` times the normal
 //                 impulse, they slide. A guarded contact is smooth.
 //
+// These numbers are those of the pair of species (pair_table.hpp).
+//
 // Which law is asked at run time: a collision takes some 2,900 instructions with all that follows
 // from it, so a branch in it costs nothing.
 //
@@ -28,6 +30,7 @@
 #include "dynamics/effects.hpp"
 #include "dynamics/encounter.hpp"
 #include "dynamics/loss.hpp"
+#include "dynamics/pair_table.hpp"
 #include "dynamics/species.hpp"
 
 namespace carrom {
@@ -39,13 +42,11 @@ struct Spins {
 
 class Law {
 public:
-    /// `effects` have times in micro-steps; no disc is larger than `radius`.
-    Law(const Effects& effects, double radius)
-        : kind_(effects.contact.kind), normal_((1 + effects.contact.restitution) / 2),
-          tangential_((1 + effects.contact.tangential_restitution) / 2 *
-                      (effects.contact.inertia / (1 + effects.contact.inertia))),
-          friction_(effects.contact.friction), inertia_(effects.contact.inertia),
-          guard_(effects, radius) {}
+    /// `effects` have times in micro-steps; no disc is larger than `radius`. `pairs` reads a table
+    /// that another object owns.
+    Law(const Effects& effects, double radius, const PairView& pairs)
+        : kind_(effects.contact.kind), common_(PairFactors::common(effects.contact)), pairs_(pairs),
+          inertia_(effects.contact.inertia), guard_(effects, radius) {}
 
     /// False in an ideal gas: discs pass through each other.
     CARROM_DEVICE bool has_pairs() const { return kind_ != ContactKind::none; }
@@ -75,9 +76,14 @@ public:
     }
 
 private:
+    CARROM_DEVICE const PairFactors& factors_of(const DiscState& p, const DiscState& q) const {
+        if (!pairs_.are_any()) [[likely]]
+            return common_;
+        return pairs_.of(p.id, q.id);
+    }
     /// The normal impulse of discs that approach at this speed, relative to an elastic contact: (1
-    /// + e) / 2.
-    CARROM_DEVICE double normal_at(double /*speed*/) const { return normal_; }
+    /// + e) / 2, which is `normal`.
+    CARROM_DEVICE double normal_at(double normal, double /*speed*/) const { return normal; }
 
     /// `impulse` is in units of that of an elastic contact of equal masses. The velocity of each
     /// disc changes by 2 m' / (m + m') of it, where m' is the mass of the other disc. For equal
@@ -100,7 +106,7 @@ private:
                                                           const SizeAndMass& q_has,
                                                           double since) const {
         const double square = met.square(), k = met.rate(),
-                     normal = normal_at(-k * std::sqrt(square));
+                     normal = normal_at(factors_of(p, q).normal, -k * std::sqrt(square));
         const bool is_guarded = guard_.holds(since, k);
         const double half = (p_has.mass + q_has.mass) / 2,
                      reduced_mass = p_has.mass * q_has.mass / (2 * half);
@@ -118,11 +124,12 @@ private:
         const auto [ex, ey, wx, wy] = met;
         const double square = met.square(), distance = std::sqrt(square), rate = met.rate();
         const bool is_guarded = guard_.holds(since, rate);
-        const double normal = normal_at(-rate * distance), lossy = normal * rate,
+        const PairFactors& factors = factors_of(p, q);
+        const double normal = normal_at(factors.normal, -rate * distance), lossy = normal * rate,
                      k = is_guarded ? rate : lossy;
         const double slip = (wy * ex - wx * ey) / square -
                             (*spins.p * p_has.radius + *spins.q * q_has.radius) / distance;
-        const double rubbed = tangential(slip, lossy), s = is_guarded ? 0 : rubbed;
+        const double rubbed = tangential(factors, slip, lossy), s = is_guarded ? 0 : rubbed;
         const double half = (p_has.mass + q_has.mass) / 2, p_share = q_has.mass / half,
                      q_share = p_has.mass / half;
         p.vx = p.vx + (k * p_share * ex - s * p_share * ey);
@@ -146,13 +153,15 @@ private:
     }
     /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
     /// `k`, all in one unit.
-    CARROM_DEVICE double tangential(double slip, double k) const {
-        const double sticking = tangential_ * slip, most = friction_ * std::fabs(k);
+    CARROM_DEVICE static double tangential(const PairFactors& factors, double slip, double k) {
+        const double sticking = factors.tangential * slip, most = factors.friction * std::fabs(k);
         return std::fabs(sticking) > most ? std::copysign(most, sticking) : sticking;
     }
 
     ContactKind kind_;
-    double normal_, tangential_, friction_, inertia_;
+    PairFactors common_; ///< of pairs that no row names
+    PairView pairs_;
+    double inertia_;
     ContactGuard guard_;
 };
 static_assert(std::is_trivially_copyable_v<Law>);

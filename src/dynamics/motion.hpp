@@ -31,14 +31,14 @@ public:
         may_lose_discs = have_effects && !is_periodic, is_for_study = Arithmetic::is_for_study;
 
     /// `effects` have times in micro-steps; `radius` is the largest radius of the discs of these
-    /// `species`.
+    /// `species`. `species` and `pairs` read tables that another object owns.
     Motion(const Box& box, double radius, const Effects& effects, ContactFormula formula,
-           SpeciesView species)
+           SpeciesView species, const PairView& pairs)
         : arithmetic_(box, radius, formula), box_(Arithmetic::rounded(box)),
           radius_(Arithmetic::rounded(radius)),
           band_(static_cast<Real>(1e-8) * static_cast<Real>(radius)),
           tolerance_(Arithmetic::tolerance(box_, 2 * radius_)), space_(box_, effects),
-          bodies_(radius_, effects, species), law_(effects, radius_) {}
+          bodies_(radius_, effects, species), law_(effects, radius_, pairs) {}
 
     /// From now on radii and masses are read from this table.
     void look_up_species_in(SpeciesView species) { bodies_.look_up_in(species); }

@@ -29,6 +29,9 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     for (std::size_t i = 0; i < failure.discs_around.size(); ++i)
         text += fmt::format(" {} was {};", i, failure.discs_around[i].id);
     text.back() = '.';
+    if (!scene.effects.contact.pairs.empty())
+        text += "\n# All pairs have the common numbers of contacts here; see effects.contact.pairs "
+                "there.";
     if (has_boundary(scene.effects, BoundaryKind::moving))
         text += "\n# Moving walls begin at the box's sides here; they have moved there.";
     SceneParameters around = scene;
@@ -52,6 +55,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     around.disc_columns.clear();
     if (!scene.effects.species.empty())
         around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
+    around.effects.contact.pairs.clear();
     around.first_numbers = {};
     around.groups.clear();
     around.freeze.clear(); // because the frozen discs are obstacles

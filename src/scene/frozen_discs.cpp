@@ -52,6 +52,7 @@ void apply(SceneParameters& scene, bool has_others_alone) {
     std::erase_if(species, [](const Species& one) { return one.count == 0; });
     subtract(scene.groups, frozen);
     shorten(scene.regions, frozen);
+    shorten(scene.effects.contact.rows, frozen);
     for (std::vector<NumberRun>& runs : scene.first_numbers.values) shorten(runs, frozen);
     if (!species.empty()) scene.radius = std::ranges::max(species, {}, &Species::radius).radius;
     for (const FrozenDisc& disc : frozen)

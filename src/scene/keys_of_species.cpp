@@ -32,8 +32,12 @@ void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers
 void set_species(SceneParameters& scene, const Value& value) {
     FirstNumbers numbers;
     std::vector<RegionRun> regions;
+    std::vector<SpeciesRow>& rows = scene.effects.contact.rows;
     scene.effects.species.clear();
+    rows.clear();
+    std::size_t number = 0;
     for (const Value& row : std::get<Values>(value.data)) {
+        const std::size_t row_number = number++;
         if (row.is_nothing()) continue;
         const Numbers& n = std::get<Numbers>(row.data);
         scene.has_shares |= !std::isnan(n[species_row::share]) ||
@@ -44,6 +48,7 @@ void set_species(SceneParameters& scene, const Value& value) {
         for (const SideColumn column : all_side_columns)
             add_numbers(numbers[column], count, n[species_row::of(column)]);
         add_region(regions, count, n);
+        rows.push_back({(rows.empty() ? 0 : rows.back().end) + count, row_number});
     }
     scene.regions.clear();
     if (std::ranges::any_of(regions, [](const RegionRun& run) { return run.region.has_value(); }))
@@ -59,7 +64,7 @@ void set_species(SceneParameters& scene, const Value& value) {
 class SpeciesRows {
 public:
     explicit SpeciesRows(const SceneParameters& scene)
-        : scene_(scene), region_(scene.regions.begin()) {
+        : scene_(scene), region_(scene.regions.begin()), row_(scene.effects.contact.rows.begin()) {
         for (const SideColumn column : all_side_columns)
             if (!has_column(scene, disc_column_of(column)))
                 numbers_[column] = scene.first_numbers[column];
@@ -78,6 +83,8 @@ public:
             if (run < runs.size()) end = std::min(end, runs[run].end);
             row[species_row::of(column)] = run < runs.size() ? runs[run].number : 0;
         }
+        while (row_ != scene_.effects.contact.rows.end() && row_->end <= first) ++row_;
+        if (row_ != scene_.effects.contact.rows.end()) end = std::min(end, row_->end);
         if (!scene_.groups.empty()) return row; // because groups have the counts and regions
         while (region_ != scene_.regions.end() && region_->end <= first) ++region_;
         if (region_ != scene_.regions.end()) {
@@ -95,6 +102,7 @@ private:
     FirstNumbers numbers_;
     BySideColumn<std::size_t> next_; // by column
     std::vector<RegionRun>::const_iterator region_;
+    std::vector<SpeciesRow>::const_iterator row_;
 };
 
 Value get_species(const SceneParameters& scene) {
@@ -144,7 +152,10 @@ Key species_key() {
     key.get = get_species;
     key.set = set_species;
     key.compare = [](const SceneParameters& a, const SceneParameters& b) {
-        return a.effects.species == b.effects.species && a.regions == b.regions;
+        const bool name_pairs = !a.effects.contact.pairs.empty() ||
+                                !b.effects.contact.pairs.empty();
+        return a.effects.species == b.effects.species && a.regions == b.regions &&
+               (!name_pairs || a.effects.contact.rows == b.effects.contact.rows);
     };
     return key;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What two touching discs do to each other (dynamics/law.hpp).
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +11,7 @@
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
+#include "scene/species_rows.hpp"
 
 namespace carrom {
 
@@ -21,7 +25,36 @@ const Need rough{"without effects.contact.kind = \"rough\"", [](const SceneParam
 const Need loss_or_gravity{"without discs, walls or obstacles of restitution, a wall that "
                            "oscillates, or gravity",
                            [](const SceneParameters& s) { return lose_energy_or_fall(s.effects); }};
+const Need rows_of_lossy_discs{
+    "without 'discs.species' and effects.contact.kind = \"restitution\" or \"rough\"",
+    [](const SceneParameters& s) {
+        return are_pairs_lossy(s.effects) && !s.effects.contact.rows.empty();
+    }};
 constexpr Range shares{0, 1};
+constexpr std::size_t most_rows = 100; ///< the table has the square of it
+
+/// Numbers of a row of `effects.contact.pairs`.
+namespace pair_row {
+constexpr std::size_t first = 0, second = 1, restitution = 2, tangential = 3, friction = 4;
+} // namespace pair_row
+
+Key key_of_pairs() {
+    Key pairs = key("effects.contact.pairs", "1",
+                    "Other numbers for contacts between discs of two rows of 'discs.species', "
+                    "counted from 1; the order of the two does not matter. Numbers that a row "
+                    "leaves out are those of all pairs.",
+                    [](auto& s) -> auto& { return s.effects.contact.pairs; })
+                    .by_default("none")
+                    .needs(rows_of_lossy_discs)
+                    .with_rows({{"species", "[i, j]", 2, 2},
+                                {"restitution", "", 1, 1, not_given},
+                                {"tangential_restitution", "", 1, 1, not_given},
+                                {"friction", "", 1, 1, not_given}});
+    pairs.compare = [](const SceneParameters& a, const SceneParameters& b) {
+        return a.effects.contact.pairs == b.effects.contact.pairs;
+    };
+    return pairs;
+}
 
 std::vector<Key> keys_of_contact() {
     return {
@@ -54,6 +87,7 @@ std::vector<Key> keys_of_contact() {
             .by_default("no limit")
             .within({0, 1e6})
             .needs(rough),
+        key_of_pairs(),
         key("effects.contact.moment_of_inertia", "m r^2",
             "Moment of inertia of a disc; a uniform one has 0.5.",
             [](auto& s) -> auto& { return s.effects.contact.inertia; })
@@ -85,6 +119,55 @@ std::vector<Rule> rules_of_contacts() {
     };
 }
 
+std::string problem_of_pair(const Numbers& row, std::size_t n_rows, bool are_rough) {
+    for (const std::size_t place : {pair_row::first, pair_row::second})
+        if (!(row[place] >= 1 && row[place] <= static_cast<double>(n_rows) &&
+              row[place] == std::floor(row[place])))
+            return fmt::format("its species must be rows of 'discs.species', from 1 to {}, not {}",
+                               n_rows, row[place]);
+    struct Limit {
+        const char* name;
+        std::size_t place;
+        double low, high;
+    };
+    bool is_any = false;
+    for (const Limit& one : {Limit{"restitution", pair_row::restitution, 0, 1},
+                             Limit{"tangential_restitution", pair_row::tangential, -1, 1},
+                             Limit{"friction", pair_row::friction, 0, 1e6}}) {
+        if (!is_given(row, one.place)) continue;
+        is_any = true;
+        if (!are_rough && one.place != pair_row::restitution)
+            return fmt::format("{} has no meaning without effects.contact.kind = \"rough\"",
+                               one.name);
+        if (!(row[one.place] >= one.low && row[one.place] <= one.high))
+            return fmt::format("its {} must be from {} to {}, not {}", one.name, one.low, one.high,
+                               row[one.place]);
+    }
+    return is_any ? ""
+                  : "it gives no number; it takes restitution, and friction and "
+                    "tangential_restitution of rough discs";
+}
+
+void check_pairs(const SceneDraft& draft) {
+    const Setting* species = draft.settings.find("discs.species");
+    if (!species || !draft.settings.has("effects.contact.pairs")) return;
+    const auto* rows = std::get_if<Values>(&species->value.data);
+    if (!rows) return; // a problem already
+    if (rows->size() > most_rows)
+        return draft.refuse({"effects.contact.pairs"},
+                            fmt::format("'effects.contact.pairs' takes {} rows of 'discs.species' "
+                                        "at most, and there are {}",
+                                        most_rows, rows->size()));
+    std::map<std::pair<double, double>, std::size_t> known;
+    draft.refuse_rows("effects.contact.pairs", [&](const Numbers& row, std::size_t k) {
+        const std::string text = problem_of_pair(row, rows->size(), is_rough(draft.scene));
+        if (!text.empty()) return text;
+        const auto [found, is_new] = known.emplace(
+            std::minmax(row[pair_row::first], row[pair_row::second]), k + 1);
+        return is_new ? "" : fmt::format("row {} has this pair already", found->second);
+    });
+}
+
 /// A disc does not remember its last collision over a sync, so a contact time must be short
 /// compared with the time between syncs.
 void check_contact_time(const SceneDraft& draft) {
@@ -94,17 +177,20 @@ void check_contact_time(const SceneDraft& draft) {
 
 std::string summary_of_contacts(const Effects& effects) {
     const ContactEffect& contact = effects.contact;
+    const std::string others = contact.pairs.empty() ? ""
+                                                     : fmt::format(", with {} of other numbers",
+                                                                   contact.pairs.size());
     switch (contact.kind) {
     case ContactKind::elastic: return {};
     case ContactKind::none: return "discs pass through each other";
     case ContactKind::restitution:
-        return fmt::format("restitution {:g} of pairs", contact.restitution);
+        return fmt::format("restitution {:g} of pairs{}", contact.restitution, others);
     case ContactKind::rough:
-        return fmt::format("rough discs of restitution {:g}, tangential {:g}{}",
-                           contact.restitution, contact.tangential_restitution,
-                           std::isfinite(contact.friction)
-                               ? fmt::format(", friction {:g}", contact.friction)
-                               : "");
+        return fmt::format(
+            "rough discs of restitution {:g}, tangential {:g}{}{}", contact.restitution,
+            contact.tangential_restitution,
+            std::isfinite(contact.friction) ? fmt::format(", friction {:g}", contact.friction) : "",
+            others);
     }
     return {};
 }
@@ -113,9 +199,21 @@ std::string summary_of_contacts(const Effects& effects) {
 /// either do not rub, or stick without losing energy.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
-    const bool keeps_slip = contact.tangential_restitution == -1 ||
-                            (contact.tangential_restitution == 1 && std::isinf(contact.friction));
-    return contact.kind == ContactKind::rough && !(contact.restitution == 1 && keeps_slip);
+    if (contact.kind != ContactKind::rough) return false;
+    const auto keeps_all = [](double restitution, double tangential, double friction) {
+        const bool keeps_slip = tangential == -1 || (tangential == 1 && std::isinf(friction));
+        return restitution == 1 && keeps_slip;
+    };
+    const auto number_of = [](double given, double common) {
+        return std::isnan(given) ? common : given;
+    };
+    return !keeps_all(contact.restitution, contact.tangential_restitution, contact.friction) ||
+           !std::ranges::all_of(contact.pairs, [&](const ContactPair& pair) {
+               return keeps_all(
+                   number_of(pair.restitution, contact.restitution),
+                   number_of(pair.tangential_restitution, contact.tangential_restitution),
+                   number_of(pair.friction, contact.friction));
+           });
 }
 
 } // namespace
@@ -127,6 +225,7 @@ EffectDeclaration contact() {
             .keys = keys_of_contact(),
             .rules = rules_of_contacts(),
             .check_times = check_contact_time,
+            .check_room = check_pairs,
             .summary = summary_of_contacts,
             .allowance =
                 [](const Effects& e) {
@@ -144,7 +243,10 @@ EffectDeclaration contact() {
                     }};
             },
             .lets_discs_rest = are_pairs_lossy,
-            .runs_on_gpu = [](const Effects& e) { return e.contact.kind != ContactKind::rough; }};
+            .runs_on_gpu =
+                [](const Effects& e) {
+                    return e.contact.kind != ContactKind::rough && e.contact.pairs.empty();
+                }};
 }
 
 } // namespace effects

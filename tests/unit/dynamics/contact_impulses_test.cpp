@@ -3,6 +3,7 @@
 // pile, and against Newton's third law in a heap that moves.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "catch.hpp"
@@ -214,4 +215,20 @@ TEST_CASE("lasting contacts: cells find the pairs, walls and obstacles that are 
         }
         CHECK(LastingContactFinder(Box(100), effects).find(discs, radii, gap).size() == n);
     }
+}
+
+TEST_CASE("lasting contacts: a contact has the friction of its pair of species") {
+    constexpr double common = std::numeric_limits<double>::quiet_NaN();
+    Effects effects = under_gravity(0, -g);
+    effects.contact.friction = 0.3;
+    effects.contact.rows = {{1, 0}, {3, 1}, {4, 2}};
+    effects.contact.pairs = {{2, 1, common, common, 0.7}, {2, 2, common, -1, 0.9}};
+    std::vector<HeapDisc> discs;
+    for (DiscId id = 0; id < 4; ++id)
+        discs.push_back({id, 20 + 2 * r * static_cast<double>(id), 50});
+    const std::vector<double> radii(discs.size(), r);
+    const double expected[] = {0.7, 0, 0.3}; // a smooth pair, and one that no row names
+    const auto found = LastingContactFinder(Box(100), effects).find(discs, radii, 0.1 * r);
+    REQUIRE(found.size() == 3);
+    for (const LastingContact& one : found) CHECK(one.friction == expected[one.a]);
 }
