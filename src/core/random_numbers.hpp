@@ -22,7 +22,8 @@ enum class Purpose : std::uint64_t {
     velocity = 3,
     thermal_wall = 4,
     sync = 5,
-    direction = 6
+    direction = 6,
+    inlet = 7
 };
 
 /// Four random words for this counter.

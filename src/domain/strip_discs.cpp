@@ -127,6 +127,31 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
+/// Ranks are those of the last migration, which the next one begins from.
+void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
+    if (discs.empty()) return;
+    forget_halo();
+    for (const ReturningDisc& disc : discs) {
+        const auto waiting = std::ranges::find(departed_, disc.state.id, &DiscState::id);
+        if (waiting != departed_.end()) {
+            const auto place = waiting - departed_.begin();
+            departed_.erase(waiting);
+            departed_columns_.for_each([&](SideColumn column) {
+                departed_columns_[column].erase(departed_columns_[column].begin() + place);
+            });
+        }
+        const auto [along, across] = redistributed_domains_.place_of(disc.state, disc.state.tau);
+        if (redistributed_domains_.owner(along, across) != communicator_.rank()) continue;
+        discs_.push_back(disc.state);
+        columns_.for_each([&](SideColumn column) {
+            columns_[column].push_back(disc.numbers[static_cast<std::size_t>(column)]);
+        });
+    }
+    is_sorted_ = false;
+    n_own_ = discs_.size();
+    n_total_ += discs.size();
+}
+
 void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     forget_halo();
     if (companion) companion->resize(n_own_);

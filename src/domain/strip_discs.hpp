@@ -41,6 +41,12 @@ struct RankWork {
     std::uint64_t all() const { return of_discs + of_pairs; }
 };
 
+/// A disc that comes back into the box, with its numbers in the columns that discs have.
+struct ReturningDisc {
+    DiscState state;
+    double numbers[n_side_columns] = {};
+};
+
 class StripDiscs {
 public:
     /// Takes discs in any distribution and gives them to the owners of equal domains.
@@ -137,6 +143,9 @@ public:
     /// Removes discs that have left the box from the own ones for good, and drops the halo.
     /// **Collective.**
     void set_departed_aside();
+    /// Takes departed discs, the same ones on all ranks, into the box, and forgets the halo. Each
+    /// becomes one of the rank where its state is, at its own time.
+    void take_back(std::span<const ReturningDisc> discs);
     std::span<const DiscState> departed() const { return departed_; }
     const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
     /// Number of discs on all ranks, departed ones included.

@@ -145,6 +145,18 @@ public:
                    ? ObstacleContact{}
                    : obstacles_->first_contact(disc, bodies_.of(disc).radius, times);
     }
+    /// Whether no obstacle is in the way of a disc that flies from one state of this interval's
+    /// start to the other one in this time.
+    bool is_way_free(const DiscState& from, const DiscState& to, double time) const {
+        if (!has_obstacles()) return true;
+        const double radius = bodies_.of(to).radius;
+        const auto is_clear = [&](const DiscState& disc) {
+            return obstacles_->deepest_overlap(disc.x, disc.y, radius, 0).body ==
+                   ObstacleContact::no_body;
+        };
+        return is_clear(from) && is_clear(to) &&
+               !obstacles_->first_contact(from, radius, {0, time}).exists();
+    }
     /// Where a disc touches the obstacle that it meets at `time`.
     ObstacleTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
         DiscState there = disc;

@@ -92,6 +92,16 @@ struct Surface {
     friend bool operator==(const Surface&, const Surface&) = default;
 };
 
+/// Discs that come in through an open side (scene/effects/inlets.cpp).
+struct Inlet {
+    double rate = 0;          ///< discs per time
+    double temperature = 0;   ///< kT of the gas outside, a velocity squared, for masses of 1
+    std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 is any
+
+    bool is_any() const { return rate > 0; }
+    friend bool operator==(const Inlet&, const Inlet&) = default;
+};
+
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
     double restitution = 1; ///< of walls, also of moving ones
@@ -102,6 +112,7 @@ struct Boundary {
     double period = 1;
     double phase = 0; ///< angle at the start
     Surface surface{};
+    Inlet inlet{}; ///< of open sides
 
     bool is_plain() const {
         return kind == BoundaryKind::wall && restitution == 1 && !surface.rubs();
@@ -251,6 +262,7 @@ struct Effects {
     Gravity gravity;
     double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
+    std::uint64_t inlet_seed = 3210;
     ObstacleList obstacles{};
     std::vector<Species>
         species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1

@@ -105,6 +105,33 @@ public:
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
+/// A disc that has come in through an open side in the interval that a sync ends. It came to where
+/// discs depart.
+struct Arrival {
+    std::size_t side = 0;
+    DiscId first = 0, end = 0; ///< the ids that the disc may have
+    double flown = 0;          ///< how long ago that was
+    double across = 0;         ///< its place now along the side, from 0 to 1 of the room there
+    bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
+    double inwards = 0, along = 0;                  ///< its velocity, for a mass of 1
+};
+
+/// What has become of arrivals.
+struct ArrivalCounts {
+    std::uint64_t in = 0;            ///< discs that came in
+    std::uint64_t without_place = 0; ///< because another disc or an obstacle is there
+    std::uint64_t without_disc = 0;  ///< because no disc had departed
+};
+
+/// Lets departed discs come back into the box. All functions give the same on all ranks.
+class DiscSource {
+public:
+    virtual ~DiscSource() = default;
+
+    virtual std::vector<Arrival> arrivals(std::int64_t n_syncs) const = 0;
+    virtual void count(const ArrivalCounts& these) = 0;
+};
+
 class SyncEffect {
 public:
     SyncEffect() = default;
@@ -117,6 +144,8 @@ public:
     /// The change of radii, for an effect that has one; null for all others. At most one effect has
     /// it.
     virtual SizeChange* sizes() { return nullptr; }
+    /// Of an effect that lets discs in; null for all others. At most one effect has it.
+    virtual DiscSource* source() { return nullptr; }
 
     /// Whether `begin` does anything.
     virtual bool begins() const { return false; }

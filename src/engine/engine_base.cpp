@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "engine/admission.hpp"
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/long_flights.hpp"
 #include "engine/state_sums.hpp"
@@ -174,7 +175,10 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
     if (sync_action_.has_effects()) largest_speed = let_effects_act();
     if (SizeChange* const sizes = sync_action_.sizes()) change_sizes(*sizes);
+    DiscSource* const source = Dynamics::may_lose_discs ? sync_action_.source() : nullptr;
+    if (source) largest_speed = std::max(largest_speed, let_discs_in(*source));
     finish_sync(largest_speed);
+    if (source) take_speed(largest_speed); // the next migration, too, allows for those discs
     redistributed_time_ -= time_;
     time_ = 0;
     ++n_syncs_;
@@ -271,6 +275,26 @@ template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& si
     dynamics_.resize(sizes.size());
     redistributed_time_ += end;
     time_ = end;
+}
+
+/// States are those after the sync. Returns the largest speed of discs that come in.
+template <class Dynamics> double EngineBase<Dynamics>::let_discs_in(DiscSource& source) {
+    const std::vector<Arrival> arrivals = source.arrivals(n_micro_done_ / sync_every_);
+    if (arrivals.empty()) return 0;
+    discs_.set_departed_aside();
+    const Admission admission = admit(
+        arrivals,
+        {communicator_, dynamics_.box(), species_, dynamics_.radius(), dynamics_.has_pairs(),
+         discs_.own(), discs_.departed(), discs_.departed_columns(),
+         [this](const DiscState& from, const DiscState& to, double time) {
+             return dynamics_.is_way_free(from, to, time);
+         }});
+    discs_.take_back(admission.discs);
+    source.count(admission.counts);
+    double fastest = 0;
+    for (const ReturningDisc& disc : admission.discs)
+        fastest = std::max(fastest, dynamics_.squared_speed(disc.state));
+    return std::sqrt(fastest);
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::squared_speed_of_own(double time) const {

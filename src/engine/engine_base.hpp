@@ -137,6 +137,7 @@ private:
     void let_effects_begin();
     double largest_speed_of_all_states() const;
     void change_sizes(SizeChange& sizes);
+    double let_discs_in(DiscSource& source);
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

@@ -34,6 +34,12 @@ public:
             if (SizeChange* const its = effect->sizes()) return its;
         return nullptr;
     }
+    /// The source of an effect that lets discs in; null if there is none.
+    DiscSource* source() const {
+        for (const auto& effect : effects_)
+            if (DiscSource* const its = effect->source()) return its;
+        return nullptr;
+    }
     /// Call it when the halo has been dropped and all states are at the time of the sync. Adds to
     /// `energy_given()` and to the sums in `notes`. **Collective.**
     void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);

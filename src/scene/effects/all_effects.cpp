@@ -86,7 +86,8 @@ std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
         if (!effect.at_syncs || !effect.at_syncs(scene)) continue;
         const auto n = kept.empty() ? 0 : static_cast<std::size_t>(kept.front());
         if (!kept.empty()) kept = kept.subspan(1);
-        if (effect.at_end) numbers.push_back(effect.at_end(kept.first(n)));
+        if (effect.at_end)
+            for (const EndNumber& number : effect.at_end(kept.first(n))) numbers.push_back(number);
         kept = kept.subspan(n);
     }
     return numbers;

@@ -127,7 +127,7 @@ struct EffectDeclaration {
     /// The object that acts at syncs; nothing in a scene without the effect.
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
     /// The numbers at the end of a run, from the values that the effect kept after the last sync.
-    EndNumber (*at_end)(std::span<const std::int64_t> kept) = nullptr;
+    std::vector<EndNumber> (*at_end)(std::span<const std::int64_t> kept) = nullptr;
     /// Whether the effect balances other changes between syncs, so that the kinetic energy jumps at
     /// each sync.
     bool (*makes_energy_jump)(const Effects&) = nullptr;

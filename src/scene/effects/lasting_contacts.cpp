@@ -305,9 +305,10 @@ EffectDeclaration lasting_contacts() {
             },
             .at_end =
                 [](std::span<const std::int64_t> kept) {
-                    return EndNumber{"lasting_contacts", "contacts",
-                                     "last at the end, of pairs and with walls and obstacles",
-                                     kept.size() / numbers_of_contact};
+                    return std::vector<EndNumber>{
+                        {"lasting_contacts", "contacts",
+                         "last at the end, of pairs and with walls and obstacles",
+                         kept.size() / numbers_of_contact}};
                 },
             .reason_without_z =
                 [](const Effects& e) {
