@@ -27,7 +27,7 @@ namespace {
 
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
-constexpr std::size_t most_species = 8;
+constexpr std::size_t most_species = 8; ///< with tables of their own
 /// In radii. Over shorter waves discs only fly freely.
 constexpr double shortest_waves = 1000;
 constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< because each rank has whole runs
@@ -71,11 +71,6 @@ void check_correlations(const SceneDraft& draft) {
     check_lengths(draft);
     if (!scene.measurements->measures("transport")) // which checks the same itself
         check_correlation_points(draft);
-    if (scene.effects.species.size() > most_species)
-        draft.refuse({quantities_key},
-                     fmt::format("\"correlations\" of {} species; at most {} have tables of their "
-                                 "own: give the discs fewer, or take \"diffusion\"",
-                                 scene.effects.species.size(), most_species));
 }
 
 /// cos(2 pi t) to 1e-15, without a function call, so that loops over discs are vectorised. With
@@ -136,7 +131,8 @@ public:
           wavenumber_(correlation_wavenumber.of(run.output)),
           overlap_(overlap_distance.of(run.output)) {
         DiscId end = 0;
-        for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
+        if (run.scene.effects.species.size() <= most_species)
+            for (const Species& one : run.scene.effects.species) ends_.push_back(end += one.count);
         if (ends_.empty()) ends_.push_back(run.scene.n_discs);
         waiting_ = WaitingTimes(ends_.size() + 1);
     }
