@@ -30,6 +30,7 @@ struct SceneFacts {
     bool is_event_driven = false; ///< otherwise the method is time-stepped
     /// Whether the left and right, and the bottom and top sides are periodic
     bool is_periodic_x = false, is_periodic_y = false;
+    bool exchanges_radii = false; ///< Simulation::kinds has the radii of the present step
     /// One line for each setting that is allowed but often a mistake
     std::vector<std::string> warnings;
 };

@@ -103,7 +103,8 @@ public:
     /// **Collective.**
     void read_images(std::span<std::int32_t> lengths) const;
 
-    /// Radius, mass and species of all discs of the scene, by id. Not collective.
+    /// Radius, mass and species of all discs of the scene, by id. Where discs exchange their radii
+    /// (`effects.swap`), they are those of the present step. Not collective.
     std::vector<DiscKind> kinds() const;
 
     /// Gives this rank's discs other positions, velocities or spins between two steps. `discs` are

@@ -32,21 +32,22 @@ enum class Invariant : int {
 /// Thrown on every rank with the same contents; exit code 70. `discs_around`: the reported discs,
 /// the discs with which they collided and the nearest ones, at the start of the failed step, in the
 /// order of their ids. It is empty if the reported disc does not exist. Spins of rough discs, per
-/// step, run along them.
+/// step, run along them, and so do the present radii of discs that exchange them.
 class CheckFailure : public CollectiveError {
 public:
     CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,
-                 int on_rank, std::vector<InputDisc> around, std::vector<double> their_spins = {})
+                 int on_rank, std::vector<InputDisc> around, std::vector<double> their_spins = {},
+                 std::vector<double> their_radii = {})
         : CollectiveError(text, ExitCode::broken_invariant), invariant(broken), step(at_step),
           disc(reported), rank(on_rank), discs_around(std::move(around)),
-          spins(std::move(their_spins)) {}
+          spins(std::move(their_spins)), radii(std::move(their_radii)) {}
 
     Invariant invariant;
     std::int64_t step; ///< the step that ended with the broken invariant
     DiscId disc;
     int rank; ///< the rank that owned the disc last
     std::vector<InputDisc> discs_around;
-    std::vector<double> spins;
+    std::vector<double> spins, radii;
 };
 
 } // namespace carrom

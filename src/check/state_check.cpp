@@ -144,20 +144,20 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
     }
     const std::int64_t step = micro_steps_done_ / scene_.micro_steps;
     std::vector<InputDisc> discs;
-    std::vector<double> spins;
-    if (first.disc < scene_.n_discs) {
+    std::vector<double> spins, radii;
+    if (first.disc < scene_.n_discs)
         for (const SceneDisc& each :
              discs_around(first, discs_before(), slab_of_disc(first.disc), log,
                           scene_.effects.periods(scene_.box), communicator_)) {
             discs.push_back(each.disc);
             if (effects_.have_spins()) spins.push_back(each.spin);
+            if (effects_.swap.is_any()) radii.push_back(species_.of(each.disc.id).radius);
         }
-    }
     const std::string body = first.invariant == Invariant::clear
                                  ? obstacles_->name_of(static_cast<std::uint32_t>(first.partner))
                                  : "";
     throw CheckFailure(text_of(first, scene_, body, step), first.invariant, step, first.disc,
-                       first.rank, std::move(discs), std::move(spins));
+                       first.rank, std::move(discs), std::move(spins), std::move(radii));
 }
 
 /// The walls at the last check. Moving walls are at their positions of that time.

@@ -23,7 +23,8 @@ enum class Purpose : std::uint64_t {
     thermal_wall = 4,
     sync = 5,
     direction = 6,
-    inlet = 7
+    swap = 7,
+    inlet = 8
 };
 
 /// Four random words for this counter.

@@ -8,6 +8,7 @@
 // run without a column has no memory and no work for it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -18,7 +19,7 @@
 
 namespace carrom {
 
-enum class SideColumn : std::size_t { spin, direction, n_columns };
+enum class SideColumn : std::size_t { spin, direction, swapped_radius, n_columns };
 inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_columns);
 
 struct SideColumnInfo {
@@ -27,13 +28,16 @@ struct SideColumnInfo {
     bool is_rate;      ///< a rate, which is stored per micro-step
     /// The effects decide which runs have it; otherwise a run has it if initial values are given
     bool is_of_dynamics;
+    bool is_given;     ///< scenes may give initial values; such columns come first
     const char* needs; ///< error message if initial values are given to discs without this column
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
-    {{"spin", "angular_velocity", true, true,
+    {{"spin", "angular_velocity", true, true, true,
       "it needs discs that turn, effects.contact.kind = \"rough\""},
-     {"direction", "direction", false, true,
-      "it needs discs that propel themselves, effects.activity"}}};
+     {"direction", "direction", false, true, true,
+      "it needs discs that propel themselves, effects.activity"},
+     {"swapped_radius", "swapped_radius", false, true, false,
+      "it needs discs that exchange their radii, effects.swap"}}};
 
 constexpr const SideColumnInfo& info_of(SideColumn column) {
     return side_column_table[static_cast<std::size_t>(column)];
@@ -43,6 +47,16 @@ inline constexpr std::array<SideColumn, n_side_columns> all_side_columns = [] {
     std::array<SideColumn, n_side_columns> all{};
     for (std::size_t k = 0; k < n_side_columns; ++k) all[k] = static_cast<SideColumn>(k);
     return all;
+}();
+
+/// Those whose first numbers scenes may give.
+inline constexpr std::size_t n_given_columns = static_cast<std::size_t>(
+    std::count_if(side_column_table.begin(), side_column_table.end(),
+                  [](const SideColumnInfo& info) { return info.is_given; }));
+inline constexpr std::array<SideColumn, n_given_columns> given_side_columns = [] {
+    std::array<SideColumn, n_given_columns> given{};
+    for (std::size_t k = 0; k < n_given_columns; ++k) given[k] = static_cast<SideColumn>(k);
+    return given;
 }();
 
 /// One value for each column.

@@ -56,9 +56,10 @@ public:
     /// `effects` have times in micro-steps; `radius` is the largest one.
     Dynamics(const Box& box, double radius, const Effects& effects = {},
              ContactFormula formula = ContactFormula::stable)
-        : Dynamics(box, radius, effects, formula,
-                   SpeciesTable(effects.species, Arithmetic::rounded(radius)),
-                   PairTable(effects.contact)) {}
+        : Dynamics(
+              box, radius, effects, formula,
+              SpeciesTable(effects.species, Arithmetic::rounded(radius), effects.swap.is_any()),
+              PairTable(effects.contact)) {}
 
     /// The part that kernels of a GPU run.
     const Base& motion() const { return *this; }

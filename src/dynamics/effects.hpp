@@ -233,6 +233,16 @@ struct Barostat {
     friend bool operator==(const Barostat&, const Barostat&) = default;
 };
 
+/// Discs that exchange their radii (scene/effects/swap.cpp).
+struct Swaps {
+    std::int64_t rounds = 0;     ///< of proposals, at each sync
+    std::int64_t until_step = 0; ///< 0 is the end of the run
+    std::uint64_t seed = 3210;
+
+    bool is_any() const { return rounds != 0; }
+    friend bool operator==(const Swaps&, const Swaps&) = default;
+};
+
 /// Numbers of effects that act at syncs only. The file of such an effect declares its keys
 /// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code knows
 /// them.
@@ -273,6 +283,7 @@ struct Effects {
     double lasting_speed = 0;
     Thermostat thermostat{};
     Activity activity{};
+    Swaps swap{};
     Barostat barostat{};
     OwnNumbers own{};
     ExternalField field{};
@@ -304,7 +315,7 @@ struct Effects {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
                growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any() ||
-               barostat.is_any() || field.is_any();
+               swap.is_any() || barostat.is_any() || field.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

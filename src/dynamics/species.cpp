@@ -13,8 +13,9 @@ constexpr std::size_t most_numbers = std::numeric_limits<std::uint16_t>::max() +
 
 } // namespace
 
-void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_discs) {
-    const bool has_numbers = species.size() <= most_numbers;
+void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_discs,
+                                 bool radii_change) {
+    const bool has_numbers = species.size() <= most_numbers && !radii_change;
     // Reserved at once, because a growing list takes up to twice the memory.
     sizes.reserve(has_numbers ? species.size() : n_discs);
     if (has_numbers) species_of_id.reserve(n_discs);
@@ -26,11 +27,11 @@ void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_disc
     }
 }
 
-SpeciesTable::SpeciesTable(std::span<const Species> species, double radius)
-    : table_(table_of(species, radius)), view_(view_of(*table_)) {}
+SpeciesTable::SpeciesTable(std::span<const Species> species, double radius, bool radii_change)
+    : table_(table_of(species, radius, radii_change)), view_(view_of(*table_)) {}
 
-std::shared_ptr<const SpeciesTable::Table> SpeciesTable::table_of(std::span<const Species> species,
-                                                                  double radius) {
+std::shared_ptr<SpeciesTable::Table> SpeciesTable::table_of(std::span<const Species> species,
+                                                            double radius, bool radii_change) {
     auto table = std::make_shared<Table>();
     DiscId end = 0;
     for (const Species& one : species) {
@@ -42,7 +43,7 @@ std::shared_ptr<const SpeciesTable::Table> SpeciesTable::table_of(std::span<cons
          species.empty() ? SizeAndMass{radius, 1} : table->ranges.back().values});
     // The last range needs no end
     if (!species.empty()) table->ranges.erase(table->ranges.end() - 2);
-    if (species.size() > few_species) table->spread(species, end);
+    if (species.size() > few_species || radii_change) table->spread(species, end, radii_change);
     return table;
 }
 

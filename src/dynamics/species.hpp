@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Species: the radius and the mass of each disc, which a run never changes.
+// Species: the radius and the mass of each disc. Swap moves alone give them other ones in a run.
 //
 // Species come in the order of ids, so a disc's species follows from its id: it needs no array, and
 // no bytes in messages and checkpoints. Few species are found by comparisons. Many have a table by
@@ -62,8 +62,12 @@ private:
 /// (Engine::species_table).
 class SpeciesTable {
 public:
-    /// Without species all discs have this radius and mass 1.
-    SpeciesTable(std::span<const Species> species, double radius);
+    /// Without species all discs have this radius and mass 1. If `radii_change`, each disc has
+    /// numbers of its own.
+    SpeciesTable(std::span<const Species> species, double radius, bool radii_change = false);
+
+    /// In all copies. Only of a table whose radii change, while nobody else reads it.
+    void set_radius(DiscId id, double radius) { table_->sizes[id].radius = radius; }
 
     const SizeAndMass& of(DiscId id) const { return view_.of(id); }
     SpeciesView view() const { return view_; }
@@ -83,13 +87,14 @@ private:
         std::vector<SizeAndMass> sizes;           ///< of each species or of each disc; may be empty
         std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
 
-        void spread(std::span<const Species> species, DiscId n_discs);
+        void spread(std::span<const Species> species, DiscId n_discs, bool radii_change);
     };
 
-    static std::shared_ptr<const Table> table_of(std::span<const Species> species, double radius);
+    static std::shared_ptr<Table> table_of(std::span<const Species> species, double radius,
+                                           bool radii_change);
     static SpeciesView view_of(const Table& table);
 
-    std::shared_ptr<const Table> table_;
+    std::shared_ptr<Table> table_;
     SpeciesView view_;
 };
 

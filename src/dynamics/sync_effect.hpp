@@ -54,11 +54,16 @@ struct SyncDiscs {
     std::span<DiscState> discs = {};   ///< some may have departed; effects do not change those
     std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
     std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
+    std::span<double> radii = {};      ///< along the discs; empty unless discs exchange them
     std::int64_t n_syncs = 0;          ///< since the scene's start, this one included
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. `part` must not throw.
     std::function<void(const Part& part)> in_parts = {};
+    /// Calls `visit(index, other, distance)` for each own disc and each other one within the reach
+    /// that an effect has asked for, images included. On one thread.
+    using VisitNear = std::function<void(std::size_t index, DiscId other, double distance)>;
+    std::function<void(const VisitNear& visit)> visit_near_pairs = {};
     /// Adds up in place over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
     /// The largest of the numbers of all ranks, on every rank. **Collective.**
@@ -139,7 +144,13 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Changes velocities, spins and directions of discs, and no other numbers. **Collective.**
+    /// Called once before all others. `species` is the table of the run, whose copies share memory.
+    virtual void learn(const SpeciesTable& /*species*/) {}
+    /// The largest distance of the pairs that the effect needs at this sync; 0 if it needs none.
+    /// Equal on all ranks.
+    virtual double reach(std::int64_t /*n_syncs*/) const { return 0; }
+    /// Changes velocities, spins, directions and radii of discs, and no other numbers.
+    /// **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
     /// The change of radii, for an effect that has one; null for all others. At most one effect has
     /// it.

@@ -11,6 +11,7 @@
 #include "engine/admission.hpp"
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/long_flights.hpp"
+#include "engine/near_pairs.hpp"
 #include "engine/state_sums.hpp"
 #include "engine/window_choice.hpp"
 
@@ -236,9 +237,14 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
         this->before_effects_();
         time_ = end;
     }
+    const std::int64_t n_syncs = n_micro_done_ / sync_every_;
+    const double reach = sync_action_.reach(n_syncs);
+    if (reach > 0) fetch_neighbours(reach * size());
     sync_action_.act(
-        discs_, n_micro_done_ / sync_every_,
-        {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_});
+        discs_, n_syncs,
+        {&this->wall_followers_, &this->pair_followers_, this->stress_, n_micro_done_},
+        [this, reach](const SyncDiscs::VisitNear& visit) { visit_neighbours(reach, visit); });
+    if (reach > 0) forget_neighbours();
     return largest_speed_of_all_states();
 }
 
@@ -263,16 +269,20 @@ template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_stat
 /// the sync, so they are at time 0.
 template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& sizes) {
     const std::int64_t n_syncs = n_micro_done_ / sync_every_;
-    const double end = std::exchange(time_, 0);
-    redistributed_time_ -= end;
-    redistribute_now(dynamics_.search_diameter() * sizes.largest_at(n_syncs));
+    fetch_neighbours(dynamics_.search_diameter() * sizes.largest_at(n_syncs));
     const double room = largest_size(population(), discs_.grid(),
-                                     touching_of(dynamics_, time_, discs_.periods()), communicator_,
+                                     touching_of(dynamics_, 0, discs_.periods()), communicator_,
                                      tuning_.threads);
-    discs_.forget_images(true);
-    discs_.forget_halo();
+    forget_neighbours();
     sizes.change(n_syncs, room);
     dynamics_.resize(sizes.size());
+}
+
+/// Fetches a halo in the middle of a sync, when states are those after it, at time 0.
+template <class Dynamics> void EngineBase<Dynamics>::fetch_neighbours(double reach) {
+    const double end = std::exchange(time_, 0);
+    redistributed_time_ -= end;
+    redistribute_now(reach);
     redistributed_time_ += end;
     time_ = end;
 }
@@ -295,6 +305,28 @@ template <class Dynamics> double EngineBase<Dynamics>::let_discs_in(DiscSource& 
     for (const ReturningDisc& disc : admission.discs)
         fastest = std::max(fastest, dynamics_.squared_speed(disc.state));
     return std::sqrt(fastest);
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::forget_neighbours() {
+    discs_.forget_images(true);
+    discs_.forget_halo();
+}
+
+/// Distances are in units of the discs of the scene, which an effect may have made larger or
+/// smaller.
+template <class Dynamics>
+void EngineBase<Dynamics>::visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const {
+    const Population all = population();
+    const double unit = size();
+    visit_near_pairs(discs_.grid(), [&](LocalIndex a, LocalIndex b) {
+        const DiscState &p = all.discs[a], &q = all.discs[b];
+        const Shift shift = discs_.periods().between(p, q, 0);
+        const double dx = q.x - p.x + shift.x, dy = q.y - p.y + shift.y,
+                     distance = std::sqrt(dx * dx + dy * dy) / unit;
+        if (distance > reach) return;
+        if (a < all.n_own) visit(a, q.id, distance);
+        if (b < all.n_own) visit(b, p.id, distance);
+    });
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::squared_speed_of_own(double time) const {

@@ -138,6 +138,9 @@ private:
     double largest_speed_of_all_states() const;
     void change_sizes(SizeChange& sizes);
     double let_discs_in(DiscSource& source);
+    void fetch_neighbours(double reach);
+    void forget_neighbours();
+    void visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const;
     void wrap(DiscState& disc);
     Extent where_discs_are(const Extent& seen, double reach) const;
     double energy_of_own() const;

@@ -17,7 +17,15 @@ SyncAction::SyncAction(const SceneParameters& scene, const SpeciesTable& species
       shear_(scene.effects.are_sheared()
                  ? scene.effects.shear / static_cast<double>(scene.micro_steps)
                  : 0),
-      communicator_(communicator), n_threads_(n_threads) {}
+      communicator_(communicator), n_threads_(n_threads) {
+    for (const auto& effect : effects_) effect->learn(species_);
+}
+
+double SyncAction::reach(std::int64_t n_syncs) const {
+    double largest = 0;
+    for (const auto& effect : effects_) largest = std::max(largest, effect->reach(n_syncs));
+    return largest;
+}
 
 SyncDiscs SyncAction::at_sync(StripDiscs& discs, std::int64_t n_syncs) const {
     SyncDiscs at{species_};
@@ -25,6 +33,8 @@ SyncDiscs SyncAction::at_sync(StripDiscs& discs, std::int64_t n_syncs) const {
     if (discs.columns().has(SideColumn::spin)) at.spins = discs.columns()[SideColumn::spin];
     if (discs.columns().has(SideColumn::direction))
         at.directions = discs.columns()[SideColumn::direction];
+    if (discs.columns().has(SideColumn::swapped_radius))
+        at.radii = discs.columns()[SideColumn::swapped_radius];
     at.n_syncs = n_syncs;
     at.in_parts = [this, n = at.discs.size()](const SyncDiscs::Part& part) {
 #pragma omp parallel num_threads(n_threads_)
@@ -50,8 +60,10 @@ template <class What> void SyncAction::change(const SyncDiscs& at, const What& w
     energy_given_ += energy_of(at);
 }
 
-void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes) {
+void SyncAction::act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes,
+                     const std::function<void(const SyncDiscs::VisitNear&)>& visit_near_pairs) {
     SyncDiscs at = at_sync(discs, n_syncs);
+    at.visit_near_pairs = visit_near_pairs;
     if (communicator_.is_root()) follow(at, notes);
     change(at, [&at](SyncEffect& effect) { effect.act(at); });
 }

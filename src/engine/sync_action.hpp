@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "domain/strip_discs.hpp"
 #include "dynamics/sync_effect.hpp"
@@ -40,9 +41,13 @@ public:
             if (DiscSource* const its = effect->source()) return its;
         return nullptr;
     }
-    /// Call it when the halo has been dropped and all states are at the time of the sync. Adds to
-    /// `energy_given()` and to the sums in `notes`. **Collective.**
-    void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes);
+    /// The largest reach of all effects at this sync.
+    double reach(std::int64_t n_syncs) const;
+    /// Call it when all states are at the time of the sync. There is no halo, or one as deep as the
+    /// reach, which `visit_near_pairs` searches. Adds to `energy_given()` and to the sums in
+    /// `notes`. **Collective.**
+    void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes,
+             const std::function<void(const SyncDiscs::VisitNear&)>& visit_near_pairs = {});
     /// Whether an effect also acts before flights.
     bool begins() const;
     /// Call it before the flights that follow a sync or the scene's start; all states are at that

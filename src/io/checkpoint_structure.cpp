@@ -127,8 +127,10 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
             return std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin();
         };
         add(radius_path, H5T_NATIVE_DOUBLE, h5md::unit_of(header.shown, 1, 0),
-            [=, species = header.shown.species](const DiscState& disc) {
-                return species[static_cast<std::size_t>(number_of(disc))].radius;
+            [=, &columns, are_swapped = header.columns.has(SideColumn::swapped_radius),
+             species = header.shown.species](const DiscState& disc) {
+                return are_swapped ? columns.of(SideColumn::swapped_radius, disc)
+                                   : species[static_cast<std::size_t>(number_of(disc))].radius;
             });
         add(species_number_path, H5T_NATIVE_INT32, "",
             [=](const DiscState& disc) { return static_cast<std::int32_t>(number_of(disc)); });

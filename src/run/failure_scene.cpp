@@ -57,6 +57,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
         around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
     around.effects.contact.pairs.clear();
     around.first_numbers = {};
+    around.effects.swap = {}; // other discs would exchange their radii
     around.groups.clear();
     around.freeze.clear(); // because the frozen discs are obstacles
     around.frozen.clear();
@@ -80,7 +81,10 @@ std::string disc_lines(const SceneParameters& scene, const CheckFailure& failure
     for (std::size_t i = 0; i < discs.size(); ++i) {
         text += fmt::format("{} {} {} {} {}", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
         if (const SizeAndMass& body = species_table.of(discs[i].id); !scene.effects.species.empty())
-            text += fmt::format(" {} {}", body.radius * growth_before(scene, failure), body.mass);
+            text += fmt::format(" {} {}",
+                                (failure.radii.empty() ? body.radius : failure.radii[i]) *
+                                    growth_before(scene, failure),
+                                body.mass);
         text += failure.spins.empty() ? "\n" : fmt::format(" {}\n", failure.spins[i]);
     }
     return text;

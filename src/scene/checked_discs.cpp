@@ -63,7 +63,7 @@ void check_species(const SceneDraft& draft) {
 /// Checks numbers of columns beside the states.
 void check_numbers(const SceneDraft& draft) {
     BySideColumn<bool> are_given;
-    for (const SideColumn column : all_side_columns)
+    for (const SideColumn column : given_side_columns)
         are_given[column] = has_column(draft.scene, disc_column_of(column));
     draft.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
         if (n.size() % 2 == 0 || n.size() < 5) return {};
@@ -72,7 +72,7 @@ void check_numbers(const SceneDraft& draft) {
     });
     draft.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) {
         std::string text;
-        for (const SideColumn column : all_side_columns) {
+        for (const SideColumn column : given_side_columns) {
             const double number = n[3 + static_cast<std::size_t>(column)];
             if (number == 0 || !text.empty()) continue;
             text = are_given[column]

@@ -105,7 +105,7 @@ DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene
     for (const Row& row : rows) {
         if (has_column(scene, DiscColumn::radius))
             add_species(found.species, {1, row.body.radius, row.body.mass});
-        for (const SideColumn column : all_side_columns)
+        for (const SideColumn column : given_side_columns)
             if (has_column(scene, disc_column_of(column)))
                 add_numbers(found.numbers[column], 1, row.beside[column]);
     }

@@ -55,7 +55,7 @@ std::string all_names() {
     Columns all;
     for (std::size_t k = 0; k < static_cast<std::size_t>(DiscColumn::first_side); ++k)
         all.push_back(static_cast<DiscColumn>(k));
-    for (const SideColumn column : all_side_columns) all.push_back(disc_column_of(column));
+    for (const SideColumn column : given_side_columns) all.push_back(disc_column_of(column));
     return names_of(all);
 }
 

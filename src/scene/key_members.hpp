@@ -46,12 +46,12 @@ inline constexpr std::array words_of<VelocityKind>{Word{"maxwell", VelocityKind:
 template <>
 inline constexpr auto words_of<DiscColumn> = [] {
     constexpr auto n_first = static_cast<std::size_t>(DiscColumn::first_side);
-    std::array<Word<DiscColumn>, n_first + n_side_columns> words{
+    std::array<Word<DiscColumn>, n_first + n_given_columns> words{
         Word{"id", DiscColumn::id},    Word{"x", DiscColumn::x},
         Word{"y", DiscColumn::y},      Word{"vx", DiscColumn::vx},
         Word{"vy", DiscColumn::vy},    Word{"radius", DiscColumn::radius},
         Word{"mass", DiscColumn::mass}};
-    for (const SideColumn column : all_side_columns)
+    for (const SideColumn column : given_side_columns)
         words[n_first + static_cast<std::size_t>(column)] = {info_of(column).name,
                                                              disc_column_of(column)};
     return words;

@@ -97,7 +97,7 @@ std::vector<Key> keys_of_recordings() {
             "flown.",
             [](auto& s) -> auto& { return *s.trajectory; }, fields)
             .by_default("position, velocity; image in periodic boxes; angular_velocity of rough "
-                        "discs; direction of active ones")
+                        "discs; direction of active ones; swapped_radius of those that swap")
             .within(at_least_one),
         choice(
             "output.trajectory.precision", "Precision of the numbers in the file.",

@@ -45,7 +45,7 @@ void set_species(SceneParameters& scene, const Value& value) {
         if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count))) continue;
         const auto count = static_cast<std::uint64_t>(n[0]);
         add_species(scene.effects.species, {count, n[1], n[2]});
-        for (const SideColumn column : all_side_columns)
+        for (const SideColumn column : given_side_columns)
             add_numbers(numbers[column], count, n[species_row::of(column)]);
         add_region(regions, count, n);
         rows.push_back({(rows.empty() ? 0 : rows.back().end) + count, row_number});
@@ -53,7 +53,7 @@ void set_species(SceneParameters& scene, const Value& value) {
     scene.regions.clear();
     if (std::ranges::any_of(regions, [](const RegionRun& run) { return run.region.has_value(); }))
         scene.regions = regions;
-    for (const SideColumn column : all_side_columns) {
+    for (const SideColumn column : given_side_columns) {
         const std::vector<NumberRun>& runs = numbers[column];
         if (runs.size() > 1 || (runs.size() == 1 && runs[0].number != 0))
             scene.first_numbers[column] = runs;
@@ -65,7 +65,7 @@ class SpeciesRows {
 public:
     explicit SpeciesRows(const SceneParameters& scene)
         : scene_(scene), region_(scene.regions.begin()), row_(scene.effects.contact.rows.begin()) {
-        for (const SideColumn column : all_side_columns)
+        for (const SideColumn column : given_side_columns)
             if (!has_column(scene, disc_column_of(column)))
                 numbers_[column] = scene.first_numbers[column];
     }
@@ -76,7 +76,7 @@ public:
         Numbers row(species_row::share_of_area + 1, not_given);
         row[species_row::radius] = one.radius;
         row[species_row::mass] = one.mass;
-        for (const SideColumn column : all_side_columns) {
+        for (const SideColumn column : given_side_columns) {
             const std::vector<NumberRun>& runs = numbers_[column];
             std::size_t& run = next_[column];
             while (run < runs.size() && runs[run].end <= first) ++run;
@@ -126,15 +126,16 @@ Value get_species(const SceneParameters& scene) {
 } // namespace
 
 bool are_species_listed(const SceneParameters& scene) {
-    return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
-        return column != SideColumn::spin && !scene.first_numbers[column].empty();
-    });
+    return std::any_of(
+        given_side_columns.begin(), given_side_columns.end(), [&](SideColumn column) {
+            return column != SideColumn::spin && !scene.first_numbers[column].empty();
+        });
 }
 
 Key species_key() {
     std::vector<Field> fields = {
         {"count", "", 1, 1, not_given}, {"radius", ""}, {"mass", "", 1, 1, 1.0}};
-    for (const SideColumn column : all_side_columns)
+    for (const SideColumn column : given_side_columns)
         fields.push_back({info_of(column).name, "", 1, 1, 0.0});
     fields.push_back({"region", "[x0, y0, x1, y1]", 4, 4, not_given});
     for (const std::string_view name : {"packing", "share", "share_of_area"})

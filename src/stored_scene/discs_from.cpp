@@ -178,6 +178,9 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
     discs.departed = share ? share->departed : file.find_departed(frame);
     discs.n_discs = file.summary().n_rows - discs.departed.size();
     if (discs.n_discs == 0) refuse(path, "all its discs departed by an open side");
+    if (file.summary().has(info_of(SideColumn::swapped_radius).shown))
+        refuse(path, "its discs have exchanged their radii (effects.swap), and a new scene would "
+                     "give them others; try: a restart, or effects.swap.until_step in its scene");
     discs.radius = file.summary().radius;
     discs.n_by_species = count_species(file.summary().species, discs.departed);
     std::vector<std::size_t> places;

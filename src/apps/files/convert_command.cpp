@@ -15,6 +15,7 @@
 
 #include "apps/run_command/command_options.hpp"
 #include "apps/run_command/disc_lines.hpp"
+#include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
@@ -97,7 +98,9 @@ void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int
 class RowWriter {
 public:
     RowWriter(const FileSummary& summary, Format format)
-        : format_(format), bodies_(summary), others_(other_columns(summary)) {
+        : format_(format), bodies_(summary),
+          radius_now_(summary.place_of(info_of(SideColumn::swapped_radius).shown)),
+          others_(other_columns(summary)) {
         for (const std::string_view column : common_columns)
             places_.push_back(summary.place_of(column));
     }
@@ -108,7 +111,8 @@ public:
         const auto end = std::back_inserter(out);
         const char separator = format_ == Format::xyz ? ' ' : ',';
         if (format_ == Format::xyz) {
-            const Species& body = bodies_.of(id);
+            Species body = bodies_.of(id);
+            if (radius_now_ < rows.size()) body.radius = rows[radius_now_][i];
             const double vx = number(rows, i, 2), vy = number(rows, i, 3);
             fmt::format_to(end, "{} {} {} 0 {} {} 0 {} {} {} {} {} 0", bodies_.symbol(),
                            number(rows, i, 0), number(rows, i, 1), vx, vy, id, body.radius,
@@ -140,6 +144,7 @@ private:
 
     Format format_;
     Bodies bodies_;
+    std::size_t radius_now_; ///< the column of radii that discs exchange
     std::vector<std::size_t> places_, others_;
 };
 

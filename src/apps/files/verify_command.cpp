@@ -76,7 +76,10 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     std::uint64_t sums[] = {0, 0};
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
         const DiscState& disc = checkpoint.discs[i];
-        if (flaw.empty()) flaw = flaw_of(disc, species.of(disc.id).radius, header, room);
+        const double radius = header.columns.has(SideColumn::swapped_radius)
+                                  ? checkpoint.columns[SideColumn::swapped_radius][i]
+                                  : species.of(disc.id).radius;
+        if (flaw.empty()) flaw = flaw_of(disc, radius, header, room);
         header.columns.for_each([&](SideColumn column) {
             if (flaw.empty() && !std::isfinite(checkpoint.columns[column][i]))
                 flaw = fmt::format("disc {} has a number that is not finite", disc.id);

@@ -138,9 +138,12 @@ class Checkpoint(Frame):
     def pair_collisions(self) -> Array:
         return self.column("pair_collisions")
 
-    @property
+    @cached_property
     def radius(self) -> Array:
-        return self._species_columns[0]
+        try:  # radii that discs have exchanged
+            return self.column("swapped_radius")
+        except NoDataError:
+            return self._species_columns[0]
 
     @property
     def mass(self) -> Array:

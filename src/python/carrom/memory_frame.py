@@ -20,10 +20,11 @@ class _Source(Protocol):
     box: Array
     corner: Array
     periodic: tuple[bool, bool]
-    radii: Array
     masses: Array
     species: Array
 
+    @property
+    def radii(self) -> Array: ...
     @property
     def step(self) -> int: ...
     @property

@@ -56,7 +56,6 @@ class Simulation(Guarded):
         box: (2,) edges along x and y, lengths
         corner: (2,) the place of its lower left corner: (0, 0), unless the scene has `box.origin`
         periodic: whether the sides along x and along y are periodic
-        radii: (N,) lengths; under growth those of the scene's start
         masses: (N,) in the scene's unit; 1 unless the scene gives masses
         species: (N,) from 0, in the order of ids
         last_step: `time.steps` of the scene; `run` goes no further
@@ -115,7 +114,7 @@ class Simulation(Guarded):
             periodic=facts["periodic"],
             last_step=int(facts["steps"]),
             n_discs=int(facts["n_discs"]),
-            radii=radii,
+            _radii=None if facts["exchanges_radii"] else radii,
             masses=masses,
             species=species,
         )
@@ -134,7 +133,7 @@ class Simulation(Guarded):
     box: Array
     corner: Array
     periodic: tuple[bool, bool]
-    radii: Array
+    _radii: Array | None
     masses: Array
     species: Array
     last_step: int
@@ -217,6 +216,11 @@ class Simulation(Guarded):
     @positions.setter
     def positions(self, values: npt.ArrayLike) -> None:
         self._set("positions", values)
+
+    @property
+    def radii(self) -> Array:
+        """Radii (N,), lengths: of the scene's start, or of the step under `effects.swap`."""
+        return locked(self._core.kinds[0]) if self._radii is None else self._radii
 
     @property
     def velocities(self) -> Array:

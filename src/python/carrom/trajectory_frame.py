@@ -73,8 +73,10 @@ class TrajectoryFrame(Frame):
     def n_discs(self) -> int:
         return self._frames.system.n_discs
 
-    @property
+    @cached_property
     def radius(self) -> Array:
+        if self._frames.has("swapped_radius"):
+            return self._frames.field("swapped_radius", self._index)
         return self._frames.system.radius
 
     @property

@@ -94,6 +94,7 @@ nb::dict facts_of(const Core& core) {
     result["n_discs"] = facts.n_discs;
     result["steps"] = facts.steps;
     result["micro_steps"] = facts.micro_steps;
+    result["exchanges_radii"] = facts.exchanges_radii;
     result["method"] = facts.is_event_driven ? "event-driven" : "time-stepped";
     result["periodic"] = nb::make_tuple(facts.is_periodic_x, facts.is_periodic_y);
     return result;

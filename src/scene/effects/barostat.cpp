@@ -30,6 +30,7 @@
 #include <fmt/format.h>
 
 #include "scene/effects/effect.hpp"
+#include "scene/effects/sync_times.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -176,25 +177,6 @@ std::vector<Rule> rules_of_barostat() {
     };
 }
 
-/// Volumes change little at each sync, so by default there is a sync in each step.
-void sync_in_each_step(const SceneDraft& draft) {
-    SceneParameters& scene = draft.scene;
-    if (has_barostat(scene) && !draft.settings.has("time.sync_every"))
-        scene.sync_every = std::min(scene.sync_every, scene.micro_steps);
-}
-
-/// Reports a time between syncs that is longer than the run, which would never change the volume.
-void check_times_of_barostat(const SceneDraft& draft) {
-    SceneParameters& scene = draft.scene;
-    if (!has_barostat(scene) || scene.steps == 0) return;
-    const double interval = steps_between_syncs(scene);
-    if (interval <= static_cast<double>(scene.steps)) return;
-    scene.warnings.push_back(
-        fmt::format("the barostat never acts: it would every {:g} steps (time.sync_every), and the "
-                    "run has {}",
-                    interval, scene.steps));
-}
-
 } // namespace
 
 namespace effects {
@@ -203,8 +185,15 @@ EffectDeclaration barostat() {
     return {.tables = {{"effects.barostat", "What keeps discs at a pressure."}},
             .keys = keys_of_barostat(),
             .rules = rules_of_barostat(),
-            .derive = sync_in_each_step,
-            .check_times = check_times_of_barostat,
+            .derive =
+                [](const SceneDraft& draft) {
+                    if (has_barostat(draft.scene)) sync_in_each_step(draft);
+                },
+            .check_times =
+                [](const SceneDraft& draft) {
+                    if (has_barostat(draft.scene))
+                        warn_of_no_sync(draft, "the barostat never acts: it would");
+                },
             .summary =
                 [](const Effects& e) {
                     return e.barostat.is_any() ? fmt::format("volume moves at P d^2 / kT = {:g}",

@@ -373,3 +373,18 @@ def test_active_discs_have_directions_in_frames_and_checkpoints(tmp_path: Path) 
     plain = carrom.run(gas(), folder=tmp_path / "plain", progress=False)
     with pytest.raises(carrom.NoDataError, match="no direction"):
         _ = plain.checkpoints[-1].direction
+
+
+def test_discs_that_swap_have_the_radii_of_their_step(tmp_path: Path) -> None:
+    scene = gas(**PERIODIC)
+    radii = np.linspace(0.2, 0.4, 12)
+    scene["discs"] = {"species": [{"count": 5, "radius": float(radius)} for radius in radii]}
+    scene["effects"] = {"swap": {"rounds": 4}}
+    scene["output"] = {"trajectory": {"every_steps": 10, "precision": "double"}}
+    run = carrom.run(scene, folder=tmp_path / "swap", progress=False)
+    first, last = run.frames[0].radius, run.frames[-1].radius
+    assert first.tolist() == np.repeat(radii, 5).tolist()
+    assert np.sum(first != last) > 10
+    assert sorted(first) == sorted(last)
+    assert run.checkpoints[-1].radius.tolist() == last.tolist()
+    assert run.checkpoints[-1].packing == pytest.approx(run.frames[0].packing)

@@ -246,3 +246,16 @@ def test_names_complete() -> None:
     for text, names in wanted.items():
         assert names <= set(offers[text]), text
     assert not any(name.startswith("_") for name in offers["sim."])
+
+
+def test_radii_that_discs_exchange_are_those_of_the_step() -> None:
+    scene = gas(steps=40, **PERIODIC)
+    scene["discs"] = {"species": [{"count": 5, "radius": 0.2 + 0.02 * k} for k in range(12)]}
+    sim = carrom.Simulation(scene | {"effects": {"swap": {"rounds": 4}}})
+    first, frame = sim.radii, sim.frame
+    sim.run(40)
+    assert np.sum(sim.radii != first) > 10
+    assert sorted(sim.radii) == sorted(first)
+    assert frame.radius.tolist() == first.tolist()
+    assert sim.frame.radius.tolist() == sim.radii.tolist()
+    assert sim.copy().radii.tolist() == sim.radii.tolist()

@@ -126,7 +126,7 @@ bool is_found_later(const Key& key) {
 
 const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
 
-/// Fields whose keys go with each other, in some scenes.
+/// Fields, and discs that exchange sizes: keys that go with each other, in some scenes.
 void add_fields(Draw& draw, Texts& texts) {
     if (draw.below(8) == 0)
         texts.insert(texts.end(), {"effects.gravity.amplitude_y=0.01", "effects.gravity.period=50",
@@ -137,6 +137,10 @@ void add_fields(Draw& draw, Texts& texts) {
     if (draw.below(8) == 0)
         texts.insert(texts.end(), {"effects.field.kind=sine", "effects.field.amplitude=0.01",
                                    "time.sync_every=1"});
+    if (draw.below(8) == 0)
+        texts.insert(texts.end(),
+                     {"discs.species=[{count = 2, radius = 1}, {count = 3, radius = 0.5}]",
+                      "effects.swap.rounds=2"});
 }
 
 /// Discs in one of the ways there are, features that need several keys, and about one other key in

@@ -254,8 +254,8 @@ TEST_CASE("all problems of a scene come at once, in the order of lines, those of
         "2]\n[[discs.streams]]\n"
         "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.charge]\ne = 1\n"
         "[output.movie]\nevery = 1\n[foo]\n";
-    const auto problems = problems_in(
-        text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.wind.speed=1", "box.size=abc"});
+    const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense",
+                                             "effects.magnet.pull=1", "box.size=abc"});
     for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
     CHECK(places_of(problems) == Texts{"s.toml:2",
                                        "s.toml:3",
@@ -275,13 +275,13 @@ TEST_CASE("all problems of a scene come at once, in the order of lines, those of
                                        "s.toml:22",
                                        "--set box.sise",
                                        "--set nonsense",
-                                       "--set effects.wind.speed",
+                                       "--set effects.magnet.pull",
                                        "--set box.size",
                                        "--set time.steps"});
     CHECK(mentions(problems, "did you mean 'box.size'?"));
     CHECK(mentions(problems, "did you mean 'region'?"));
     CHECK(mentions(problems, "no such key 'effects.charge'; [effects] has contact, gravity"));
-    CHECK(mentions(problems, "no such key 'effects.wind.speed'; [effects] has contact, gravity"));
+    CHECK(mentions(problems, "no such key 'effects.magnet.pull'; [effects] has contact, gravity"));
     CHECK(mentions(problems, "no such key 'output.movie'; [output] has text, folder"));
 }
 
