@@ -53,6 +53,8 @@ def report_of(
     tensor = {key: estimates.pop(f"pressure_{key}") for key in ("xx", "xy", "yy")}
     report: dict[str, Any] = {name: facts[name] for name in _OF_FACTS}
     report |= {"box": list(facts["box"]), "first_step": steps[0], "steps": steps[1] - steps[0]}
+    if any(facts["corner"]):
+        report["origin"] = [0 - place for place in facts["corner"]]
     report |= {name: totals[name] for name in _OF_TOTALS}
     report |= {"momentum": list(totals["momentum"])}
     report |= {name: estimates.pop(name) for name in _OF_TOP}

@@ -80,6 +80,8 @@ def test_simulation() -> None:
     np.testing.assert_array_equal(centre.frame.x, centre.positions)
     np.testing.assert_array_equal(centre.corner, -HALF)
     assert centre.frame.present.all()
+    assert centre.report["origin"] == HALF.tolist()
+    assert "origin" not in corner.report
     assert centre.state_hash == corner.state_hash
     before = centre.state_hash
     centre.positions = centre.positions  # nothing changes, so all bits stay
