@@ -218,6 +218,19 @@ def test_places_beyond_a_periodic_side_are_wrapped(tmp_path: Path) -> None:
 
 GOOD = "1 1 0 0 0.5 1\n5 5 0 0 0.5 1\n8 8 0 0 0.5 1\n"
 XYZ = '2\nLattice="{}" Properties=species:S:1:pos:R:3:radius:R:1{}\nA 1 1 0 0.5\nA 5 5 {} 0.5\n'
+SPHERES = """LAMMPS data
+
+2 atoms
+1 atom types
+0 10 xlo xhi
+0 10 ylo yhi
+-0.5 0.5 zlo zhi
+
+Atoms # sphere
+
+1 1 1.0 2.0 2 2 0
+2 1 1.0 {} 5 5 0
+"""
 BAD = {
     "empty": ("", ": is empty"),
     "nan": (GOOD.replace("5 5 0", "5 nan 0"), ":2: y is not finite"),
@@ -236,6 +249,7 @@ BAD = {
               ":4: frame 0 ends after 2 of 3 discs"),
     "many": ("3000000000\n" + XYZ.format("10 0 0 0 10 0 0 0 1", "", 0)[2:],
              ":1: announces 3000000000 discs"),
+    "density": (SPHERES.format("nought"), ":12: 'nought' is no number"),
     "pbc": (XYZ.format("10 0 0 0 10 0 0 0 1", ' pbc="T"', 0), ":2: pbc has three words"),
 }  # fmt: skip
 
@@ -257,6 +271,15 @@ def test_bad_files_end_with_code_2_and_the_line(
     assert printed.err.startswith(str(file)), printed.err
     assert len(printed.err.splitlines()) == 1
     assert output.read_bytes() == b"of somebody else"
+
+
+@pytest.mark.parametrize("time", ["0", "-1", "nan", "inf"])
+def test_a_step_takes_time(tmp_path: Path, time: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "rows").write_text(GOOD, encoding="ascii")
+    words = [str(tmp_path / "rows"), "-o", str(tmp_path / "out.h5"), "--box", "10"]
+    assert main([*words, f"--time-step={time}"]) == 2
+    assert capsys.readouterr().err == "--time-step is above 0 and finite\n"
+    assert not (tmp_path / "out.h5").exists()
 
 
 def test_bad_dumps(source: carrom.Run, tmp_path: Path) -> None:

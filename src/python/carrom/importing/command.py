@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Sequence
 
@@ -67,6 +68,8 @@ def _choice(options: argparse.Namespace) -> Choice:
         raise ValueError("--box takes one edge or two")
     if not 0 <= options.shrink < 1:
         raise ValueError("--shrink is at least 0 and below 1")
+    if not 0 < options.time_step < math.inf:
+        raise ValueError("--time-step is above 0 and finite")
     return Choice(
         format=options.format,
         frame=options.frame,

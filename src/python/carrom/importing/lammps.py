@@ -215,7 +215,7 @@ def _add_masses(
     rows: list[tuple[int, list[str]]],
 ) -> None:
     if data.style in ("sphere", "disc"):
-        density = np.array([float(words[3]) for _, words in rows])
+        density = parse_rows(path, rows, ["-", "-", "-", "mass", "-", "-", "-"])[0]["mass"]
         radius = columns["radius"]
         area = math.pi * radius**2
         columns["mass"] = density * (area if data.style == "disc" else area * radius * 4 / 3)
