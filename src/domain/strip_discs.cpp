@@ -154,6 +154,7 @@ void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
 
 void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     forget_halo();
+    are_displaced_listed_ = false;
     if (companion) companion->resize(n_own_);
     if (periods_.are_any()) set_home_images(time, farthest, companion);
     if (communicator_.size() > 1) {
@@ -263,9 +264,28 @@ Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
 
 void StripDiscs::forget_images(bool are_in_box) {
     if (!periods_.are_any()) return;
-#pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_own_ >= least_for_threads)
-    for (std::size_t i = 0; i < n_own_; ++i) set_image(discs_[i], {});
+#pragma omp parallel for num_threads(n_threads_)                                                   \
+    schedule(static) if (n_own_ >= least_for_threads && has_images_)
+    for (std::size_t i = 0; i < (has_images_ ? n_own_ : 0); ++i) set_image(discs_[i], {});
     has_images_ = are_in_box;
+}
+
+void StripDiscs::set_images_aside() {
+    if (!periods_.are_any()) return;
+    if (!are_displaced_listed_) {
+        displaced_.clear();
+        for (std::size_t i = 0; i < n_own_; ++i)
+            if (!is_unshifted(discs_[i]))
+                displaced_.emplace_back(static_cast<LocalIndex>(i), image_of(discs_[i]));
+        are_displaced_listed_ = true;
+    }
+    for (const auto& [index, image] : displaced_) set_image(discs_[index], {});
+    has_images_ = false;
+}
+
+void StripDiscs::restore_images() {
+    for (const auto& [index, image] : displaced_) set_image(discs_[index], image);
+    has_images_ = periods_.are_any();
 }
 
 void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {

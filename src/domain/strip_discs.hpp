@@ -136,6 +136,11 @@ public:
     /// sync, only discs that were near its sides when they were sorted can need an image then.
     void forget_images(bool are_in_box = false);
 
+    /// As forget_images, but the images can be restored until the next migration. Each costs little
+    /// after the first one, because no image changes until then.
+    void set_images_aside();
+    void restore_images();
+
     /// The positions that a rank with a halo of `reach` uses, in a box of this extent. The box
     /// limits them only along axes that are not periodic.
     Extent extent_seen(const Extent& box, double reach) const;
@@ -204,7 +209,9 @@ private:
         redistributed_domains_; ///< the present cuts, and the cuts at the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false;  ///< the grid has the own discs' places
+    bool is_sorted_ = false; ///< the grid has the own discs' places
+    std::vector<std::pair<LocalIndex, Image>> displaced_; ///< own discs with an image, and these
+    bool are_displaced_listed_ = false;                   ///< since the last migration
     bool has_images_ = false; ///< own discs had their images in the box when they were sorted
     TransferPlan halo_plan_;
     /// Neighbours without this rank; in a periodic box a rank is also a neighbour of itself

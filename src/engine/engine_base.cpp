@@ -94,6 +94,8 @@ template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
 template <class Dynamics>
 void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered) {
     bring_states();
+    if (is_in_window_) leave_window();
+    is_redistributed_ = true;
     set_departed_aside();
     migrate();
     const double radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
@@ -159,14 +161,23 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
     const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
                                          micro_steps_;
     const std::int64_t stop = std::min(last_step, step_after_sync) * micro_steps_;
+    if (time_ != 0) windows_pass_stops_ = !is_redistributed_;
+    is_redistributed_ = false;
     while (n_micro_done_ < stop) {
         const std::int64_t next_sync = last_sync() + sync_every_;
         if (n_micro_done_ == last_sync() && sync_action_.begins()) let_effects_begin();
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    if (time_ != 0) discs_.forget_images();                // a sync leaves none
-    if (n_micro_done_ == last_micro_step_) drop_scratch(); // leaves memory for what follows a run
+    if (time_ != 0) discs_.forget_images(); // a sync leaves none
+    if (n_micro_done_ != last_micro_step_) return;
+    if (is_in_window_) leave_window();
+    drop_scratch(); // leaves memory for what follows a run
+}
+
+template <class Dynamics> std::int64_t EngineBase<Dynamics>::horizon_of(std::int64_t target) const {
+    if (!windows_pass_stops_) return target;
+    return std::max(target, std::min(last_sync() + sync_every_, last_micro_step_));
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::sync() {

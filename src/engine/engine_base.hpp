@@ -71,6 +71,8 @@ protected:
     /// Called when effects have changed velocities after finish_sync and before flights. No own
     /// disc is faster than `largest_speed`. **Collective.**
     virtual void take_speed(double largest_speed) = 0;
+    /// Ends the window that goes on beyond the present stop. **Collective.**
+    virtual void leave_window() { is_in_window_ = false; }
     /// Advances all own discs to `time_`, sets `time_` to 0, and returns the largest speed.
     virtual double restart_states();
     /// Brings `discs_` up to date, in engines that keep their states elsewhere.
@@ -80,6 +82,10 @@ protected:
 
     /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
     void distribute();
+    /// Where windows may end, if the run stops at `target`: there, or after it. Runs that are
+    /// inspected at each step would otherwise have a window for each, which costs as much as a long
+    /// one.
+    std::int64_t horizon_of(std::int64_t target) const;
     /// What cells cover: the whole region that the rank uses, or only the part of it where its
     /// discs are. If discs are clustered, cells of the whole region would hold hundreds of discs
     /// each.
@@ -123,6 +129,7 @@ protected:
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
     double time_ = 0; ///< on the clock, since the last sync
+    bool is_in_window_ = false; ///< the run has stopped inside a window, which will go on
     /// Time of flights that were recorded for the stress before the last sync
     double flown_before_ = 0;
     double redistributed_time_ = 0; ///< time of the last migration
@@ -151,6 +158,10 @@ private:
     /// Micro-steps between two additions of whole flights to the stress
     std::int64_t flight_length_;
     std::int64_t last_micro_step_, n_syncs_ = 0;
+    /// Windows go on after stops, because the last stop between syncs was not followed by a
+    /// redistribution, which would have made a window useless.
+    bool windows_pass_stops_ = false;
+    bool is_redistributed_ = true; ///< since the last stop
 };
 
 #define CARROM_DECLARE(Dynamics) extern template class EngineBase<Dynamics>;

@@ -54,18 +54,29 @@ void BlockRun<Dynamics>::run_whole(const BlockGround& ground, const CellBlock& b
 
 template <class Dynamics>
 void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
+    scratch_->predict_all();
+    run_events();
+    scratch_->report(histories);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::go_on(const BlockGround& ground, BlockOutcome& outcome) {
+    scratch_->begin(ground, outcome);
+    run_events();
+    scratch_->report({});
+}
+
+template <class Dynamics> void BlockRun<Dynamics>::run_events() {
     Scratch& s = *scratch_;
-    s.predict_all();
     const EventOrder before(s.discs);
     const auto is_current = [&s](const Event& event) {
         return s.versions_of(event) == event.versions;
     };
     // A run that stops early for a request is void: the engine gives up the step.
-    for (Event event;
-         s.queue.pop(event, before, is_current) && !s.outcome->is_cascade && !is_stop_overdue();)
+    for (Event event; s.queue.pop(event, s.ground.stop, before, is_current) &&
+                      !s.outcome->is_cascade && !is_stop_overdue();)
         s.happen(event);
     s.stress_terms.add_to(s.outcome->stress);
-    s.report(histories);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::find_runs(const FlightBox& box) {
@@ -330,12 +341,14 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     past_events.generation = event.generation;
     past_events.partner = partner;
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
-    n_hit += past_events.history == 0 && is_own[slot] != 0;
     const double now = dynamics.squared_speed(disc);
-    if (ground.is_alone)
-        past_events.history = 1;
-    else
+    if (ground.is_alone) {
+        if (past_events.history != EventHistory::unreported) hit_slots.push_back(slot);
+        past_events.history = EventHistory::unreported;
+    } else {
+        n_hit += past_events.history == 0 && is_own[slot] != 0;
         past_events.add(event.time, disc, partner_id, spin_of(slot), speed_class(now));
+    }
     if (is_own[slot] != 0) {
         largest_squared = std::max(largest_squared, now);
         const float before = lane_speed_squared(slot);
@@ -350,14 +363,14 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
 /// A window is exact if no disc is ever further from its place at the start than the speed bound
 /// would have taken it by then. So a disc may exceed the bound for a while without harm if it was
 /// slower before. The run is void if the disc might get too far before the window ends, or if it
-/// collides again while it is too far away.
+/// collides again while it is too far away. After a stop, where no disc was, all counts from there.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];
     const BlockWindow& window = ground.window;
-    const double elapsed = time - window.begin;
-    double dx = disc.x - at_start.x_at(window.begin);
-    const double dy = disc.y - at_start.y_at(window.begin);
+    const double elapsed = time - ground.since, duration = window.end - ground.since;
+    double dx = disc.x - at_start.x_at(ground.since);
+    const double dy = disc.y - at_start.y_at(ground.since);
     if constexpr (Dynamics::has_moving_images) // the fastest image next to the disc counts
         dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
              std::fabs(periods().speed) * elapsed;
@@ -368,7 +381,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
     // Only then does its next collision call this function again.
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
-        away + speed * (window.end - time) <= window.speed_bound * window.duration())
+        away + speed * (window.end - time) <= window.speed_bound * duration)
         return;
     too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
 }

@@ -40,6 +40,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "core/disc_state.hpp"
+#include "core/raw_vector.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
 #include "engine/loss_sums.hpp"
@@ -93,6 +94,9 @@ struct BlockGround {
     const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
     CellBlock own_cells; ///< an own disc that rounding puts outside counts in the nearest cell
     BlockWindow window;
+    /// A run goes up to `stop`, which is the window's end unless BlockRun::go_on follows. All
+    /// `discs` are right at `since`, which is the window's begin unless this is a call of `go_on`.
+    double since = 0, stop = 1;
     /// Whether there is a single run of the whole box. Then histories are not compared, and no grid
     /// is built.
     bool is_alone = false;
@@ -170,9 +174,9 @@ private:
 static_assert(sizeof(NewState) == 48);
 
 struct BlockOutcome {
-    std::vector<LocalIndex> hit;  ///< own discs that have collided
-    std::vector<NewState> states; ///< the new states of the discs in `hit`, in the same order
-    SideColumns columns;          ///< their new values in the side columns
+    std::vector<LocalIndex> hit; ///< own discs that have collided
+    RawVector<NewState> states;  ///< the new states of the discs in `hit`, in the same order
+    SideColumns columns;         ///< their new values in the side columns
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
@@ -211,6 +215,11 @@ public:
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
+    /// Goes on from where the last run of the whole box has stopped, with the cells and predictions
+    /// of its window. Only for a run that is alone, whose discs have got its new states and no
+    /// others.
+    void go_on(const BlockGround& ground, BlockOutcome& outcome);
+
     /// Uses these dynamics from now on. After a sync they differ, because walls have moved.
     void change_dynamics(const Dynamics& dynamics);
 
@@ -220,6 +229,7 @@ private:
     struct Scratch;
 
     void run_gathered(std::span<std::uint64_t> histories);
+    void run_events();
 
     std::unique_ptr<Scratch> scratch_;
 };

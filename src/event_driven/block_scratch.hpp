@@ -19,6 +19,8 @@ namespace carrom {
 /// The events of a disc in this window.
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
+    /// Histories of a run that is alone, of discs that have collided since it went on, or before.
+    static constexpr std::uint64_t unreported = 1, reported = 2;
 
     /// See HaloRecord.
     std::uint64_t history = 0;
@@ -178,6 +180,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_image(std::uint32_t a, std::uint32_t b, const Image& image);
     void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
     void report(std::span<std::uint64_t> histories);
+    void report_hits();
     void report_disc(std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
                      double& end_squared);
 
@@ -348,8 +351,9 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     SideColumns columns = side_columns_of(dynamics);
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
-    std::size_t n_hit = 0; ///< own discs that have collided
-    BoxLayout layout;      ///< only for a run of the whole box
+    std::size_t n_hit = 0;                ///< own discs that have collided
+    std::vector<std::uint32_t> hit_slots; ///< of a run that is alone, since its last report
+    BoxLayout layout;                     ///< only for a run of the whole box
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;

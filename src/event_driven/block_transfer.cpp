@@ -64,6 +64,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
     too_fast = 0;
     n_hit = 0;
+    hit_slots.clear();
     cascade_watch = {};
 }
 
@@ -206,26 +207,42 @@ template <class Dynamics>
     }
     if (!ground.is_alone) histories[indices[slot]] = history;
     end_squared = std::max(end_squared, dynamics.squared_speed_at(discs[slot], ground.window.end));
-    if (history == 0) return;
+    if (history == 0 || ground.is_alone) return;
     outcome->hit[next] = indices[slot];
-    outcome->states.emplace_back(discs[slot]);
+    outcome->states[next] = NewState(discs[slot]);
     outcome->columns.copy(next, columns, slot);
     ++next;
 }
 
-/// Writes the new states of the block's own discs and the histories of the ring to the outcome.
+/// Writes the states of discs that have collided since the last report, of a run that is alone.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::report_hits() {
+    for (std::size_t k = 0; k < n_hit; ++k) {
+        const std::uint32_t slot = hit_slots[k];
+        outcome->hit[k] = indices[slot];
+        outcome->states[k] = NewState(discs[slot]);
+        outcome->columns.copy(k, columns, slot);
+        past_events_of[slot].history = EventHistory::reported;
+    }
+    hit_slots.clear();
+}
+
+/// Writes the new states of the block's own discs and the histories of the ring to the outcome. The
+/// largest speed at the window's end is not known before.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
     outcome->largest_speed = std::sqrt(largest_squared) * (1 + 0x1p-50);
-    // Reserving the exact size saves memory, because all blocks keep their outcomes until the
-    // window is validated.
+    if (ground.is_alone) n_hit = hit_slots.size();
+    // Lists of the exact size save memory, because all blocks keep their outcomes until the window
+    // is validated.
     outcome->hit.resize(n_hit);
-    outcome->states.reserve(n_hit);
+    outcome->states.resize(n_hit);
     outcome->columns = side_columns_of(dynamics);
     outcome->columns.resize(n_hit);
+    if (ground.is_alone) report_hits();
+    if (ground.stop < ground.window.end) return;
     double end_squared = 0;
-    std::size_t next = 0;
+    std::size_t next = ground.is_alone ? n_hit : 0;
     if constexpr (has_sizes) {
         for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
             if (is_own[slot] != 0 || (!is_whole && is_of_ring[slot] != 0))

@@ -11,22 +11,13 @@
 #include <omp.h>
 
 #include "engine/dynamics_of_scene.hpp"
-#include "engine/jammed.hpp"
-#include "engine/speed_survey.hpp"
 #include "engine/state_sums.hpp"
-#include "engine/window_choice.hpp"
 #include "event_driven/initial_overlaps.hpp"
 #include "parallel/agreement.hpp"
 
 namespace carrom {
 
 namespace {
-
-/// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
-/// as fast from a thin gas to the densest liquid.
-constexpr double jam_heating = 64;
-/// Up to this many discs a single block without a halo is fastest on one thread.
-constexpr double most_discs_alone = 30000;
 
 /// **Collective.**
 WindowSetting window_setting(const Tuning& tuning, const BlockTuning& blocks,
@@ -69,33 +60,64 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int64_t target) {
-    const auto micro_steps = static_cast<double>(target - this->last_sync());
-    const double target_time = dynamics_.clock_at(micro_steps);
-    while (time_ < target_time) run_window(std::min(target_time, jam_watch_.bin_end()));
+    const auto time_of = [this](std::int64_t micro_step) {
+        return dynamics_.clock_at(static_cast<double>(micro_step - this->last_sync()));
+    };
+    const double target_time = time_of(target), horizon = time_of(this->horizon_of(target));
+    while (time_ < target_time) {
+        const double stop = std::min(target_time, jam_watch_.bin_end());
+        run_window(stop, jam_watch_.is_on() ? stop : horizon);
+    }
     n_micro_done_ = target;
 }
 
-/// Runs one window, which ends at `target` or before.
-template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double target) {
+/// Runs a window to its end or to `target`. It ends at `horizon` or before. Only a run of the whole
+/// box can go on after a stop, because its discs, cells and predictions are those of one block.
+template <class Dynamics>
+void EventDrivenEngine<Dynamics>::run_window(double target, double horizon) {
+    if (!std::exchange(this->is_in_window_, false))
+        begin_window(can_run_alone() ? horizon : target);
+    if (!run_until(target)) return;
+    if (reduced_.counts.ranks_jammed > 0 || jam_watch_.add(reduced_.counts.events)) refuse_jam();
+    commit();
+    travel_speed_ = window_.speed_bound;
+    n_events_in_window_ += reduced_.counts.events;
+    time_ = std::min(target, window_.end);
+    this->is_in_window_ = time_ < window_.end;
+    if (!this->is_in_window_) end_window();
+}
+
+template <class Dynamics> void EventDrivenEngine<Dynamics>::begin_window(double horizon) {
     this->set_departed_aside();
     migrate();
     note_first_speed();
-    window_ = choose(target);
+    window_ = choose(horizon);
+    n_events_in_window_ = 0;
     common_depth_ = first_halo_depth();
     redistribute();
+}
+
+/// Runs all blocks until the result is right up to `target` or the window's end. Returns false if
+/// the window has ended where it had stopped before, because discs are too fast for the rest of it.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::run_until(double target) {
+    const bool goes_on = time_ > window_.begin;
     for (bool is_first = true;; is_first = false) {
-        run_blocks();
+        run_blocks(std::min(target, window_.end));
         const Verdict verdict = validate();
-        if (verdict == Verdict::exact) break;
+        if (verdict == Verdict::exact) return true;
         counts_.windows_redone += is_first;
+        if (goes_on) {
+            leave_window();
+            return false;
+        }
         if (verdict == Verdict::too_fast) shorten();
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
         if (verdict == Verdict::repeat) note_rollback();
     }
-    if (reduced_.counts.ranks_jammed > 0 || jam_watch_.add(reduced_.counts.events)) refuse_jam();
-    commit();
-    travel_speed_ = window_.speed_bound;
-    time_ = window_.end;
+}
+
+template <class Dynamics> void EventDrivenEngine<Dynamics>::end_window() {
+    policy_.note_end(time_ - window_.begin);
     ++n_windows_;
     ++counts_.windows;
     if (time_ == jam_watch_.bin_end() && jam_watch_.finish_bin()) refuse_jam();
@@ -108,115 +130,6 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::migrate() {
     discs_.migrate(time_, farthest, nullptr);
     redistributed_time_ = time_;
     jumped_ = 0;
-}
-
-template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double target) {
-    const PhaseClock::Scope scope(phases_, Phase::wait);
-    BlockWindow window;
-    window.begin = time_;
-    window.holds_begin = time_ == 0;
-    window.speed_bound = speed_bound_until(target);
-    this->refuse_long_flights(window.speed_bound);
-    is_alone_ = can_run_alone();
-    if (n_windows_ > 0) take_crowding(reduced_.counts.crowding);
-    const BlockNeeds needs = block_needs(window.speed_bound);
-    double longest = target - time_;
-    if constexpr (Dynamics::is_periodic)
-        longest = std::min(longest, longest_in_period(discs_.periods(), window.speed_bound));
-    const PlannedWindow planned = policy_.plan(needs, collision_rate(needs), longest, target);
-    choice_ = planned.choice;
-    window.end = planned.end;
-    return window;
-}
-
-/// The largest speed at the window's start. After a window, its validation has found that for all
-/// ranks. **Collective.**
-template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() const {
-    return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
-}
-
-/// Speeds in the falling frame grow, also those of discs at rest on a floor. **Collective.**
-template <class Dynamics>
-double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
-    const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -
-                          dynamics_.speed_gained_at(time_);
-    return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
-}
-
-/// Of growing discs. The interval's first speed is 0 otherwise. **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::note_first_speed() {
-    const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
-    if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
-    first_speed_ = std::max(largest_of_all(), dynamics_.diameter() * per_micro_step);
-}
-
-/// Whether discs have grown into a jam: they become ever faster and collide ever more often, so
-/// that the step would never end. All speeds of the window count, not only those at its end, so
-/// that every cut into windows and blocks gives the same answer.
-template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
-    if (first_speed_ == 0) return false;
-    return std::ranges::any_of(blocks_, [&](const Block& block) {
-        return block.outcome.largest_speed > jam_heating * first_speed_;
-    });
-}
-
-/// Ends the run. The message names the place up to which all is well, and not what has shown the
-/// jam, because that depends on windows and threads. **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
-    const double safe = jam_watch_.safe_until();
-    const double growth = dynamics_.growth_at(safe - static_cast<double>(this->last_sync()));
-    throw Jammed(fmt::format("discs jam after step {:.6g}, at a packing fraction of {:.5g} (radii "
-                             "{:.6g} times the first): they collide ever more often, because they "
-                             "have no room to grow further",
-                             safe / static_cast<double>(this->micro_steps_),
-                             first_packing_ * growth * growth, growth),
-                 static_cast<std::int64_t>(safe));
-}
-
-/// Whether one run of the whole box serves.
-template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
-    const auto n = static_cast<double>(discs_.n_total());
-    const bool is_few = tuning_.threads == 1 ||
-                        n < 2 * static_cast<double>(tuning_.discs_per_thread);
-    return communicator_.size() == 1 && is_few && n <= most_discs_alone && !block_tuning_.halo &&
-           !block_tuning_.block_side && !block_tuning_.cuts_by_work;
-}
-
-/// The numbers for the choice of the next window that are not learned from windows.
-template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
-    BlockNeeds needs;
-    needs.box = dynamics_.box();
-    needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
-    needs.equivalent_radius = equivalent_radius(levels_) * dynamics_.growth_at(time_) +
-                              dynamics_.slack();
-    needs.n_discs = static_cast<double>(discs_.n_total());
-    needs.speed_bound = speed_bound;
-    needs.time = time_;
-    needs.is_one_block = is_alone_;
-    needs.goes_round_x = discs_.periods().x != 0;
-    needs.goes_round_y = discs_.periods().y != 0;
-    needs.crowding = is_alone_ ? 1 : mean_crowding_; // a run of the whole box measures none
-    return needs;
-}
-
-/// Collisions per disc and time in the last window, or a guess for the first one. **Collective.**
-template <class Dynamics>
-double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
-    if (n_windows_ > 0)
-        return static_cast<double>(reduced_.counts.events) /
-               (std::max(needs.n_discs, 1.0) * policy_.last_duration());
-    const double largest = communicator_.max(largest_speed_);
-    if (!(largest > 0)) return 0;
-    return guessed_collision_rate(
-        needs, survey_speeds(discs_.own(), largest, communicator_, tuning_.threads).mean());
-}
-
-/// Makes the window shorter, because a disc was faster than the bound. **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
-    double fastest = 0;
-    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
-    window_ = shortened(window_, communicator_.max(fastest) * policy_.speed_allowance(),
-                        dynamics_.diameter());
 }
 
 /// Fetches the halo of every strip, sorts all discs into cells, and cuts the own cells into blocks
@@ -255,13 +168,15 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     make_blocks();
 }
 
-template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blocks() {
+template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blocks(double stop) {
     return {.discs = discs_.all(),
             .n_own = discs_.n_own(),
             .columns = &discs_.columns(),
             .grid = &discs_.grid(),
             .own_cells = own_cells_,
             .window = window_,
+            .since = time_,
+            .stop = stop,
             .is_alone = is_alone_,
             .box_cells = box_cells_,
             .extent = extent(),
@@ -276,9 +191,10 @@ template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blo
                       .velocity_unit = static_cast<double>(this->micro_steps_)}};
 }
 
-template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
+template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks(double stop) {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground = ground_of_blocks();
+    const BlockGround ground = ground_of_blocks(stop);
+    if (time_ > window_.begin) return block_runs_.front().go_on(ground, blocks_.front().outcome);
     std::vector<std::size_t> marked;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
         if (blocks_[k].is_marked != 0) marked.push_back(k);
@@ -295,7 +211,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::size_t i = 0; i < marked.size(); ++i) {
         Block& block = blocks_[marked[i]];
-        BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
+        // A run that is alone may have to go on later, whichever thread does it.
+        const int number = is_alone_ ? 0 : omp_get_thread_num();
+        BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(number)];
         block.saw_all = sees_all(block);
         if (is_alone_ || (Dynamics::is_periodic && block.saw_all))
             block_run.run_whole(ground, block.cells, histories_, block.outcome);
@@ -343,7 +261,6 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
         if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
     }
     for (Block& block : blocks_) block.has_run = false;
-    policy_.note_end(window_.duration());
     is_largest_known_ = true;
 }
 
@@ -361,6 +278,13 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double l
 template <class Dynamics> void EventDrivenEngine<Dynamics>::take_speed(double largest_speed) {
     largest_speed_ = largest_speed;
     is_largest_known_ = false;
+}
+
+/// The window ends at the present stop. Its block run does not know the largest speed there.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::leave_window() {
+    this->is_in_window_ = false;
+    take_speed(std::sqrt(this->squared_speed_of_own(time_)));
+    end_window();
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::drop_scratch() {

@@ -110,8 +110,12 @@ private:
     void finish_sync(double largest_speed) override;
     void take_speed(double largest_speed) override;
     void drop_scratch() override;
+    void leave_window() override;
 
-    void run_window(double target);
+    void run_window(double target, double horizon);
+    void begin_window(double horizon);
+    bool run_until(double target);
+    void end_window();
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
     double collision_rate(const BlockNeeds& needs) const;
@@ -130,8 +134,8 @@ private:
     void learn_crowding();
     double measure_crowding(const CellBlock& cells);
     void take_crowding(std::uint64_t of_all);
-    BlockGround ground_of_blocks();
-    void run_blocks();
+    BlockGround ground_of_blocks(double stop);
+    void run_blocks(double stop);
     void commit();
     void log_events(const BlockOutcome& outcome);
 
@@ -175,8 +179,9 @@ private:
     JointReduction<FoundInWindow> reduced_;
     /// Whole numbers, because their sums do not depend on the order
     static constexpr double crowding_unit = 1024;
-    bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
-    RollbackCounts counts_;         ///< counts of blocks are those of this rank
+    bool is_largest_known_ = false;        ///< `reduced_` holds the largest speed of all ranks
+    std::uint64_t n_events_in_window_ = 0; ///< over all ranks, up to now
+    RollbackCounts counts_;                ///< counts of blocks are those of this rank
 
     BlockChoice choice_;
     BlockWindow window_;

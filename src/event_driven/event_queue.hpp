@@ -108,13 +108,14 @@ public:
     }
 
     /// Removes and returns the first event for which `is_current(event)` holds, and removes those
-    /// before it. Returns false if there is none.
+    /// before it. Returns false if there is none that is not later than `last`.
     template <class IsCurrent>
-    bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
+    bool pop(Event& first, double last, const EventOrder& before, const IsCurrent& is_current) {
         if (has_outgrown()) [[unlikely]]
             sweep(before, is_current);
         for (;;) {
             while (!now_.empty()) {
+                if (now_.front().time > last) return false;
                 if (now_.size() > 1) std::pop_heap(now_.begin(), now_.end(), after(before));
                 first = now_.back();
                 now_.pop_back();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of all discs by their ids, for programs that work on arrays. Threads fill them without a
 // sort, because each disc's place is its id.
+#include <bit>
+#include <cstdint>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "library/live_part.hpp"
@@ -15,6 +19,52 @@ void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
     if (size != wanted)
         throw InputError(
             {{call, 0, fmt::format("has room for {} numbers; it wants {}", size, wanted)}});
+}
+
+/// Whether a place may be outside of [0, period), which is any length where there is no period.
+/// One comparison does, because the bits of numbers from 0 on have their order, and those of
+/// negative ones are larger.
+bool may_be_outside(double place, double period) {
+    const double end = period == 0 ? std::numeric_limits<double>::infinity() : period;
+    return std::bit_cast<std::uint64_t>(place) >= std::bit_cast<std::uint64_t>(end);
+}
+
+/// Not inlined, so that the loop over all discs is short.
+template <class Put>
+[[gnu::noinline]] void put_from_outside(const Frame& frame, const DiscState& stored, double time,
+                                        const Put& put) {
+    const DiscState disc = frame.in_box(stored, time);
+    put(disc.id, disc.x, disc.y);
+}
+
+/// Calls `put(id, x, y)` for each of the own discs, at its place in the box, on all threads. It may
+/// be called twice for a disc. Few discs have flown out of a periodic box since the last sync.
+template <class Put> void for_each_place(const Run& run, const Put& put) {
+    const DiscSystem& system = run.system();
+    const std::span<const DiscState> discs = system.discs();
+    const Frame frame = system.frame();
+    const double time = system.clock();
+    const auto n = static_cast<std::int64_t>(discs.size());
+#pragma omp parallel num_threads(run.n_threads())
+    if (frame.is_moving) {
+        const double x_period = frame.periods.x, y_period = frame.periods.y;
+        const double x_moved = frame.x, y_moved = frame.y;
+#pragma omp for schedule(static)
+        for (std::int64_t i = 0; i < n; ++i) {
+            const DiscState& disc = discs[static_cast<std::size_t>(i)];
+            const double x = disc.x_at(time) + x_moved, y = disc.y_at(time) + y_moved;
+            put(disc.id, x, y);
+            if (may_be_outside(x, x_period) || may_be_outside(y, y_period) || disc.has_departed())
+                [[unlikely]]
+                put_from_outside(frame, disc, time, put);
+        }
+    } else {
+#pragma omp for schedule(static)
+        for (std::int64_t i = 0; i < n; ++i) {
+            const DiscState& disc = discs[static_cast<std::size_t>(i)];
+            put(disc.id, disc.x_at(time), disc.y_at(time));
+        }
+    }
 }
 
 /// Calls `put(disc, i)` for each own disc, the i-th as the box sees it, on all threads.
@@ -36,9 +86,9 @@ template <class Put> void for_each_shown(const Run& run, const Put& put) {
 void Simulation::read_positions(std::span<double> xy) const {
     check_size("read_positions", xy.size(), 2 * scene().n_discs);
     const Origin& origin = live().run().scene().origin;
-    for_each_shown(live().run(), [&](const DiscState& disc, std::size_t) {
-        xy[2 * disc.id] = disc.x - origin.x;
-        xy[2 * disc.id + 1] = disc.y - origin.y;
+    for_each_place(live().run(), [&](DiscId id, double x, double y) {
+        xy[2 * id] = x - origin.x;
+        xy[2 * id + 1] = y - origin.y;
     });
 }
 

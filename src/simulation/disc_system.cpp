@@ -97,7 +97,7 @@ double heaviest_of(const SceneParameters& scene) {
 }
 
 /// Whether nothing can change the kinetic energy. Otherwise averages need more samples, each of
-/// which ends a window, which in a slow gas costs as much as ten steps.
+/// which ends the windows of several blocks, which in a slow gas costs as much as ten steps.
 bool keep_energy_of_motion(Effects effects) {
     effects.species.clear();
     if (effects.contact.kind == ContactKind::none) effects.contact = {};

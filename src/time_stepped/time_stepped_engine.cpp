@@ -44,32 +44,50 @@ TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const SceneParameters& scene, Sto
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_to(std::int64_t target) {
-    while (n_micro_done_ < target) run_window(static_cast<int>(target - n_micro_done_));
+    const auto left = [this](std::int64_t last) { return static_cast<int>(last - n_micro_done_); };
+    const std::int64_t horizon = this->horizon_of(target);
+    while (n_micro_done_ < target) run_window(left(target), left(horizon));
 }
 
-/// Runs one window of at most `n_left` micro-steps, or until discs are too fast for it.
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_left) {
-    const Window window = redistribute(n_left);
-    {
-        const PhaseClock::Scope scope(phases_, Phase::search);
-        search_.predict_all(population(), discs_.grid(), window,
-                            reach_of(usual_needs(), window.duration(), usual_speed_));
-    }
-    int m = window.first_micro;
-    while (m < window.end_micro() && run_micro_step(window, m)) ++m;
-    speed_allowance_ = m < window.end_micro()
-                           ? allowance_after_cut
-                           : std::max(least_allowance, (1 + speed_allowance_) / 2);
-    ++n_windows_;
-    if (window.is_part()) {
-        if (++part_ < n_parts_) return;
-        discs_.all().swap(outcomes_);
-        outcomes_.clear();
-        in_parts_ = false;
-        part_ = 0;
-    }
-    n_micro_done_ += m - window.first_micro;
+/// Runs at most `n_left` micro-steps of a window, or until discs are too fast for it. The window
+/// has at most `n_to_horizon` of them.
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::run_window(int n_left, int n_to_horizon) {
+    if (std::exchange(this->is_in_window_, false))
+        discs_.restore_images();
+    else
+        begin_window(n_to_horizon);
+    const int begin = static_cast<int>(time_), end = window_.end_micro(),
+              stop = std::min(end, begin + n_left);
+    int m = begin;
+    while (m < stop && run_micro_step(window_, m)) ++m;
+    this->is_in_window_ = m == stop && m < end;
+    if (this->is_in_window_)
+        discs_.set_images_aside();
+    else
+        end_window(m < end);
+    if (in_parts_) return;
+    n_micro_done_ += m - begin;
     time_ = m;
+}
+
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::begin_window(int n_left) {
+    window_ = redistribute(n_left);
+    const PhaseClock::Scope scope(phases_, Phase::search);
+    search_.predict_all(population(), discs_.grid(), window_,
+                        reach_of(usual_needs(), window_.duration(), usual_speed_));
+}
+
+/// After the last part of a micro-step its results become the states.
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::end_window(bool is_cut) {
+    speed_allowance_ = is_cut ? allowance_after_cut
+                              : std::max(least_allowance, (1 + speed_allowance_) / 2);
+    ++n_windows_;
+    if (!window_.is_part() || ++part_ < n_parts_) return;
+    discs_.all().swap(outcomes_);
+    outcomes_.clear();
+    in_parts_ = false;
+    part_ = 0;
 }
 
 /// Chooses a window. Brings every disc to its strip, the halo to every strip, and all

@@ -45,8 +45,14 @@ private:
     void migrate() override;
     void finish_sync(double largest_speed) override;
     void take_speed(double largest_speed) override;
+    void leave_window() override {
+        Base::leave_window();
+        end_window(false);
+    }
 
-    void run_window(int n_left);
+    void run_window(int n_left, int n_to_horizon);
+    void begin_window(int n_left);
+    void end_window(bool is_cut);
     Window redistribute(int n_left);
     Window choose(int n_left);
     WindowNeeds window_needs() const;
@@ -79,7 +85,8 @@ private:
     void note_velocities(std::span<const DiscState> results);
     void log_collisions(std::span<const DiscState> results, int m);
 
-    DiscStates outcomes_;   ///< new states of discs_.all() while a micro-step is divided into parts
+    DiscStates outcomes_; ///< new states of discs_.all() while a micro-step is divided into parts
+    Window window_;
     bool in_parts_ = false; ///< whether the present micro-step is divided
     /// The next part of the present micro-step, and the number of parts
     int part_ = 0, n_parts_ = 1;

@@ -236,7 +236,9 @@ void block_run(benchmark::State& state) {
                              .n_own = gas.discs.size(),
                              .grid = &grid,
                              .own_cells = all_cells,
-                             .window = window};
+                             .window = window,
+                             .since = window.begin,
+                             .stop = window.end};
     for (auto _ : state) {
         block_run.run(ground, all_cells, 0, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);

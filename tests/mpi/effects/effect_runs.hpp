@@ -16,7 +16,8 @@ DiscSystem system_of(const TestScene& scene, Method method, const Communicator& 
 Totals run(const TestScene& scene, Method method, const Communicator& world,
            const Tuning& tuning = {});
 
-/// As `run`, but half way another simulation goes on from the state. **Collective.**
+/// As `run`, but it stops after each step, and half way another simulation goes on from the state.
+/// **Collective.**
 Totals run_with_restart(const TestScene& scene, Method method, const Communicator& world);
 
 /// Checks that a run of the scene on all ranks keeps the invariants of each step, and ends with the

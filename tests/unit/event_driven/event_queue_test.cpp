@@ -79,7 +79,7 @@ TEST_CASE("events come out in the total order, stale ones never") {
         };
         for (int k = 0; k < 20000; ++k) add(predictions.draw(0, 0x1p-12, 4097));
         std::size_t n_happened = 0;
-        for (Event first; queue.pop(first, before, is_current); ++n_happened) {
+        for (Event first; queue.pop(first, 1e300, before, is_current); ++n_happened) {
             std::erase_if(all, [&](const Event& event) { return !is_current(event); });
             const auto least = std::min_element(all.begin(), all.end(), before);
             REQUIRE(least != all.end());
@@ -101,7 +101,8 @@ TEST_CASE("millions of predictions that go stale take the memory of those that d
     queue.restart(0, 1, 10);
     int n_happened = 0;
     queue.push(predictions.draw(0, 0, 1), before);
-    for (Event first; n_happened < 500'000 && queue.pop(first, before, is_current); ++n_happened) {
+    for (Event first; n_happened < 500'000 && queue.pop(first, 1e300, before, is_current);
+         ++n_happened) {
         predictions.happen(first);
         // One soon, as of two discs without room, others later in the same bucket and in later
         // ones.

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the next window of the event-driven engine is: how long, for which speeds, and whether one
+// run of the whole box serves. Also whether growing discs jam in it.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/jammed.hpp"
+#include "engine/speed_survey.hpp"
+#include "engine/window_choice.hpp"
+#include "event_driven/event_driven_engine.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
+/// as fast from a thin gas to the densest liquid.
+constexpr double jam_heating = 64;
+/// Up to this many discs a single block without a halo is fastest on one thread.
+constexpr double most_discs_alone = 30000;
+
+} // namespace
+
+template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double target) {
+    const PhaseClock::Scope scope(phases_, Phase::wait);
+    BlockWindow window;
+    window.begin = time_;
+    window.holds_begin = time_ == 0;
+    window.speed_bound = speed_bound_until(target);
+    this->refuse_long_flights(window.speed_bound);
+    is_alone_ = can_run_alone();
+    if (n_windows_ > 0) take_crowding(reduced_.counts.crowding);
+    const BlockNeeds needs = block_needs(window.speed_bound);
+    double longest = target - time_;
+    if constexpr (Dynamics::is_periodic)
+        longest = std::min(longest, longest_in_period(discs_.periods(), window.speed_bound));
+    const PlannedWindow planned = policy_.plan(needs, collision_rate(needs), longest, target);
+    choice_ = planned.choice;
+    window.end = planned.end;
+    return window;
+}
+
+/// The largest speed at the window's start. After a window, its validation has found that for all
+/// ranks. **Collective.**
+template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() const {
+    return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
+}
+
+/// Speeds in the falling frame grow, also those of discs at rest on a floor. **Collective.**
+template <class Dynamics>
+double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
+    const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -
+                          dynamics_.speed_gained_at(time_);
+    return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
+}
+
+/// Of growing discs. The interval's first speed is 0 otherwise. **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::note_first_speed() {
+    const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
+    if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
+    first_speed_ = std::max(largest_of_all(), dynamics_.diameter() * per_micro_step);
+}
+
+/// Whether discs have grown into a jam: they become ever faster and collide ever more often, so
+/// that the step would never end. All speeds of the window count, not only those at its end, so
+/// that every cut into windows and blocks gives the same answer.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
+    if (first_speed_ == 0) return false;
+    return std::ranges::any_of(blocks_, [&](const Block& block) {
+        return block.outcome.largest_speed > jam_heating * first_speed_;
+    });
+}
+
+/// Ends the run. The message names the place up to which all is well, and not what has shown the
+/// jam, because that depends on windows and threads. **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
+    const double safe = jam_watch_.safe_until();
+    const double growth = dynamics_.growth_at(safe - static_cast<double>(this->last_sync()));
+    throw Jammed(fmt::format("discs jam after step {:.6g}, at a packing fraction of {:.5g} (radii "
+                             "{:.6g} times the first): they collide ever more often, because they "
+                             "have no room to grow further",
+                             safe / static_cast<double>(this->micro_steps_),
+                             first_packing_ * growth * growth, growth),
+                 static_cast<std::int64_t>(safe));
+}
+
+/// Whether one run of the whole box serves.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
+    const auto n = static_cast<double>(discs_.n_total());
+    const bool is_few = tuning_.threads == 1 ||
+                        n < 2 * static_cast<double>(tuning_.discs_per_thread);
+    return communicator_.size() == 1 && is_few && n <= most_discs_alone && !block_tuning_.halo &&
+           !block_tuning_.block_side && !block_tuning_.cuts_by_work;
+}
+
+/// The numbers for the choice of the next window that are not learned from windows.
+template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
+    BlockNeeds needs;
+    needs.box = dynamics_.box();
+    needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
+    needs.equivalent_radius = equivalent_radius(levels_) * dynamics_.growth_at(time_) +
+                              dynamics_.slack();
+    needs.n_discs = static_cast<double>(discs_.n_total());
+    needs.speed_bound = speed_bound;
+    needs.time = time_;
+    needs.is_one_block = is_alone_;
+    needs.goes_round_x = discs_.periods().x != 0;
+    needs.goes_round_y = discs_.periods().y != 0;
+    needs.crowding = is_alone_ ? 1 : mean_crowding_; // a run of the whole box measures none
+    return needs;
+}
+
+/// Collisions per disc and time in the last window, or a guess for the first one. **Collective.**
+template <class Dynamics>
+double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
+    if (n_windows_ > 0)
+        return static_cast<double>(n_events_in_window_) /
+               (std::max(needs.n_discs, 1.0) * policy_.last_duration());
+    const double largest = communicator_.max(largest_speed_);
+    if (!(largest > 0)) return 0;
+    return guessed_collision_rate(
+        needs, survey_speeds(discs_.own(), largest, communicator_, tuning_.threads).mean());
+}
+
+/// Makes the window shorter, because a disc was faster than the bound. **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
+    double fastest = 0;
+    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
+    window_ = shortened(window_, communicator_.max(fastest) * policy_.speed_allowance(),
+                        dynamics_.diameter());
+}
+
+// These members are called from event_driven_engine.cpp, where the class itself is compiled.
+#define CARROM_DEFINE(Dynamics)                                                                    \
+    template BlockWindow EventDrivenEngine<Dynamics>::choose(double);                              \
+    template void EventDrivenEngine<Dynamics>::note_first_speed();                                 \
+    template bool EventDrivenEngine<Dynamics>::are_jammed() const;                                 \
+    template void EventDrivenEngine<Dynamics>::refuse_jam() const;                                 \
+    template bool EventDrivenEngine<Dynamics>::can_run_alone() const;                              \
+    template void EventDrivenEngine<Dynamics>::shorten();
+CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
+#undef CARROM_DEFINE
+
+} // namespace carrom

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps a scene on one thread, in one call or with a look at all positions after every few steps,
+// as a program does that analyses a run while it goes on. look_costs.py counts the instructions
+// below `step_and_look`.
+//
+//   look_costs SCENE STEPS EVERY [KEY=VALUE ...]    EVERY: steps from look to look; 0: no look
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <carrom/carrom.hpp>
+
+using namespace carrom;
+
+namespace {
+
+constexpr std::int64_t steps_before = 64; ///< after these the gas is even, and its rate is known
+
+void step_to(Simulation& simulation, std::int64_t last, std::int64_t every,
+             std::vector<double>& xy) {
+    while (every > 0 && simulation.step() < last) {
+        simulation.advance(std::min(every, last - simulation.step()));
+        simulation.read_positions(xy);
+    }
+    simulation.advance_to(last);
+}
+
+} // namespace
+
+/// What is counted. Not inlined, so that it has a name.
+[[gnu::noinline]] void step_and_look(Simulation& simulation, std::int64_t last, std::int64_t every,
+                                     std::vector<double>& xy) {
+    step_to(simulation, last, every, xy);
+}
+
+int main(int argc, char** argv) {
+    const Session session;
+    return session.run([&] {
+        if (argc < 4)
+            throw InputError(
+                {{"look_costs", 0, "needs a scene, steps, and steps from look to look"}});
+        Scene scene = Scene::from_file(session, argv[1]);
+        const std::int64_t last = steps_before + std::atoll(argv[2]), every = std::atoll(argv[3]);
+        scene.set("time.steps", 2 * last); // steps do not end where looks do
+        for (int k = 4; k < argc; ++k) {
+            const std::string setting = argv[k];
+            const std::size_t sign = setting.find('=');
+            scene.set(setting.substr(0, sign), std::string_view(setting).substr(sign + 1));
+        }
+        Simulation simulation(session, scene, {.threads = 1});
+        std::vector<double> xy(2 * simulation.scene().n_discs);
+        step_to(simulation, steps_before, every, xy);
+        const Totals before = simulation.totals();
+        step_and_look(simulation, last, every, xy);
+        const Totals after = simulation.totals();
+        const double rate = 2 *
+                            static_cast<double>(after.pair_collisions - before.pair_collisions) /
+                            static_cast<double>(simulation.scene().n_discs) /
+                            static_cast<double>(last - steps_before);
+        std::printf("%s %.4f\n", to_string(after.hash).c_str(), rate);
+        return 0;
+    });
+}

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Count what a look at all positions after each step costs beside one call for all steps.
+
+  tests/performance/look_costs.py LOOK_COSTS             code 1 if a slow gas of 4000 discs takes
+                                                         over 30 % more
+  tests/performance/look_costs.py LOOK_COSTS --table     gases of many packings and speeds, at 1e4
+                                                         discs: some ten minutes
+
+valgrind counts (callgrind, without its cache model) what happens below `step_and_look` of the
+program look_costs: 64 steps on one thread, after 64 others, with the averages that every run takes.
+With fewer discs, what a call costs whatever their number counts more.
+Without valgrind the test is left out, with code 77.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from typing import NamedTuple
+
+STEPS, MOST = 64, 1.3
+SIDES = ("left", "right", "bottom", "top")
+METHODS = ("event-driven", "time-stepped")
+
+
+class Counted(NamedTuple):
+    """What one run has shown."""
+
+    state_hash: str
+    rate: float  # collisions of a disc in a step
+    instructions: float  # for each disc and step
+
+
+def scene_of(count: int, packing: float, speed: float, is_periodic: bool) -> str:
+    """Return the scene in lengths of about a radius, at any packing."""
+    size = (3.14159 * count / packing) ** 0.5
+    sides = "".join(f'{side}.kind = "periodic"\n' for side in SIDES) if is_periodic else ""
+    return (
+        f"[box]\nsize = {size:.6g}\n{sides}[discs]\ncount = {count}\npacking = {packing}\n"
+        f"speed = {speed}\nseed = 3210\n[time]\nsteps = 1\n"
+    )
+
+
+def counted(program: str, scene: str, method: str, every: int) -> Counted:
+    """Return what a run with a look after each `every` steps takes; 0: with no look."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(scene)
+        words = [program, path, str(STEPS), str(every), f"time.method={method}"]
+        run = subprocess.run(
+            [
+                "valgrind",
+                "--tool=callgrind",
+                f"--callgrind-out-file={folder}/out",
+                "--collect-atstart=no",
+                "--toggle-collect=step_and_look*",
+                *words,
+            ],
+            env={**os.environ, "OMP_NUM_THREADS": "1", "GOMP_SPINCOUNT": "0"},
+            capture_output=True,
+            text=True,
+            timeout=600,
+            check=False,
+        )
+    found = re.search(r"Collected : (\d+)", run.stderr)
+    if run.returncode != 0 or not found:
+        sys.exit(f"{' '.join(words)} failed:\n{run.stderr}")
+    state_hash, rate = run.stdout.split()
+    count = int(re.search(r"count = (\d+)", scene).group(1))
+    return Counted(state_hash, float(rate), int(found.group(1)) / STEPS / count)
+
+
+def compare(program: str, scene: str, method: str) -> float:
+    """Print and return the ratio of both runs, which must have the same state."""
+    once, each = (counted(program, scene, method, every) for every in (0, 1))
+    ratio = each.instructions / once.instructions
+    print(
+        f"{method}: {once.rate:.3g} collisions a disc and step; {once.instructions:.0f} "
+        f"instructions in one call, {each.instructions:.0f} with a look at each step: {ratio:.2f}"
+    )
+    if once.state_hash != each.state_hash:
+        sys.exit("the two runs have different states")
+    return ratio
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", metavar="LOOK_COSTS")
+    parser.add_argument("--table", action="store_true")
+    options = parser.parse_args()
+    if not shutil.which("valgrind"):
+        print("left out: there is no valgrind")
+        return 77
+    if not options.table:
+        ratios = []
+        for is_periodic in (False, True):
+            print("periodic sides" if is_periodic else "walls")
+            scene = scene_of(4000, 0.3, 0.1, is_periodic)
+            ratios += [compare(options.program, scene, method) for method in METHODS]
+        return int(max(ratios) > MOST)
+    for is_periodic in (False, True):
+        for packing in (0.05, 0.3, 0.6):
+            for speed in (0.03, 0.1, 0.3, 1):
+                sides = "periodic sides" if is_periodic else "walls"
+                print(f"{sides}, packing {packing}, speed {speed}")
+                for method in METHODS:
+                    compare(
+                        options.program, scene_of(10_000, packing, speed, is_periodic), method
+                    )
+    return 0
+
+
+sys.exit(main())
