@@ -367,8 +367,9 @@ EffectDeclaration swap() {
             },
             .at_end =
                 [](std::span<const std::int64_t> kept) {
-                    return EndNumber{"swaps", "swaps", "pairs of discs have exchanged their radii",
-                                     kept.empty() ? 0 : static_cast<std::uint64_t>(kept[0])};
+                    return std::vector<EndNumber>{
+                        {"swaps", "swaps", "pairs of discs have exchanged their radii",
+                         kept.empty() ? 0 : static_cast<std::uint64_t>(kept[0])}};
                 }};
 }
 

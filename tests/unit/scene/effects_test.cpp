@@ -118,7 +118,7 @@ TEST_CASE("obstacles are read, each wrong one is named") {
     CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}),
               "no meaning without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a "
               "'box.shape'"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=lattice"}),
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=triangular"}),
               "know nothing of obstacles"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving",
                              "box.top.speed=1", "time.method=event-driven"}),
