@@ -107,7 +107,7 @@ private:
     void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
     /// Records a disc whose new place belongs to another thread, or whose disc has already left the
     /// ring buffer.
-    void note_traveller(Carrier& carrier, std::uint32_t place) const {
+    void record_traveller(Carrier& carrier, std::uint32_t place) const {
         if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
     }
     void set_travellers_aside(std::span<const DiscState> discs, SortMemory memory);

@@ -11,7 +11,7 @@ namespace carrom {
 
 /// Prefetches consecutive numbers, further ahead than the processor does by itself. Prefetching
 /// beyond the last number is harmless.
-inline void ask_ahead(const DiscState& disc) {
+inline void prefetch(const DiscState& disc) {
     constexpr std::uintptr_t ahead = 32 * sizeof(DiscState);
     __builtin_prefetch(
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
@@ -26,7 +26,7 @@ void DiscSorter::order_alone(std::span<const DiscState> discs, const CellOf& fin
     std::uint32_t* next = cell_start.data() + 1; // for each cell the number of its discs, later the
                                                  // place of its next disc
     for (std::size_t i = 0; i < discs.size(); ++i) {
-        ask_ahead(discs[i]);
+        prefetch(discs[i]);
         const std::uint32_t cell = find_cell(discs[i]);
         cell_of.set(i, cell);
         ++next[cell];
@@ -40,7 +40,7 @@ void DiscSorter::order_alone(std::span<const DiscState> discs, const CellOf& fin
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const std::uint32_t place = next[cell_of[i]]++;
         order.set(place, static_cast<std::uint32_t>(i));
-        if (i + n_passed_ <= place) note_traveller(carriers_[0], place);
+        if (i + n_passed_ <= place) record_traveller(carriers_[0], place);
     }
 }
 
@@ -55,7 +55,7 @@ void DiscSorter::find_cells(std::span<const DiscState> discs, const CellOf& find
         Sorter& sorter = sorters_[k];
         std::uint32_t first = ~std::uint32_t{0}, last = 0;
         for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
-            ask_ahead(discs[i]);
+            prefetch(discs[i]);
             const std::uint32_t cell = find_cell(discs[i]);
             cell_of.set(i, cell);
             first = std::min(first, cell);
@@ -98,7 +98,7 @@ void DiscSorter::order_together(std::span<const DiscState> discs, const CellOf& 
             order.set(place, static_cast<std::uint32_t>(i));
             const bool is_near = place >= sorter.first_disc && place < sorter.end_disc &&
                                  place < i + n_passed_;
-            if (!is_near && !are_in_disorder_) note_traveller(carriers_[k], place);
+            if (!is_near && !are_in_disorder_) record_traveller(carriers_[k], place);
         }
     }
     cell_start.back() = static_cast<std::uint32_t>(discs.size());

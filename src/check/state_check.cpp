@@ -113,7 +113,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
-    note_speeds();
+    record_speeds();
     if (were_rewritten()) // because they have flown straight since the sync
         for (Known& known : known_)
             known.free_from = std::max(known.free_from,
@@ -122,7 +122,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     fail_if_found(first_out_of_place(now), log);
     fail_if_found(first_in_obstacle(now), log);
     fail_if_found(first_wrong_count(), log);
-    fail_if_found(first_other_motion(), log);
+    fail_if_found(find_velocity_change(), log);
     fail_if_found(first_overlap(now), log);
     fail_if_found(first_other_energy(own, log), log);
 }
@@ -151,7 +151,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
                           scene_.effects.periods(scene_.box), communicator_)) {
             discs.push_back(each.disc);
             if (effects_.have_spins()) spins.push_back(each.spin);
-            if (effects_.swap.is_any()) radii.push_back(species_.of(each.disc.id).radius);
+            if (effects_.swap.is_on()) radii.push_back(species_.of(each.disc.id).radius);
         }
     const std::string body = first.invariant == Invariant::clear
                                  ? obstacles_->name_of(static_cast<std::uint32_t>(first.partner))
@@ -176,7 +176,7 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
         DiscState disc = known.disc;
-        const double radius = species_.of(disc.id).radius * growth_at(micro_steps_before_);
+        const double radius = species_.of(disc.id).radius * size_at(micro_steps_before_);
         StableArithmetic::advance(disc, clock);
         periods.wrap(disc, clock);
         if (periods.x == 0)
@@ -278,7 +278,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
         const DiscState& disc = now.population.discs[i];
         const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
         const DiscState seen = now.frame.in_box(disc, now.time);
-        const double radius = species_.of(disc.id).radius * growth_at(micro_steps_done_);
+        const double radius = species_.of(disc.id).radius * size_at(micro_steps_done_);
         // In a periodic box the image's centre is in the box.
         const double outside = std::max(
             now.periods.x != 0 ? beyond(0, x, now.periods.x)

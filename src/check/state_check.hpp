@@ -92,7 +92,7 @@ private:
     Finding first_out_of_place(const LocalView& now) const;
     Finding first_in_obstacle(const LocalView& now) const;
     Finding first_wrong_count() const;
-    Finding first_other_motion() const;
+    Finding find_velocity_change() const;
     static void keep_lowest(Finding& first, const Suspect& s);
     Finding first_overlap(const LocalView& now) const;
     Finding first_unexplained(std::vector<Suspect> suspects) const;
@@ -104,11 +104,11 @@ private:
     double twice_energy(const DiscState& seen, double spin) const;
     double mass_of(DiscId id) const { return species_.of(id).mass; }
     double diameter_of(const DiscState& p, const DiscState& q) const {
-        return growth_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);
+        return size_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);
     }
-    double growth_at(std::int64_t micro_step) const {
+    double size_at(std::int64_t micro_step) const {
         const double size = micro_step == micro_steps_done_ ? size_ : size_before_;
-        return size * effects_.growth_at(static_cast<double>(micro_step));
+        return size * effects_.size_at(static_cast<double>(micro_step));
     }
     double work_of(const Collision& collision) const;
     double resting_gain(const Known& known) const;
@@ -133,7 +133,7 @@ private:
                (n_syncs_since(micro_steps_before_) > 0 ||
                 (acts_before_flights_ && micro_steps_before_ % scene_.sync_every == 0));
     }
-    void note_speeds();
+    void record_speeds();
     bool may_have_met_seam(std::size_t i) const;
 
     int slab_of_disc(DiscId id) const;

@@ -11,7 +11,7 @@
 #include "check/shared_energy.hpp"
 #include "check/state_check.hpp"
 #include "dynamics/contact_guard.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "engine/state_sums.hpp"
 #include "parallel/exchange.hpp"
 
@@ -26,12 +26,12 @@ constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 } // namespace
 
-Finding StateCheck::first_other_motion() const {
+Finding StateCheck::find_velocity_change() const {
     if (were_rewritten()) return {};
     const bool is_free = effects_.are_flights_free(); // no effect changes velocities in this case
     const FallingFrame flight(effects_);
     const double time = flight.clock_at(stretch()), left = flight.slowing_at(time);
-    const Gravity& pull = flight.acceleration();
+    const Acceleration& pull = flight.acceleration();
     const double gained = pull.largest() * (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
@@ -177,7 +177,7 @@ double StateCheck::work_of(const Collision& collision) const {
 
 /// Updates bounds of speeds if effects make discs faster, and the motion of the frame by gravity
 /// that changes. **Collective.**
-void StateCheck::note_speeds() {
+void StateCheck::record_speeds() {
     if (!scene_.effects.are_any()) return;
     swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
                             static_cast<double>(micro_steps_done_));
@@ -247,7 +247,7 @@ double StateCheck::energy_of_way(std::size_t i) const {
 
 /// A disc that is pulled to a wall leaves it with a least speed (ContactGuard::least_departure).
 double StateCheck::resting_gain(const Known& known) const {
-    const Gravity g = effects_.acceleration();
+    const Acceleration g = effects_.acceleration();
     const double pull = std::max(g.largest_x(), g.largest_y());
     const SizeAndMass& body = species_.of(known.disc.id);
     const double leaving =
@@ -266,7 +266,7 @@ double StateCheck::work_of_walls(const Known& known) const {
 /// The speed of walls that swing, and of all walls in a frame that falls from the last
 /// inspection on.
 double StateCheck::speed_of_walls() const {
-    const Gravity g = effects_.acceleration();
+    const Acceleration g = effects_.acceleration();
     if (!g.sways()) return wall_speed_;
     const double amplitude = std::hypot(g.amplitude_x, g.amplitude_y);
     return wall_speed_ + amplitude * std::min(stretch(), g.period / std::numbers::pi);

@@ -7,7 +7,7 @@ namespace carrom {
 
 namespace stop_request {
 
-std::atomic<std::int64_t> asked_at = 0;
+std::atomic<std::int64_t> requested_at = 0;
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "handlers of signals write it");
 
 namespace {
@@ -21,13 +21,13 @@ std::int64_t now() {
 
 } // namespace
 
-bool has_patience_ended() { return now() - asked_at > patience; }
+bool has_patience_ended() { return now() - requested_at > patience; }
 
 } // namespace stop_request
 
 void request_stop() {
     std::int64_t never = 0;
-    stop_request::asked_at.compare_exchange_strong(never, stop_request::now());
+    stop_request::requested_at.compare_exchange_strong(never, stop_request::now());
 }
 
 void set_stop_patience(double seconds) {

@@ -16,7 +16,7 @@ namespace carrom {
 
 namespace stop_request {
 /// Time of the request in nanoseconds of the steady clock; 0: none
-extern std::atomic<std::int64_t> asked_at;
+extern std::atomic<std::int64_t> requested_at;
 bool has_patience_ended();
 } // namespace stop_request
 
@@ -24,7 +24,7 @@ bool has_patience_ended();
 void request_stop();
 
 inline bool is_stop_requested() {
-    return stop_request::asked_at.load(std::memory_order_relaxed) != 0;
+    return stop_request::requested_at.load(std::memory_order_relaxed) != 0;
 }
 
 /// Whether the request is older than the patience, so that the present step should be abandoned.

@@ -209,7 +209,7 @@ private:
         redistributed_domains_; ///< the present cuts, and the cuts at the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false; ///< the grid has the own discs' places
+    bool is_sorted_ = false;                              ///< the grid has the own discs' places
     std::vector<std::pair<LocalIndex, Image>> displaced_; ///< own discs with an image, and these
     bool are_displaced_listed_ = false;                   ///< since the last migration
     bool has_images_ = false; ///< own discs had their images in the box when they were sorted

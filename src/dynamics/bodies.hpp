@@ -29,7 +29,7 @@ namespace carrom {
 /// A disc as a side of the box needs it, at a given time.
 struct Body {
     double radius = 0, mass = 1;
-    double growth = 0; ///< how fast the surface moves out
+    double outwards = 0; ///< how fast the surface moves out
 };
 
 template <class B>
@@ -52,7 +52,7 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;
                      // the factor by which radii have grown
-                     { bodies.growth_at(time) } -> std::convertible_to<double>;
+                     { bodies.size_at(time) } -> std::convertible_to<double>;
                      // time from `time` until the discs touch (pair_contact.hpp)
                      { bodies.delay(by, p, p, met, time, time) } -> std::same_as<double>;
                      // velocity of the touching surfaces relative to each other
@@ -74,7 +74,7 @@ public:
     CARROM_DEVICE Body at(const DiscState& /*disc*/, double /*time*/) const {
         return {radius_, 1, 0};
     }
-    CARROM_DEVICE static constexpr double growth_at(double /*time*/) { return 1; }
+    CARROM_DEVICE static constexpr double size_at(double /*time*/) { return 1; }
     template <class Arithmetic, class State, class Real>
     [[gnu::always_inline]] CARROM_DEVICE Real delay(const Arithmetic& arithmetic,
                                                     const State& /*p*/, const State& /*q*/,
@@ -110,7 +110,7 @@ public:
         const SizeAndMass& it = species_.of(disc.id);
         return {it.radius, it.mass, 0};
     }
-    CARROM_DEVICE static constexpr double growth_at(double /*time*/) { return 1; }
+    CARROM_DEVICE static constexpr double size_at(double /*time*/) { return 1; }
     /// The sum of two radii does not depend on their order.
     [[gnu::always_inline]] CARROM_DEVICE double delay(const StableArithmetic& arithmetic,
                                                       const DiscState& p, const DiscState& q,
@@ -151,22 +151,21 @@ public:
     }
     CARROM_DEVICE Body at(const DiscState& disc, double time) const {
         const SizeAndMass& it = species_.of(disc.id);
-        return {it.radius * growth_at(time), it.mass, it.radius * rate_};
+        return {it.radius * size_at(time), it.mass, it.radius * rate_};
     }
-    CARROM_DEVICE double growth_at(double time) const { return at_sync_ + rate_ * time; }
+    CARROM_DEVICE double size_at(double time) const { return at_sync_ + rate_ * time; }
     [[gnu::always_inline]] CARROM_DEVICE double delay(const StableArithmetic& /*arithmetic*/,
                                                       const DiscState& p, const DiscState& q,
                                                       const Encounter<double>& met, double time,
                                                       double deepest_overlap) const {
-        const double size = growth_at(time);
+        const double size = size_at(time);
         return growing_contact_delay(met.ex, met.ey, met.wx, met.wy,
                                      (of(p).radius + of(q).radius) * size, rate_ / size,
                                      deepest_overlap);
     }
     CARROM_DEVICE Encounter<double> surfaces(const Encounter<double>& met, double time) const {
-        const double growth = rate_ / growth_at(time);
-        return {met.ex, met.ey, std::fma(-growth, met.ex, met.wx),
-                std::fma(-growth, met.ey, met.wy)};
+        const double rate = rate_ / size_at(time);
+        return {met.ex, met.ey, std::fma(-rate, met.ex, met.wx), std::fma(-rate, met.ey, met.wy)};
     }
 
 private:

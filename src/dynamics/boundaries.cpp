@@ -26,15 +26,15 @@ double rest_time_at(const Boundary& side, const ContactGuard& guard, double grav
 Boundaries::Boundaries(const Box& box, double radius, const Effects& effects)
     : sides_(effects.boundaries), guard_(effects, radius), drag_(effects.drag),
       thermal_seed_(effects.thermal_seed), box_(box), radius_(radius),
-      gravity_{effects.acceleration().x, effects.acceleration().y},
+      pull_{effects.acceleration().x, effects.acceleration().y},
       sways_{effects.acceleration().amplitude_x, effects.acceleration().amplitude_y},
       fall_(effects) {
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
         if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;
-        oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side),
-                                          gravity_[side / 2], 8 * 0x1p-52 * box.longest());
-        rest_times_[side] = rest_time_at(sides_[side], guard_, gravity_[side / 2], sways_[side / 2],
+        oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side), pull_[side / 2],
+                                          8 * 0x1p-52 * box.longest());
+        rest_times_[side] = rest_time_at(sides_[side], guard_, pull_[side / 2], sways_[side / 2],
                                          effects.acceleration().period, radius);
         rubbing_[side] = Rubbing(effects.boundaries[side].surface, effects.contact);
     }
@@ -53,7 +53,7 @@ void Boundaries::begin_interval(std::int64_t n) {
 Extent Boundaries::extent_at(double time) const {
     Extent box = extent_of_lines(time);
     const auto move = [&](std::size_t side, double& line) {
-        if (oscillations_[side].is_any()) line += oscillations_[side].at(time).place;
+        if (oscillations_[side].is_on()) line += oscillations_[side].at(time).place;
     };
     move(0, box.x_low);
     move(1, box.x_high);
@@ -109,7 +109,7 @@ double Boundaries::delay_to(const DiscState& disc, std::size_t side, const Body&
     if (sways_along(side)) [[unlikely]] // no side oscillates in this case
         return fall_.sway().contact_delay(side / 2, sign_of(side), line.distance, line.rate,
                                           line.pull, disc.tau);
-    if (!oscillations_[side].is_any()) [[likely]]
+    if (!oscillations_[side].is_on()) [[likely]]
         return delay_of(line, disc.tau);
     const double from_wall = sign_of(side) *
                              (velocity_of(disc, side / 2) - oscillating_velocity(side, disc.tau));
@@ -133,7 +133,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
     for (std::size_t side = 0; side < 4; ++side) {
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
-        const bool oscillates = oscillations_[side].is_any();
+        const bool oscillates = oscillations_[side].is_on();
         // From the wall's highest position, where the wall may be soon
         if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
@@ -191,15 +191,15 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
                          const Body& body, double* spin) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
     double& along = side / 2 == 0 ? disc.vy : disc.vx;
-    const bool oscillates = oscillations_[side].is_any();
+    const bool oscillates = oscillations_[side].is_on();
     const double sign = sign_of(side),
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
-    const auto& [radius, mass, growth] = body;
+    const auto& [radius, mass, outwards] = body;
     // As in a bounce from a wall that moves in as fast as the disc grows.
-    const double closing = std::fabs(sign * (wall - normal) + growth),
+    const double closing = std::fabs(sign * (wall - normal) + outwards),
                  restitution = sides_[side].restitution;
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
-    double away = growth + (is_guarded ? 1 : restitution) * closing;
+    double away = outwards + (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
         // Discs leave a wall of temperature T with a normal velocity of the density v_n / T
         // exp(-v_n^2 / 2 T); the other component has the normal distribution. All images of a disc

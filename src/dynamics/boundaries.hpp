@@ -2,11 +2,12 @@
 // The four sides of a box with effects: walls that lose energy, heat, move or oscillate, and open
 // sides. Periodic sides are treated as walls infinitely far away.
 //
-// Times and places are those of the falling frame (gravity.hpp). In it a wall at w0 that moves with
-// u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a disc is a
-// quadratic, solved without subtracting nearly equal numbers. For g = 0 and u = 0 the formulas are
-// those of the plain dynamics, bit for bit. With drag in the clock s, t = s + c F(s), the wall is
-// at (w0 + u s) - (g - c u) F(s). An oscillating wall moves about such a wall (oscillation.hpp).
+// Times and places are those of the falling frame (falling_frame.hpp). In it a wall at w0 that
+// moves with u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a
+// disc is a quadratic, solved without subtracting nearly equal numbers. For g = 0 and u = 0 the
+// formulas are those of the plain dynamics, bit for bit. With drag in the clock s, t = s + c F(s),
+// the wall is at (w0 + u s) - (g - c u) F(s). An oscillating wall moves about such a wall
+// (oscillation.hpp).
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 #include "dynamics/bodies.hpp"
 #include "dynamics/contact_guard.hpp"
 #include "dynamics/effects.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "dynamics/loss.hpp"
 #include "dynamics/never.hpp"
 #include "dynamics/oscillation.hpp"
@@ -119,7 +120,7 @@ private:
     bool sways_along(std::size_t side) const { return fall_.sway().acts_along(side / 2); }
     /// The acceleration of discs near the wall towards it, relative to the wall. Drag
     /// brakes discs that a moving wall pushes.
-    double pull_at(std::size_t side) const { return gravity_[side / 2] - drag_ * speeds_[side]; }
+    double pull_at(std::size_t side) const { return pull_[side / 2] - drag_ * speeds_[side]; }
     /// The largest magnitude of this acceleration at any time.
     double largest_pull_at(std::size_t side) const {
         return std::fabs(pull_at(side)) + std::fabs(sways_[side / 2]);
@@ -137,7 +138,8 @@ private:
     Approach approach(const DiscState& disc, std::size_t side, const Body& body) const {
         const double sign = sign_of(side);
         return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau, body.radius)),
-                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)) - body.growth,
+                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)) -
+                    body.outwards,
                 sign * pull_at(side)};
     }
     double delay_of(const Approach& approach, double time) const;
@@ -148,8 +150,8 @@ private:
     /// The velocity of the wall's surface along itself, in the frame.
     double surface_velocity(std::size_t side, double time) const {
         const double velocity = sides_[side].surface.velocity / fall_.slowing_at(time) -
-                                gravity_[1 - side / 2] * fall_.falling_time(time);
-        if (!fall_.sway().is_any()) [[likely]]
+                                pull_[1 - side / 2] * fall_.falling_time(time);
+        if (!fall_.sway().is_on()) [[likely]]
             return velocity;
         return velocity - fall_.sway().at(1 - side / 2, time).speed;
     }
@@ -167,7 +169,7 @@ private:
     /// Moved: distance from the scene's start to the last sync
     std::array<double, 4> moved_{}, speeds_{};
     /// The steady part of gravity, and the amplitudes of the part that changes in time
-    std::array<double, 2> gravity_, sways_;
+    std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
     /// Time after which a disc that rests at such a wall is back

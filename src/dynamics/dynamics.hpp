@@ -56,10 +56,9 @@ public:
     /// `effects` have times in micro-steps; `radius` is the largest one.
     Dynamics(const Box& box, double radius, const Effects& effects = {},
              ContactFormula formula = ContactFormula::stable)
-        : Dynamics(
-              box, radius, effects, formula,
-              SpeciesTable(effects.species, Arithmetic::rounded(radius), effects.swap.is_any()),
-              PairTable(effects.contact)) {}
+        : Dynamics(box, radius, effects, formula,
+                   SpeciesTable(effects.species, Arithmetic::rounded(radius), effects.swap.is_on()),
+                   PairTable(effects.contact)) {}
 
     /// The part that kernels of a GPU run.
     const Base& motion() const { return *this; }
@@ -91,7 +90,7 @@ public:
     double clock_at(double micro_steps) const { return flight_.clock_at(micro_steps); }
     double micro_steps_at(double clock) const { return flight_.micro_steps_at(clock); }
     Frame frame_at(double time) const { return flight_.at(time); }
-    bool has_own_frame() const { return flight_.is_any(); }
+    bool has_own_frame() const { return flight_.is_on(); }
     double slowing_at(double time) const { return flight_.slowing_at(time); }
     /// Turns the state into one in the frame of the next interval.
     void restart_frame(DiscState& disc, double time) const { flight_.restart(disc, time); }
@@ -125,7 +124,7 @@ public:
         // The product allows for the rounding of times, during which a fast disc flies some
         // distance.
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
-                               (speed_gained_at(time) + body.growth);
+                               (speed_gained_at(time) + body.outwards);
         const double margin = (tolerance_ + arithmetic_.place_rounding()) +
                               Arithmetic::time_rounding * time * fastest;
         return sides_.may_meet(disc, time, margin, body);

@@ -24,8 +24,8 @@ bool Effects::have_open_boundaries() const {
 SideColumnSet side_columns_of(const Effects& effects) {
     SideColumnSet columns;
     if (effects.have_spins()) columns.add(SideColumn::spin);
-    if (effects.activity.is_any()) columns.add(SideColumn::direction);
-    if (effects.swap.is_any()) columns.add(SideColumn::swapped_radius);
+    if (effects.activity.is_on()) columns.add(SideColumn::direction);
+    if (effects.swap.is_on()) columns.add(SideColumn::swapped_radius);
     return columns;
 }
 

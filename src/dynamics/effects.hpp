@@ -13,6 +13,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <carrom/box.hpp>
@@ -70,6 +71,7 @@ struct ContactEffect {
     std::vector<ContactPair> pairs{}; ///< with other numbers than these (pair_table.hpp)
     std::vector<SpeciesRow> rows{};   ///< in the order of ids; empty without `discs.species`
 
+    bool is_on() const { return kind != ContactKind::elastic; }
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
 
@@ -98,7 +100,7 @@ struct Inlet {
     double temperature = 0;   ///< kT of the gas outside, a velocity squared, for masses of 1
     std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 is any
 
-    bool is_any() const { return rate > 0; }
+    bool is_on() const { return rate > 0; }
     friend bool operator==(const Inlet&, const Inlet&) = default;
 };
 
@@ -128,7 +130,7 @@ struct Boundary {
 inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "bottom", "top"};
 
 /// Uniform gravity: an acceleration.
-struct Gravity {
+struct Acceleration {
     double x = 0, y = 0;
     // A second part, amplitude sin(2 pi t / period + phase), with t since the scene's start
     // (sway.hpp):
@@ -138,12 +140,12 @@ struct Gravity {
 
     bool is_steady() const { return x != 0 || y != 0; }
     bool sways() const { return amplitude_x != 0 || amplitude_y != 0; }
-    bool is_any() const { return is_steady() || sways(); }
+    bool is_on() const { return is_steady() || sways(); }
     /// The largest magnitudes along x and y.
     double largest_x() const { return std::fabs(x) + std::fabs(amplitude_x); }
     double largest_y() const { return std::fabs(y) + std::fabs(amplitude_y); }
     double largest() const { return std::hypot(largest_x(), largest_y()); }
-    friend bool operator==(const Gravity&, const Gravity&) = default;
+    friend bool operator==(const Acceleration&, const Acceleration&) = default;
 };
 
 /// Fixed bodies in the box that reflect discs (obstacles.hpp).
@@ -190,6 +192,7 @@ struct ObstacleList {
         return !discs.empty() || !segments.empty() || !arcs.empty() || !polygons.empty() ||
                has_shape();
     }
+    bool is_on() const { return are_any(); }
     friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
 };
 
@@ -203,12 +206,12 @@ struct Thermostat {
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
 
-    bool is_any() const { return kind != ThermostatKind::none; }
+    bool is_on() const { return kind != ThermostatKind::none; }
     /// Whether discs exchange momentum with the bath, as well as energy.
     bool is_bath() const {
         return kind == ThermostatKind::andersen || kind == ThermostatKind::langevin;
     }
-    bool has_temperature() const { return is_any() && kind != ThermostatKind::kicks; }
+    bool has_temperature() const { return is_on() && kind != ThermostatKind::kicks; }
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
@@ -220,7 +223,7 @@ struct Activity {
     double tumble_rate = 0;          ///< rate at which a disc takes a new random direction
     std::uint64_t seed = 3210;
 
-    bool is_any() const { return speed != 0 || force != 0; }
+    bool is_on() const { return speed != 0 || force != 0; }
     friend bool operator==(const Activity&, const Activity&) = default;
 };
 
@@ -229,7 +232,7 @@ struct Barostat {
     double pressure = 0; ///< P times the mean squared diameter over kT; 0 means no barostat
     std::uint64_t seed = 4321;
 
-    bool is_any() const { return pressure != 0; }
+    bool is_on() const { return pressure != 0; }
     friend bool operator==(const Barostat&, const Barostat&) = default;
 };
 
@@ -239,7 +242,7 @@ struct Swaps {
     std::int64_t until_step = 0; ///< 0 is the end of the run
     std::uint64_t seed = 3210;
 
-    bool is_any() const { return rounds != 0; }
+    bool is_on() const { return rounds != 0; }
     friend bool operator==(const Swaps&, const Swaps&) = default;
 };
 
@@ -254,7 +257,7 @@ public:
         return found == numbers_.end() ? 0 : found->second;
     }
     void set(std::string_view key, double number) { numbers_[std::string(key)] = number; }
-    bool are_any() const {
+    bool is_on() const {
         return std::any_of(numbers_.begin(), numbers_.end(),
                            [](const auto& one) { return one.second != 0; });
     }
@@ -264,12 +267,20 @@ private:
     std::map<std::string, double, std::less<>> numbers_;
 };
 
+// Whether a member of Effects is on.
+inline bool is_feature_on(double rate) { return rate != 0; }
+inline bool is_feature_on(const std::vector<Species>& species) { return !species.empty(); }
+inline bool is_feature_on(const std::array<Boundary, 4>& sides) {
+    return !std::all_of(sides.begin(), sides.end(), [](const Boundary& s) { return s.is_plain(); });
+}
+template <class Feature> bool is_feature_on(const Feature& feature) { return feature.is_on(); }
+
 /// Times are in steps in a scene, and in micro-steps in a dynamics (per_micro_step in
 /// scene/key.hpp).
 struct Effects {
     ContactEffect contact;
     std::array<Boundary, 4> boundaries;
-    Gravity gravity;
+    Acceleration gravity;
     double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
     std::uint64_t inlet_seed = 3210;
@@ -288,10 +299,15 @@ struct Effects {
     OwnNumbers own{};
     ExternalField field{};
 
+    /// All features; seeds belong to them.
+    auto features() const {
+        return std::tie(contact, boundaries, gravity, drag, obstacles, species, growth, shear,
+                        lasting_speed, thermostat, activity, swap, barostat, own, field);
+    }
     /// The acceleration of discs in free flight by all fields together, without drag.
-    Gravity acceleration() const { return gravity; }
+    Acceleration acceleration() const { return gravity; }
     /// Whether velocities change only in collisions and at syncs.
-    bool are_flights_free() const { return !acceleration().is_any() && drag == 0; }
+    bool are_flights_free() const { return !acceleration().is_on() && drag == 0; }
     bool have_spins() const { return contact.kind == ContactKind::rough; }
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
@@ -310,12 +326,10 @@ struct Effects {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
     /// The factor by which radii have grown at `time` since the scene's start.
-    double growth_at(double time) const { return 1 + growth * time; }
+    double size_at(double time) const { return 1 + growth * time; }
     bool are_any() const {
-        return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
-               gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0 || thermostat.is_any() || activity.is_any() || own.are_any() ||
-               swap.is_any() || barostat.is_any() || field.is_any();
+        return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
+                          features());
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -50,7 +50,7 @@ public:
     /// i L / (n - 1). An axis with one number has the same potential everywhere.
     FieldSpline(const FieldValues& values, bool is_periodic_x, bool is_periodic_y);
 
-    bool is_any() const { return data_ != nullptr; }
+    bool is_on() const { return data_ != nullptr; }
     FieldPoint at(double x, double y, const Box& box) const;
     /// An upper bound of the second derivatives along any direction, from the coefficients.
     double largest_curvature(const Box& box) const;
@@ -114,7 +114,7 @@ struct ExternalField {
     std::vector<double> strengths;
     std::vector<DiscId> ends;
 
-    bool is_any() const { return kind != FieldKind::none; }
+    bool is_on() const { return kind != FieldKind::none; }
     bool acts_along(Axis along) const;
     double strength_of(DiscId id) const;
     /// The potential for a disc of strength 1.

@@ -63,7 +63,7 @@ public:
     CARROM_DEVICE double slack() const { return space_.slack() + arithmetic_.slack(); }
     /// The largest distance between centres in a contact.
     CARROM_DEVICE double search_diameter() const { return diameter() + 2 * slack(); }
-    double growth_at(double time) const { return bodies_.growth_at(time); }
+    double size_at(double time) const { return bodies_.size_at(time); }
     CARROM_DEVICE double mass_of(const DiscState& disc) const { return bodies_.of(disc).mass; }
 
     // Speeds that searches allow for: the disc's own speed, and the speed of its image in the box

@@ -40,7 +40,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effects)
     : restitution_(effects.obstacles.restitution), guard_(effects, largest_radius),
       rubbing_(effects.obstacles.surface, effects.contact),
-      gravity_{effects.acceleration().x, effects.acceleration().y},
+      pull_{effects.acceleration().x, effects.acceleration().y},
       n_fixed_discs_(effects.obstacles.discs.size()), container_(effects.obstacles.shape, box),
       periods_(effects.periods(box)), largest_radius_(largest_radius),
       rows_of_bodies_(rows_of(effects.obstacles, box)) {
@@ -210,7 +210,7 @@ Obstacles::Entry Obstacles::image_of(std::uint32_t code, double x, double y) con
 /// `dx`, `dy` are relative to the line's beginning; `wx`, `wy` are velocities in the box.
 double Obstacles::line_delay(const Body& line, double radius, double dx, double dy, double wx,
                              double wy) const {
-    const auto [gx, gy] = gravity_;
+    const auto [gx, gy] = pull_;
     const double place = line.ux * dy - line.uy * dx, rate = line.ux * wy - line.uy * wx,
                  pull = line.ux * gy - line.uy * gx;
     double first = never;
@@ -228,19 +228,19 @@ double Obstacles::line_delay(const Body& line, double radius, double dx, double 
 /// A function of the state only: the first time at which the distance is not positive and falls.
 double Obstacles::contact_time(const DiscState& disc, const Body& body, double radius,
                                Shift shift) const {
-    const bool falls = gravity_[0] != 0 || gravity_[1] != 0;
+    const bool falls = pull_[0] != 0 || pull_[1] != 0;
     const double dx = ((disc.x + fallen(0, disc.tau)) - body.x) - shift.x,
                  dy = ((disc.y + fallen(1, disc.tau)) - body.y) - shift.y;
-    const double wx = disc.vx + gravity_[0] * disc.tau, wy = disc.vy + gravity_[1] * disc.tau;
+    const double wx = disc.vx + pull_[0] * disc.tau, wy = disc.vy + pull_[1] * disc.tau;
     if (body.is_line()) return disc.tau + line_delay(body, radius, dx, dy, wx, wy);
     if (body.is_arc) {
         const ArcFlight flight{dx, dy, wx, wy};
-        return disc.tau + (falls ? falling_arc_contact(flight, gravity_[0], gravity_[1], radius,
+        return disc.tau + (falls ? falling_arc_contact(flight, pull_[0], pull_[1], radius,
                                                        body.radius, body.span)
                                  : arc_contact(flight, radius, body.radius, body.span));
     }
     const double reach = body.radius + radius;
-    if (falls) return disc.tau + falling_contact(dx, dy, wx, wy, gravity_[0], gravity_[1], reach);
+    if (falls) return disc.tau + falling_contact(dx, dy, wx, wy, pull_[0], pull_[1], reach);
     const double delay = contact_delay(-dx, -dy, -wx, -wy, reach, never);
     return delay < 0 ? never : disc.tau + delay;
 }
@@ -251,7 +251,7 @@ Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
     const double eighth = (end - begin) * (end - begin) / 8;
-    const double x_bend = std::fabs(gravity_[0]) * eighth, y_bend = std::fabs(gravity_[1]) * eighth;
+    const double x_bend = std::fabs(pull_[0]) * eighth, y_bend = std::fabs(pull_[1]) * eighth;
     return {std::min(x0, x1) - x_bend, std::max(x0, x1) + x_bend, std::min(y0, y1) - y_bend,
             std::max(y0, y1) + y_bend};
 }
@@ -259,7 +259,7 @@ Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const
 /// The number of parts of a flight in each of which the disc moves by at most about a cell.
 double Obstacles::slices_of(const DiscState& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
-        return std::max(std::fabs(v + gravity_[axis] * begin), std::fabs(v + gravity_[axis] * end));
+        return std::max(std::fabs(v + pull_[axis] * begin), std::fabs(v + pull_[axis] * end));
     };
     const double way = std::max(speed(disc.vx, 0), speed(disc.vy, 1)) * (end - begin);
     return std::clamp(std::ceil(way / std::min(columns_.width, rows_.width)), 1.0, 1e6);
@@ -330,13 +330,13 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const Normal from_body = normal_of(at, dx, dy);
     const double nx = from_body.x, ny = from_body.y;
     const double slides = from_body.is_hollow ? -at.slides : at.slides;
-    const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
+    const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
     // As at walls, a disc that is pulled back leaves fast enough to stay away for a contact.
-    double pull = -(nx * gravity_[0] + ny * gravity_[1]);
+    double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
-        return nx * (disc.vy + gravity_[1] * time) - ny * (disc.vx + gravity_[0] * time);
+        return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);
     };
     if (from_body.is_hollow) {
         const double along = speed_along();

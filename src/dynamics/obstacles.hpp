@@ -145,14 +145,12 @@ private:
     Shift shift_of(const Entry& image) const {
         return {image.x * periods_.x, image.y * periods_.y};
     }
-    double fallen(std::size_t axis, double time) const {
-        return (0.5 * gravity_[axis] * time) * time;
-    }
+    double fallen(std::size_t axis, double time) const { return (0.5 * pull_[axis] * time) * time; }
 
     double restitution_;
     ContactGuard guard_;
     Rubbing rubbing_;
-    std::array<double, 2> gravity_;
+    std::array<double, 2> pull_;
     std::size_t n_fixed_discs_;
     Container container_;
     Periods periods_;

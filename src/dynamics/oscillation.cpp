@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "dynamics/never.hpp"
 #include "dynamics/sine_series.hpp"
 
@@ -38,8 +38,8 @@ WallMotion oscillation_at(const Boundary& side, double time) {
     return oscillation.at(0);
 }
 
-Oscillation::Oscillation(const Boundary& side, double sign, double gravity, double slack)
-    : sign_(sign), pull_(sign * gravity), slack_(slack) {
+Oscillation::Oscillation(const Boundary& side, double sign, double acceleration, double slack)
+    : sign_(sign), pull_(sign * acceleration), slack_(slack) {
     if (side.kind != BoundaryKind::oscillating || !(side.amplitude > 0)) return;
     amplitude_ = side.amplitude;
     period_ = side.period;
@@ -47,7 +47,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double gravity, doub
     phase_ = whole_turns_off(side.phase / two_pi);
     turns_ = phase_;
     // At this sine the wall's acceleration equals that of falling discs.
-    const double sine = -gravity / (amplitude_ * rate_ * rate_);
+    const double sine = -acceleration / (amplitude_ * rate_ * rate_);
     const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
     first_bend_ = whole_turns_off(bend);
     second_bend_ = whole_turns_off(std::fabs(sine) < 1 ? 0.5 - bend : 0.75);
@@ -55,7 +55,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double gravity, doub
 }
 
 void Oscillation::begin_interval(double time) {
-    if (is_any()) turns_ = whole_turns_off(phase_ + std::fmod(time, period_) / period_);
+    if (is_on()) turns_ = whole_turns_off(phase_ + std::fmod(time, period_) / period_);
 }
 
 WallMotion Oscillation::at(double time) const {

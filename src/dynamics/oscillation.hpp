@@ -34,7 +34,7 @@ public:
     /// else -1. `gravity` is along the axis, `slack` the rounding of places.
     Oscillation(const Boundary& side, double sign, double gravity, double slack);
 
-    bool is_any() const { return amplitude_ > 0; }
+    bool is_on() const { return amplitude_ > 0; }
     double amplitude() const { return amplitude_; }
     double largest_speed() const { return amplitude_ * rate_; }
 

@@ -4,7 +4,7 @@
 //
 //   PlainSurroundings        four elastic walls at rest, in the box's own frame
 //   SurroundingsOfEffects    sides of any kind (boundaries.hpp), obstacles (obstacles.hpp), a frame
-//                            that falls (gravity.hpp)
+//                            that falls (falling_frame.hpp)
 //
 // These functions of sides are for the event-driven method. Walls within a micro-step of the
 // time-stepped method are in time_stepped/step_walls.hpp.
@@ -12,7 +12,7 @@
 
 #include "dynamics/arithmetic.hpp"
 #include "dynamics/boundaries.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "dynamics/mirror_sides.hpp"
 
 namespace carrom {
@@ -25,7 +25,7 @@ public:
     static void begin_interval(double /*n*/) {}
     static constexpr double clock_at(double micro_steps) { return micro_steps; }
     static constexpr double micro_steps_at(double clock) { return clock; }
-    static constexpr bool is_any() { return false; }
+    static constexpr bool is_on() { return false; }
     static Frame at(double /*time*/) { return {}; }
     static void restart(DiscState& /*disc*/, double /*time*/) {}
     static constexpr double slowing_at(double /*time*/) { return 1; }

@@ -29,7 +29,7 @@ struct Turn {
 /// A disc's flight relative to a wall, at the time s after the disc's time.
 struct SwayingFlight {
     double distance, speed, pull;
-    double sine, cosine; ///< of the changing part of gravity, in units of acceleration
+    double sine, cosine; ///< of the changing part of acceleration, in units of acceleration
     double rate;         ///< angular frequency, 2 pi / period
 
     ValueAndSlope distance_at(double s) const {
@@ -124,17 +124,18 @@ double first_contact(const SwayingFlight& flight, double end, double origin) {
 
 } // namespace
 
-Sway::Sway(const Gravity& gravity) {
-    if (!gravity.sways()) return;
-    period_ = gravity.period;
+Sway::Sway(const Acceleration& acceleration) {
+    if (!acceleration.sways()) return;
+    period_ = acceleration.period;
     rate_ = two_pi / period_;
-    amplitudes_ = {gravity.amplitude_x, gravity.amplitude_y};
-    turns_ = {whole_turns_off(gravity.phase_x / two_pi), whole_turns_off(gravity.phase_y / two_pi)};
+    amplitudes_ = {acceleration.amplitude_x, acceleration.amplitude_y};
+    turns_ = {whole_turns_off(acceleration.phase_x / two_pi),
+              whole_turns_off(acceleration.phase_y / two_pi)};
     begin_interval(0);
 }
 
 void Sway::begin_interval(double time) {
-    if (!is_any()) return;
+    if (!is_on()) return;
     const double turned = std::fmod(time, period_) / period_;
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const auto [sine, cosine] = sine_of_turns(whole_turns_off(turns_[axis] + turned));
@@ -166,13 +167,13 @@ double Sway::contact_delay(std::size_t axis, double sign, double distance, doubl
                          time);
 }
 
-std::array<Swayed, 2> Sway::between(const Gravity& gravity, double from, double to) {
-    if (!gravity.sways()) return {};
-    Sway sway(gravity);
+std::array<Swayed, 2> Sway::between(const Acceleration& acceleration, double from, double to) {
+    if (!acceleration.sways()) return {};
+    Sway sway(acceleration);
     sway.begin_interval(from);
     const double time = to - from;
-    if (time <= longest_arc * gravity.period) return {sway.at(0, time), sway.at(1, time)};
-    Sway then(gravity);
+    if (time <= longest_arc * acceleration.period) return {sway.at(0, time), sway.at(1, time)};
+    Sway then(acceleration);
     then.begin_interval(to);
     std::array<Swayed, 2> all;
     for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -3,9 +3,9 @@
 // t the time since the scene's start. Both axes have one period, so that the field may swing along
 // a line, or turn.
 //
-// All discs fall alike in it, so it only moves the falling frame (gravity.hpp), and contacts of
-// pairs do not depend on it. In the frame a wall is on a parabola and a sine, and a disc meets it
-// at
+// All discs fall alike in it, so it only moves the falling frame (falling_frame.hpp), and contacts
+// of pairs do not depend on it. In the frame a wall is on a parabola and a sine, and a disc meets
+// it at
 //
 //     d + r s + g s^2 / 2 + (S (1 - cos w s) + C (w s - sin w s)) / w^2 = 0,    w = 2 pi / P,
 //
@@ -23,7 +23,7 @@
 
 namespace carrom {
 
-struct Gravity;
+struct Acceleration;
 
 /// The motion along one axis that the changing part gives to a frame that was at rest.
 struct Swayed {
@@ -33,9 +33,9 @@ struct Swayed {
 class Sway {
 public:
     Sway() = default;
-    explicit Sway(const Gravity& gravity);
+    explicit Sway(const Acceleration& gravity);
 
-    bool is_any() const { return rate_ != 0; }
+    bool is_on() const { return rate_ != 0; }
     bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
     /// From now on `time` is the scene's time of the last sync, from which other times count.
     void begin_interval(double time);
@@ -48,7 +48,7 @@ public:
                          double time) const;
 
     /// The motion between two times since the scene's start.
-    static std::array<Swayed, 2> between(const Gravity& gravity, double from, double to);
+    static std::array<Swayed, 2> between(const Acceleration& gravity, double from, double to);
 
 private:
     /// The amplitude times the sine and the cosine of the phase at a time after the sync.

@@ -72,10 +72,10 @@ struct SyncDiscs {
     std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
     /// Records the impulse of a side of the box, per micro-step. One rank calls it for all. It is
     /// empty unless walls are measured.
-    std::function<void(const WallImpulse&)> note_wall = {};
+    std::function<void(const WallImpulse&)> record_wall = {};
     /// Records the impulse between two discs, per micro-step. One rank calls it for all. It is
     /// empty unless stress is measured or pairs are followed.
-    std::function<void(const PairImpulse&)> note_pair = {};
+    std::function<void(const PairImpulse&)> record_pair = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
     /// a copy of `sums`. **Collective.**

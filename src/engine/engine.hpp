@@ -112,14 +112,14 @@ public:
     virtual FlightIntegral flight_integral() const { return {}; }
     /// From now on a sync in a periodic box appends to `crossings` by how many box lengths it
     /// brings own discs back, until `forget_crossings_in`.
-    void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
+    void record_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);
     }
 
 protected:
     /// Records the flight from (x, y) to the disc's present position. Threads may call it at once.
-    void note_crossing(const DiscState& disc, double x, double y, const Periods& periods);
+    void record_crossing(const DiscState& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
         return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();
     }

@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-void Engine::note_crossing(const DiscState& disc, double x, double y, const Periods& periods) {
+void Engine::record_crossing(const DiscState& disc, double x, double y, const Periods& periods) {
     const auto lengths = [](double far, double period) {
         return period == 0 ? 0 : std::round(far / period);
     };
@@ -98,7 +98,7 @@ void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered)
     is_redistributed_ = true;
     set_departed_aside();
     migrate();
-    const double radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
+    const double radius = dynamics_.radius() * dynamics_.size_at(time_) + dynamics_.slack();
     const double touching = reach_of(
         {dynamics_.box(), radius, static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
@@ -364,7 +364,7 @@ template <class Dynamics> void EngineBase<Dynamics>::wrap(DiscState& disc) {
         dynamics_.wrap(disc);
         set_image(disc, {});
         if (!crossings_.empty() && (x != disc.x || y != disc.y))
-            note_crossing(disc, x, y, dynamics_.periods());
+            record_crossing(disc, x, y, dynamics_.periods());
     }
 }
 

@@ -128,7 +128,7 @@ protected:
     StripDiscs discs_;
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
-    double time_ = 0; ///< on the clock, since the last sync
+    double time_ = 0;           ///< on the clock, since the last sync
     bool is_in_window_ = false; ///< the run has stopped inside a window, which will go on
     /// Time of flights that were recorded for the stress before the last sync
     double flown_before_ = 0;

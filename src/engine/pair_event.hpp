@@ -57,11 +57,11 @@ template <class Dynamics>
 /// `unit` converts stored velocities to velocities per step. Writes into `event` directly, which
 /// saves a copy.
 template <class Dynamics>
-[[gnu::always_inline]] inline void note_in(PairEvent& event, const Dynamics& dynamics,
-                                           const DiscState& place, const Separation& to,
-                                           const DiscState& p, const DiscState& q, double vx_before,
-                                           double vy_before, double time, double unit,
-                                           std::int64_t last_sync) {
+[[gnu::always_inline]] inline void record_in(PairEvent& event, const Dynamics& dynamics,
+                                             const DiscState& place, const Separation& to,
+                                             const DiscState& p, const DiscState& q,
+                                             double vx_before, double vy_before, double time,
+                                             double unit, std::int64_t last_sync) {
     const double momentum = dynamics.mass_of(p) * unit;
     event.p = p.id;
     event.q = q.id;

@@ -180,7 +180,7 @@ std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Populati
 double largest_size(const Population& population, const CellGrid& grid, const Touching& touching,
                     const Communicator& communicator, int n_threads) {
     Touching of_scene = touching;
-    of_scene.growth = 1;
+    of_scene.size = 1;
     double least = std::numeric_limits<double>::infinity(); // of squares
     const int n_columns = grid.geometry().n_columns;
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(min : least)

@@ -54,22 +54,22 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
 struct Touching {
     double diameter = 0, tolerance = 0;
     const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
-    double growth = 1;                           ///< by which the table's radii have grown
+    double size = 1;                             ///< by which the table's radii have grown
 
     double diameter_of(const DiscState& p, const DiscState& q) const {
         return species_table
-                   ? growth * (species_table->of(p.id).radius + species_table->of(q.id).radius)
+                   ? size * (species_table->of(p.id).radius + species_table->of(q.id).radius)
                    : diameter;
     }
     Periods periods = {}; ///< for the discs' images
 };
 template <class Dynamics>
 Touching touching_of(const Dynamics& dynamics, double time, const Periods& periods) {
-    const double growth = dynamics.growth_at(time), diameter = growth * dynamics.diameter();
+    const double size = dynamics.size_at(time), diameter = size * dynamics.diameter();
     if constexpr (Dynamics::has_species)
-        return {diameter, dynamics.tolerance(), &dynamics.species_table(), growth, periods};
+        return {diameter, dynamics.tolerance(), &dynamics.species_table(), size, periods};
     else
-        return {diameter, dynamics.tolerance(), nullptr, growth, periods};
+        return {diameter, dynamics.tolerance(), nullptr, size, periods};
 }
 
 /// Fills in the pairs that overlap at `time`, each counted once, the deepest overlap, the pairs

@@ -101,7 +101,7 @@ void SyncAction::go_on(std::span<const std::int64_t> kept) {
 
 void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
     if (notes.walls->are_any())
-        at.note_wall = [this, walls = notes.walls](const WallImpulse& impulse) {
+        at.record_wall = [this, walls = notes.walls](const WallImpulse& impulse) {
             WallEvent event;
             if (impulse.side < WallImpulse::n_sides)
                 event.side = static_cast<std::uint8_t>(impulse.side);
@@ -117,7 +117,7 @@ void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
             walls->give({&event, 1});
         };
     if (notes.stress == nullptr && !notes.pairs->are_any()) return;
-    at.note_pair = [this, notes](const PairImpulse& pair) {
+    at.record_pair = [this, notes](const PairImpulse& pair) {
         if (notes.stress != nullptr) {
             StressTerms terms;
             terms.add(pair.ix, pair.iy, {pair.dx, pair.dy}, *notes.stress);

@@ -69,14 +69,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_levels_of_all()
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods& across,
                                              std::size_t n_at_home) {
-    const double growth = dynamics.growth_at(ground.window.end);
+    const double at_end = dynamics.size_at(ground.window.end);
     levels.resize(ground.levels.size());
     orders.resize(ground.levels.size());
     layout.clear();
     for (std::size_t k = 0; k < levels.size(); ++k) {
         LevelCells& level = levels[k];
-        level.smallest_radius = ground.levels[k].smallest_radius * growth + dynamics.slack();
-        level.largest_radius = ground.levels[k].largest_radius * growth + dynamics.slack();
+        level.smallest_radius = ground.levels[k].smallest_radius * at_end + dynamics.slack();
+        level.largest_radius = ground.levels[k].largest_radius * at_end + dynamics.slack();
         const double reach = block_reach(ground.window, 2 * level.largest_radius, dynamics.box());
         const Box size = extent.size();
         level.cells = cells_of_box(
@@ -151,13 +151,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels
 
 /// Fills the lane of radii. Each is a little larger, so that rounding loses no contact.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::measure_radii() {
-    const double growth = dynamics.growth_at(ground.window.end),
+    const double size = dynamics.size_at(ground.window.end),
                  scale = cells_per_length * (1 + 0x1p-18);
     if (radii.size() < indices.size() + filter_padding)
         radii.resize(2 * indices.size() + filter_padding);
     for (std::size_t slot = 0; slot < indices.size(); ++slot) {
         const double radius = first_radius_of(ground.discs[indices[slot]]);
-        radii[slot] = static_cast<float>((radius * growth + dynamics.slack()) * scale);
+        radii[slot] = static_cast<float>((radius * size + dynamics.slack()) * scale);
     }
 }
 

@@ -317,7 +317,7 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
                                                               ground.sums.flown_before);
         if constexpr (Dynamics::has_moving_images)
             outcome->work += impulse * periods().between(p, q, event.time).vx;
-        if (ground.notes.pairs) note_pair(event, stress, to);
+        if (ground.notes.pairs) record_pair(event, stress, to);
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
     return loss;

@@ -297,21 +297,21 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
 
     /// Call it after the collision, while the second disc is at the position of the event's image.
-    [[gnu::noinline]] void note_pair(const Event& event, const PairStress<Dynamics>& before,
-                                     const Separation& to) {
+    [[gnu::noinline]] void record_pair(const Event& event, const PairStress<Dynamics>& before,
+                                       const Separation& to) {
         if (!outcome->pairs.has_room()) [[unlikely]] // a function of its own, so that the loop
                                                      // saves no register for it
-            return note_pair_in_more_room(event, before, to);
+            return record_pair_in_more_room(event, before, to);
         const DiscState &p = discs[event.p], &q = discs[event.q];
-        note_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
-                ground.notes.velocity_unit, ground.notes.last_sync);
+        record_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
+                  ground.notes.velocity_unit, ground.notes.last_sync);
     }
 
-    [[gnu::noinline]] void note_pair_in_more_room(const Event& event,
-                                                  const PairStress<Dynamics>& before,
-                                                  const Separation& to) {
+    [[gnu::noinline]] void record_pair_in_more_room(const Event& event,
+                                                    const PairStress<Dynamics>& before,
+                                                    const Separation& to) {
         outcome->pairs.grow();
-        note_pair(event, before, to);
+        record_pair(event, before, to);
     }
 
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {

@@ -137,8 +137,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     cells_per_length = 1 / cell_width;
     cells_per_speed = window.duration() / cell_width;
     windows_per_time = 1 / window.duration();
-    const double growth = dynamics.growth_at(window.end),
-                 diameter = dynamics.search_diameter() * growth;
+    const double size = dynamics.size_at(window.end), diameter = dynamics.search_diameter() * size;
     const double sigma = diameter * cells_per_length;
     const double extent = std::max(cells.end_column - cells.first_column + 0.0,
                                    (cells.end_row - cells.first_row) / double{rows_per_cell}) +
@@ -152,7 +151,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
                             0x1p-20 * farthest_tried * farthest_tried / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
-    const double inner = dynamics.radius() * growth + dynamics.slack() + 1e-3 * cell_width +
+    const double inner = dynamics.radius() * size + dynamics.slack() + 1e-3 * cell_width +
                          0x1p-18 * extent * cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     const auto [low, across_low] = turned(axis, walls.x_low, walls.y_low);

@@ -90,7 +90,7 @@ void EventDrivenEngine<Dynamics>::run_window(double target, double horizon) {
 template <class Dynamics> void EventDrivenEngine<Dynamics>::begin_window(double horizon) {
     this->set_departed_aside();
     migrate();
-    note_first_speed();
+    record_first_speed();
     window_ = choose(horizon);
     n_events_in_window_ = 0;
     common_depth_ = first_halo_depth();
@@ -112,12 +112,12 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::run_until(double tar
         }
         if (verdict == Verdict::too_fast) shorten();
         if (verdict == Verdict::too_fast || widen_marked()) redistribute();
-        if (verdict == Verdict::repeat) note_rollback();
+        if (verdict == Verdict::repeat) record_rollback();
     }
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::end_window() {
-    policy_.note_end(time_ - window_.begin);
+    policy_.record_end(time_ - window_.begin);
     ++n_windows_;
     ++counts_.windows;
     if (time_ == jam_watch_.bin_end() && jam_watch_.finish_bin()) refuse_jam();

@@ -122,7 +122,7 @@ private:
     bool can_run_alone() const;
     double speed_bound_until(double target) const;
     double largest_of_all() const;
-    void note_first_speed();
+    void record_first_speed();
     bool are_jammed() const;
     [[noreturn]] void refuse_jam() const;
     void shorten();
@@ -147,7 +147,7 @@ private:
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
     int halo_depth_for(const Block& block) const;
-    void note_rollback();
+    void record_rollback();
     double price_of_reach() const;
     bool sees_all(const Block& block) const;
     bool sees_all_images(const Block& block) const;
@@ -160,7 +160,7 @@ private:
     double reach() const { return block_reach(window_, contact_distance(), dynamics_.box()); }
     /// The largest distance between centres in a contact in this window.
     double contact_distance() const {
-        return dynamics_.search_diameter() * dynamics_.growth_at(window_.end);
+        return dynamics_.search_diameter() * dynamics_.size_at(window_.end);
     }
 
     BlockTuning block_tuning_;

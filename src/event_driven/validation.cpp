@@ -156,7 +156,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalInde
 
 /// Notes what it costs to run the marked blocks again. All threads of all ranks wait for the rank
 /// that has most of them. **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::note_rollback() {
+template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
     constexpr double deeper = 1.6; // the time of such a run divided by that of a first run
     std::uint64_t n_marked = 0;
     for (const Block& block : blocks_) n_marked += block.is_marked;
@@ -337,7 +337,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate();         \
     template bool EventDrivenEngine<Dynamics>::widen_marked();                                     \
-    template void EventDrivenEngine<Dynamics>::note_rollback();                                    \
+    template void EventDrivenEngine<Dynamics>::record_rollback();                                  \
     template bool EventDrivenEngine<Dynamics>::sees_all(const Block&) const;
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

@@ -57,8 +57,8 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
 }
 
 /// Of growing discs. The interval's first speed is 0 otherwise. **Collective.**
-template <class Dynamics> void EventDrivenEngine<Dynamics>::note_first_speed() {
-    const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
+template <class Dynamics> void EventDrivenEngine<Dynamics>::record_first_speed() {
+    const double per_micro_step = dynamics_.size_at(1) - dynamics_.size_at(0);
     if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
     first_speed_ = std::max(largest_of_all(), dynamics_.diameter() * per_micro_step);
 }
@@ -77,7 +77,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
 /// jam, because that depends on windows and threads. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
     const double safe = jam_watch_.safe_until();
-    const double growth = dynamics_.growth_at(safe - static_cast<double>(this->last_sync()));
+    const double growth = dynamics_.size_at(safe - static_cast<double>(this->last_sync()));
     throw Jammed(fmt::format("discs jam after step {:.6g}, at a packing fraction of {:.5g} (radii "
                              "{:.6g} times the first): they collide ever more often, because they "
                              "have no room to grow further",
@@ -99,8 +99,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() cons
 template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     BlockNeeds needs;
     needs.box = dynamics_.box();
-    needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
-    needs.equivalent_radius = equivalent_radius(levels_) * dynamics_.growth_at(time_) +
+    needs.radius = dynamics_.radius() * dynamics_.size_at(time_) + dynamics_.slack();
+    needs.equivalent_radius = equivalent_radius(levels_) * dynamics_.size_at(time_) +
                               dynamics_.slack();
     needs.n_discs = static_cast<double>(discs_.n_total());
     needs.speed_bound = speed_bound;
@@ -135,7 +135,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
 // These members are called from event_driven_engine.cpp, where the class itself is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template BlockWindow EventDrivenEngine<Dynamics>::choose(double);                              \
-    template void EventDrivenEngine<Dynamics>::note_first_speed();                                 \
+    template void EventDrivenEngine<Dynamics>::record_first_speed();                               \
     template bool EventDrivenEngine<Dynamics>::are_jammed() const;                                 \
     template void EventDrivenEngine<Dynamics>::refuse_jam() const;                                 \
     template bool EventDrivenEngine<Dynamics>::can_run_alone() const;                              \

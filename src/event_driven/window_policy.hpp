@@ -52,7 +52,7 @@ public:
     /// Call it for each round of repeated runs in the planned window.
     void note(const Rollback& rollback);
     /// Call it at the end of the window.
-    void note_end(double duration) { last_duration_ = duration; }
+    void record_end(double duration) { last_duration_ = duration; }
 
     double last_duration() const { return last_duration_; }
     /// Collisions per disc and time in the last window.

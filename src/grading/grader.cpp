@@ -48,7 +48,7 @@ Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& str
     if (scene.steps > 0) points_.are_counters_right = false; // until counters have been compared
 }
 
-void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
+void Grader::record_growth(std::int64_t step, const ExpectedDiscs& expected) {
     if (has_left_runs_) return;
     const double largest = *std::max_element(expected.spread.begin(), expected.spread.end());
     has_left_runs_ = growth_margin * largest > deciding * setting_.radius;
@@ -56,10 +56,10 @@ void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
 }
 
 bool Grader::grade(std::int64_t step, const ExpectedDiscs& expected) {
-    note_growth(step, expected);
+    record_growth(step, expected);
     if (step == 0) before_ = SharedState{setting_, expected.discs, 0};
-    const bool goes_on = steps_.is_next(step) ? grade_lines(step, expected) : note_missing(step);
-    if (goes_on) return step < scene_.steps || note_more(step);
+    const bool goes_on = steps_.is_next(step) ? grade_lines(step, expected) : record_missing(step);
+    if (goes_on) return step < scene_.steps || record_more(step);
     for (std::int64_t later = step + 1; later <= scene_.steps; ++later) count_missing(later);
     return false;
 }
@@ -73,30 +73,31 @@ void Grader::count_missing(std::int64_t step) {
 }
 
 /// Records a problem. Returns whether grading continues.
-bool Grader::note_problem(const std::string& problem) {
+bool Grader::record_problem(const std::string& problem) {
     points_.are_lines_whole = false;
     if (verdict_.empty()) verdict_ = problem;
     return counts_points_;
 }
 
 /// Records a missing step. Returns whether grading continues.
-bool Grader::note_missing(std::int64_t step) {
+bool Grader::record_missing(std::int64_t step) {
     const std::string problem = steps_.missing_problem(step);
     if (problem.empty()) return true;
     count_missing(step);
-    return note_problem(problem) && steps_.next_line() && steps_.next_line()->step > step;
+    return record_problem(problem) && steps_.next_line() && steps_.next_line()->step > step;
 }
 
 /// Handles lines after the last step. Returns whether they are graded, as one more step.
-bool Grader::note_more(std::int64_t step) {
+bool Grader::record_more(std::int64_t step) {
     if (!steps_.next_line()) return false;
-    return note_problem(steps_.more_problem()) && step == scene_.steps && steps_.is_next(step + 1);
+    return record_problem(steps_.more_problem()) && step == scene_.steps &&
+           steps_.is_next(step + 1);
 }
 
 bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     steps_.read();
     const bool were_lines_whole = points_.are_lines_whole;
-    if (!steps_.problem().empty() && !note_problem(steps_.problem())) return false;
+    if (!steps_.problem().empty() && !record_problem(steps_.problem())) return false;
     if (steps_.is_only_in_other_order()) {
         points_.are_in_order = false;
         points_.are_lines_whole = were_lines_whole;

@@ -56,10 +56,10 @@ private:
         std::vector<std::vector<DiscState>> others; ///< results of the runs with other roundings
     };
 
-    void note_growth(std::int64_t step, const ExpectedDiscs& expected);
-    bool note_problem(const std::string& problem);
-    bool note_missing(std::int64_t step);
-    bool note_more(std::int64_t step);
+    void record_growth(std::int64_t step, const ExpectedDiscs& expected);
+    bool record_problem(const std::string& problem);
+    bool record_missing(std::int64_t step);
+    bool record_more(std::int64_t step);
     void count_missing(std::int64_t step);
     bool grade_lines(std::int64_t step, const ExpectedDiscs& expected);
     bool can_grade(std::int64_t step) const;

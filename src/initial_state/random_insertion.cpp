@@ -175,7 +175,7 @@ private:
             const auto end = std::partition(share.begin(), share.end(),
                                             [](const Notice& n) { return n.is_placed(); });
             placed_.add({share.begin(), end});
-            if (communicator_.size() > 1) note_updates({share.begin(), end});
+            if (communicator_.size() > 1) record_updates({share.begin(), end});
         }
     }
 
@@ -189,7 +189,7 @@ private:
     }
 
     /// Lists the placed discs that other ranks need, too.
-    void note_updates(std::span<const Notice> found) {
+    void record_updates(std::span<const Notice> found) {
         for (const Notice& notice : found) {
             std::size_t n_concerned = 0;
             box_.visit_concerned(notice.x, [&n_concerned](std::size_t) { ++n_concerned; });

@@ -152,7 +152,7 @@ std::vector<DiscKind> Simulation::kinds() const {
     std::int64_t number = 0;
     for (const Species& species : scene.effects.species)
         kinds.insert(kinds.end(), species.count, {species.radius, species.mass, number++});
-    if (scene.effects.swap.is_any())
+    if (scene.effects.swap.is_on())
         for (DiscId id = 0; id < kinds.size(); ++id)
             kinds[id].radius = live().run().system().species_table().of(id).radius;
     return kinds;

@@ -32,14 +32,14 @@ public:
     explicit Room(const Run& run)
         : scene_(run.scene()), species_(run.system().species_table()),
           extent_(extent_at(scene_.effects, scene_.box, static_cast<double>(run.step()))),
-          growth_(run.system().engine().size() *
-                  scene_.effects.growth_at(static_cast<double>(run.step()))),
+          size_(run.system().engine().size() *
+                scene_.effects.size_at(static_cast<double>(run.step()))),
           rounding_(32 * 0x1p-53 * scene_.box.longest()),
-          obstacles_(scene_.box, scene_.radius * growth_, scene_.effects) {}
+          obstacles_(scene_.box, scene_.radius * size_, scene_.effects) {}
 
     /// Why a disc cannot be there; empty if it can.
     std::string problem(const Disc& disc) const {
-        const double radius = species_.of(disc.id).radius * growth_;
+        const double radius = species_.of(disc.id).radius * size_;
         const Origin& origin = scene_.origin;
         const double x = disc.x + origin.x, y = disc.y + origin.y;
         const bool is_inside = is_between(x, extent_.x_low, extent_.x_high, radius,
@@ -69,13 +69,13 @@ private:
     const SceneParameters& scene_;
     SpeciesTable species_;
     Extent extent_;
-    double growth_, rounding_;
+    double size_, rounding_;
     Obstacles obstacles_;
 };
 
 struct Change {
     bool of_place = false, of_velocity = false, of_spin = false;
-    bool is_any() const { return of_place || of_velocity || of_spin; }
+    bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
 /// The disc in the coordinates of the computation. Coordinates that are as shown keep all bits.
@@ -165,7 +165,7 @@ Changed change_stored(const std::vector<Disc>& discs, const Run& run, StoredStat
         const Disc disc = counted_from_corner(
             *std::ranges::lower_bound(discs, stored.id, {}, &Disc::id), shown, run.scene().origin);
         const Change change = change_of(disc, shown, unit, spins.empty() ? 0 : spins[i] * unit);
-        if (!change.is_any()) continue;
+        if (!change.is_on()) continue;
         changed.any = true;
         if (change.of_place) {
             changed.places = true;

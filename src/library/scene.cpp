@@ -107,7 +107,7 @@ SceneFacts facts_of(const SceneParameters& scene) {
     facts.n_discs = scene.n_discs;
     facts.steps = scene.steps;
     facts.micro_steps = scene.micro_steps;
-    facts.exchanges_radii = scene.effects.swap.is_any();
+    facts.exchanges_radii = scene.effects.swap.is_on();
     facts.is_event_driven = scene.method == Method::event_driven;
     facts.is_periodic_x = scene.effects.is_periodic_x();
     facts.is_periodic_y = scene.effects.is_periodic_y();

@@ -22,7 +22,7 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const SceneParameters
     std::vector<Problem> problems;
     if (fields.spins && !scene.effects.have_spins())
         problems.push_back({path, 0, "only rough discs have spins (effects.contact.kind)"});
-    if (fields.directions && !scene.effects.activity.is_any())
+    if (fields.directions && !scene.effects.activity.is_on())
         problems.push_back({path, 0, "only active discs have directions (effects.activity)"});
     if (!problems.empty()) throw InputError(std::move(problems));
     TrajectoryOutput wanted;

@@ -26,7 +26,7 @@ ImageCounts::ImageCounts(const Box& box, DiscSystem& system, const Communicator&
     const std::uint64_t end = pieces_.begin(pieces_.first_of(ranks_.rank() + 1));
     for (DiscId id = pieces_.begin(pieces_.first_of(ranks_.rank())); id < end; ++id)
         counts_.push_back({id, 0, 0});
-    system_.engine().note_crossings_in(crossings_);
+    system_.engine().record_crossings_in(crossings_);
 }
 
 ImageCounts::~ImageCounts() { system_.engine().forget_crossings_in(crossings_); }

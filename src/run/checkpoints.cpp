@@ -116,7 +116,7 @@ std::string Checkpoints::write_copy() {
         write_checkpoint(path, copy_->header, copy_->discs, ranks_,
                          {run_.n_threads(), wanted_->transfers == Transfers::collective},
                          copy_->samples, copy_->columns.spans());
-        note_written(path, copy_->header.step);
+        record_written(path, copy_->header.step);
     }
     return last_written_ < 0
                ? "nothing is kept to go on from"
@@ -128,11 +128,11 @@ std::string Checkpoints::keep(std::int64_t step) {
     write_copy();
     if (last_written_ < step) go_over_to(step);
     if (last_written_ < 0) return "nothing is kept to go on from";
-    const double growth = run_.scene().effects.growth_at(static_cast<double>(last_written_));
+    const double size = run_.scene().effects.size_at(static_cast<double>(last_written_));
     return fmt::format("{} keeps step {}, which discs.from takes, with radii {:.10g} times those "
                        "of the scene (discs.packing = {:.10g})",
-                       checkpoint_path(wanted_->folder, last_written_), last_written_, growth,
-                       run_.scene().packing() * growth * growth);
+                       checkpoint_path(wanted_->folder, last_written_), last_written_, size,
+                       run_.scene().packing() * size * size);
 }
 
 /// Repeats the steps from the last stored state to `step`, with the same bits. **Collective.**
@@ -148,17 +148,17 @@ void Checkpoints::go_over_to(std::int64_t step) {
     if (!again.advance_to(step)) return;
     const std::string path = checkpoint_path(wanted_->folder, step);
     again.write_checkpoint(path, wanted_->transfers);
-    note_written(path, step);
+    record_written(path, step);
 }
 
 void Checkpoints::write() {
     if (removal_.valid()) removal_.get(); // because its space may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
-    note_written(path, run_.step());
+    record_written(path, run_.step());
 }
 
-void Checkpoints::note_written(const std::string& path, std::int64_t step) {
+void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     last_written_ = step;
     copy_.reset();
     std::erase(kept_, path);

@@ -69,7 +69,7 @@ private:
     void write();
     void copy();
     void go_over_to(std::int64_t step);
-    void note_written(const std::string& path, std::int64_t step);
+    void record_written(const std::string& path, std::int64_t step);
     void remove_oldest();
 
     Run& run_;

@@ -17,8 +17,8 @@ namespace carrom {
 namespace {
 
 /// The factor by which radii had grown when the failed step began.
-double growth_before(const SceneParameters& scene, const CheckFailure& failure) {
-    return scene.effects.growth_at(static_cast<double>(failure.step - 1));
+double size_before(const SceneParameters& scene, const CheckFailure& failure) {
+    return scene.effects.size_at(static_cast<double>(failure.step - 1));
 }
 
 /// Text of a scene of one step that begins with the surrounding discs, which `discs_file` lists.
@@ -35,7 +35,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     if (has_boundary(scene.effects, BoundaryKind::moving))
         text += "\n# Moving walls begin at the box's sides here; they have moved there.";
     SceneParameters around = scene;
-    if (scene.origin.is_any())
+    if (scene.origin.is_on())
         text +=
             "\n# Places count from the lower left corner of the box here, which keeps all bits.";
     around.origin = {};
@@ -63,7 +63,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     around.frozen.clear();
     if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
     around.steps = 1;
-    const double grown = growth_before(scene, failure);
+    const double grown = size_before(scene, failure);
     around.radius *= grown;
     around.effects.growth /= grown;
     around.text_output = TextOutput::none;
@@ -83,7 +83,7 @@ std::string disc_lines(const SceneParameters& scene, const CheckFailure& failure
         if (const SizeAndMass& body = species_table.of(discs[i].id); !scene.effects.species.empty())
             text += fmt::format(" {} {}",
                                 (failure.radii.empty() ? body.radius : failure.radii[i]) *
-                                    growth_before(scene, failure),
+                                    size_before(scene, failure),
                                 body.mass);
         text += failure.spins.empty() ? "\n" : fmt::format(" {}\n", failure.spins[i]);
     }

@@ -67,7 +67,7 @@ HeapWarning::HeapWarning(const SceneParameters& scene, const DiscSystem& system,
 
 bool HeapWarning::may_warn(const SceneParameters& scene) {
     const Effects& effects = scene.effects;
-    return effects.gravity.is_any() && are_pairs_lossy(effects);
+    return effects.gravity.is_on() && are_pairs_lossy(effects);
 }
 
 bool HeapWarning::act() {
@@ -91,7 +91,7 @@ bool HeapWarning::act() {
 }
 
 std::string HeapWarning::text_on_rest(double per_step) const {
-    const Gravity& gravity = scene_.effects.gravity;
+    const Acceleration& gravity = scene_.effects.gravity;
     const double per_contact_time = per_step *
                                     ContactGuard(scene_.effects, scene_.radius)
                                         .rest_time(std::hypot(gravity.x, gravity.y), scene_.radius);
@@ -109,7 +109,7 @@ std::string HeapWarning::text_on_flow(double per_step) const {
     // The flow may still become faster, and its discs fall over each other by about a radius. The
     // advice stays below the limits beyond which the scene is an error or impacts lose too much
     // energy.
-    const Gravity& gravity = scene_.effects.gravity;
+    const Acceleration& gravity = scene_.effects.gravity;
     const double radius = smallest_radius(scene_),
                  fallen = std::sqrt(2 * std::hypot(gravity.x, gravity.y) * radius),
                  best = std::min({rounded_up(std::max(speed_of_passing(), fallen)),

@@ -30,7 +30,7 @@ void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, 
     find_origin(draft.scene);
     const Origin& origin = draft.scene.origin;
     for (const auto& [key, setting] : right)
-        if (origin.is_any() && has_places(*key))
+        if (origin.is_on() && has_places(*key))
             move_places(*key, setting->value, origin.x, origin.y);
 }
 

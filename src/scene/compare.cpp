@@ -13,7 +13,7 @@ namespace {
 
 std::string shown(const Key& key, const SceneParameters& scene) {
     Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
-    if (scene.origin.is_any()) move_places(key, value, -scene.origin.x, -scene.origin.y);
+    if (scene.origin.is_on()) move_places(key, value, -scene.origin.x, -scene.origin.y);
     return value.is_nothing() ? "not set" : toml_text(key, value);
 }
 

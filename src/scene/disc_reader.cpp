@@ -89,7 +89,7 @@ void DiscReader::judge(Line& line, std::vector<InputDisc>& chunk) {
     if (line.is_cut)
         return refuse(line,
                       fmt::format("a line of more than {} characters", LineReader::longest_line));
-    if (std::string fault = note_id(line); !fault.empty()) return refuse(line, std::move(fault));
+    if (std::string fault = record_id(line); !fault.empty()) return refuse(line, std::move(fault));
     if (!line.fault.empty()) return refuse(line, std::move(line.fault));
     chunk.push_back(line.disc);
 }
@@ -152,7 +152,7 @@ void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
                     columns_[i], *place_of(columns_[i], disc, body, beside));
                 !fault.empty())
                 add(fault);
-    if (has_lines_ && scene_.origin.is_any()) disc.x += scene_.origin.x, disc.y += scene_.origin.y;
+    if (has_lines_ && scene_.origin.is_on()) disc.x += scene_.origin.x, disc.y += scene_.origin.y;
     if (text.empty()) text = disc_problem(disc, scene_, body.radius);
     if (words.size() > n_words)
         add(fmt::format("{} after the {} numbers '{}'", in_quotes(words[n_words]), n_words,
@@ -160,7 +160,7 @@ void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
 }
 
 /// Records the disc's id, or returns why it is wrong.
-std::string DiscReader::note_id(const Line& line) {
+std::string DiscReader::record_id(const Line& line) {
     if (!line.has_number) {
         if (!place_of_id_)
             return fmt::format("one line too many: the scene is of {} discs", most_discs());

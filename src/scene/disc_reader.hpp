@@ -82,7 +82,7 @@ private:
         return std::string_view(text_.data() + line.begin, line.end - line.begin);
     }
     bool has_seen(DiscId id) const { return id < seen_.size() && seen_[id]; }
-    std::string note_id(const Line& line);
+    std::string record_id(const Line& line);
     void refuse(const Line& line, std::string text);
     std::string missing_ids() const;
     std::uint64_t most_discs()

@@ -111,7 +111,7 @@ Room room_along(Axis axis, const SceneParameters& scene, double radius) {
 std::string room_text(const SceneParameters& scene, double radius) {
     const Box& box = scene.box;
     const bool have_open = scene.effects.have_open_boundaries();
-    if (have_open || scene.origin.is_any()) {
+    if (have_open || scene.origin.is_on()) {
         const Room x = room_along(Axis::x, scene, radius), y = room_along(Axis::y, scene, radius);
         const Origin& o = scene.origin;
         return fmt::format(

@@ -97,7 +97,7 @@ std::string shown_place(const SceneParameters& scene, double x, double y) {
 }
 
 std::string corner_text(const SceneParameters& scene) {
-    if (!scene.origin.is_any()) return "";
+    if (!scene.origin.is_on()) return "";
     return ", whose lower left corner is at " + shown_place(scene, 0, 0);
 }
 

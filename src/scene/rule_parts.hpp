@@ -29,7 +29,7 @@ inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() |
 inline constexpr const char* no_obstacles =
     "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
 inline bool has_growth(const SceneParameters& s) { return s.effects.growth != 0; }
-inline bool has_barostat(const SceneParameters& s) { return s.effects.barostat.is_any(); }
+inline bool has_barostat(const SceneParameters& s) { return s.effects.barostat.is_on(); }
 inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }

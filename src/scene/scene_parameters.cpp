@@ -39,7 +39,7 @@ void choose_fields(TrajectoryOutput& trajectory, const SceneParameters& scene) {
 
 bool has_first_numbers(const SceneParameters& scene, SideColumn column) {
     return !scene.first_numbers[column].empty() ||
-           (column == SideColumn::direction && scene.effects.activity.is_any());
+           (column == SideColumn::direction && scene.effects.activity.is_on());
 }
 
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id) {

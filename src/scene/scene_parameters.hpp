@@ -77,7 +77,7 @@ struct Origin {
     double x = 0, y = 0;
     bool is_centre = false; ///< follows the box; x and y are set once that is known
 
-    bool is_any() const { return x != 0 || y != 0; }
+    bool is_on() const { return x != 0 || y != 0; }
     friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
 };
 
@@ -273,7 +273,7 @@ struct SceneParameters {
     double packing() const;
     /// The packing at the end of the last step, for growing discs.
     double last_packing() const {
-        const double growth = effects.growth_at(static_cast<double>(steps));
+        const double growth = effects.size_at(static_cast<double>(steps));
         return packing() * (growth * growth);
     }
     /// Whether the discs are lines of text, in `discs_file` or after a legacy header.

@@ -31,7 +31,7 @@ std::string scene_text(const SceneParameters& scene) {
             if (key.table() != table.name) continue;
             if (!key.is_required && key.is_same(scene, plain)) continue;
             Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
-            if (scene.origin.is_any()) move_places(key, value, -scene.origin.x, -scene.origin.y);
+            if (scene.origin.is_on()) move_places(key, value, -scene.origin.x, -scene.origin.y);
             if (!value.is_nothing())
                 lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
                                      toml_text(key, value));

@@ -20,7 +20,7 @@ CellSizes cell_sizes(const DiscSystem& system) {
     sizes.species = system.species_if_mixed();
     for (const Species& one : effects.species)
         sizes.largest_radius = std::max(sizes.largest_radius, one.radius);
-    sizes.growth = system.engine().size() * effects.growth_at(static_cast<double>(system.step()));
+    sizes.size = system.engine().size() * effects.size_at(static_cast<double>(system.step()));
     return sizes;
 }
 

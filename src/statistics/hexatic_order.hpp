@@ -25,7 +25,7 @@ namespace carrom {
 struct CellSizes {
     const SpeciesTable* species = nullptr; ///< null if all discs have one size
     double largest_radius = 0;             ///< radius at the start, as in the table
-    double growth = 1;                     ///< the factor by which radii have grown
+    double size = 1;                       ///< the factor by which radii have grown
 
     double squared_radius_of(DiscId id) const {
         return species ? squared(species->of(id).radius) : 0;
@@ -33,7 +33,7 @@ struct CellSizes {
     double largest_squared_radius() const { return species ? squared(largest_radius) : 0; }
 
 private:
-    double squared(double radius) const { return (growth * radius) * (growth * radius); }
+    double squared(double radius) const { return (size * radius) * (size * radius); }
 };
 
 /// Fills in `orders` in the order of the view's discs. Walls of `box` bound cells and are not

@@ -8,7 +8,7 @@
 namespace carrom {
 
 template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const DiscState> results) {
+void TimeSteppedEngine<Dynamics>::record_velocities(std::span<const DiscState> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
     if (!this->pair_followers_.are_any()) return;
@@ -47,9 +47,9 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
         }
         if (this->pair_followers_.are_any() && !c.is_wall()) {
             const double time = m + c.time;
-            note_in(this->pair_followers_.note(), dynamics_, unhit_[i],
-                    dynamics_.separation_at(unhit_[i], unhit_partners_[i], time), results[c.p],
-                    results[c.q], unhit_[i].vx, unhit_[i].vy, time, k, this->last_sync());
+            record_in(this->pair_followers_.note(), dynamics_, unhit_[i],
+                      dynamics_.separation_at(unhit_[i], unhit_partners_[i], time), results[c.p],
+                      results[c.q], unhit_[i].vx, unhit_[i].vy, time, k, this->last_sync());
         }
         if (this->log_)
             this->log_->push_back({this->last_sync() + m, c.time, 0, unhit_[i].id,
@@ -62,7 +62,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
 
 // The functions that the engine's own file calls. The class itself is compiled there.
 #define CARROM_DEFINE(Dynamics)                                                                    \
-    template void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const DiscState>);        \
+    template void TimeSteppedEngine<Dynamics>::record_velocities(std::span<const DiscState>);      \
     template void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState>, int);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

@@ -268,7 +268,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
     DiscStates& results = in_parts_ ? outcomes_ : discs_.all();
     {
         const PhaseClock::Scope scope(phases_, Phase::move);
-        if (this->is_followed()) note_velocities(results);
+        if (this->is_followed()) record_velocities(results);
         const double fastest = collide_all(window, m, results);
         if (this->is_followed()) log_collisions(results, m);
         largest_speed_ = std::max(largest_speed_, fastest);

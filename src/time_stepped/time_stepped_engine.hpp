@@ -82,7 +82,7 @@ private:
         return dynamics_.has_spin() ? &discs_.columns()[SideColumn::spin][index] : nullptr;
     }
     void update_halo(const Window& window, int m);
-    void note_velocities(std::span<const DiscState> results);
+    void record_velocities(std::span<const DiscState> results);
     void log_collisions(std::span<const DiscState> results, int m);
 
     DiscStates outcomes_; ///< new states of discs_.all() while a micro-step is divided into parts

@@ -234,9 +234,9 @@ protected:
                 effects().gravity.x = of({-1, 1}) * std::min(largest_ * 0.1, most);
         }
         if (is_all_ && !is_rough && one_in(4) &&
-            !(effects().gravity.is_any() && effects().obstacles.are_any()))
+            !(effects().gravity.is_on() && effects().obstacles.are_any()))
             effects().drag = std::min(0.2, 1 / interval());
-        if (effects().gravity.is_any()) contact.contact_time = of({0.01, 0.05});
+        if (effects().gravity.is_on()) contact.contact_time = of({0.01, 0.05});
         contact.contact_time = std::min(contact.contact_time, interval() / 4);
     }
     /// Heavy discs may make light ones faster by the root of their masses' ratio, and in periodic

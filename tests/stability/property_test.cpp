@@ -147,7 +147,7 @@ bool energy_is_right(const TestScene& scene, const State& end) {
     const auto has_side = [&effects](auto is_so) {
         return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_so);
     };
-    if (effects.gravity.is_any() || has_side([](const Boundary& side) {
+    if (effects.gravity.is_on() || has_side([](const Boundary& side) {
             return side.kind == BoundaryKind::thermal || side.speed != 0;
         }))
         return true;

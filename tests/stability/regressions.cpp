@@ -97,7 +97,7 @@ bool shrink_effects(TestScene& scene, const Fails& fails) {
 /// Effects, key by key, and the rule.
 std::string toml_of(const Effects& effects, Method method) {
     std::string text = fmt::format("method = \"{}\"\n", name_of(method));
-    bool is_lossy = effects.gravity.is_any() || effects.obstacles.restitution < 1;
+    bool is_lossy = effects.gravity.is_on() || effects.obstacles.restitution < 1;
     for (std::size_t k = 0; k < boundary_names.size(); ++k) {
         const Boundary& side = effects.boundaries[k];
         is_lossy = is_lossy || side.restitution < 1 || side.kind == BoundaryKind::oscillating ||
@@ -138,7 +138,7 @@ std::string toml_of(const Effects& effects, Method method) {
         text += fmt::format("friction = {:.17g}\n", contact.friction);
     if ((is_dull || is_lossy) && contact.contact_time > 0)
         text += fmt::format("contact_time = {:.17g}\n", contact.contact_time);
-    if (effects.gravity.is_any())
+    if (effects.gravity.is_on())
         text += fmt::format("[effects.gravity]\nx = {:.17g}\ny = {:.17g}\n", effects.gravity.x,
                             effects.gravity.y);
     if (effects.drag > 0) text += fmt::format("[effects.drag]\nrate = {:.17g}\n", effects.drag);

@@ -8,7 +8,7 @@
 
 #include "dynamics/drag.hpp"
 #include "dynamics/falling_contact.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {

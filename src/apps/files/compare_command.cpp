@@ -65,7 +65,7 @@ std::vector<Problem> reasons_against(const SceneParameters& scene) {
         add("is not of the time-stepped method; try: --set time.method=time-stepped");
     if (scene.effects.are_any() || scene.freezes())
         add("has effects; outputs are compared without");
-    if (scene.origin.is_any())
+    if (scene.origin.is_on())
         add("has box.origin; outputs are compared from the lower left corner of the box");
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         add("has another precision or arithmetic; outputs are compared to the default");

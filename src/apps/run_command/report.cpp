@@ -109,7 +109,7 @@ void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& s
     };
     report["radius"] = scene.are_points ? 0 : scene.radius;
     report["box"] = {scene.box.x, scene.box.y};
-    if (scene.origin.is_any()) report["origin"] = {scene.origin.x, scene.origin.y};
+    if (scene.origin.is_on()) report["origin"] = {scene.origin.x, scene.origin.y};
     report["temperature"] = estimate(averages.temperature, no_heat);
     report["pressure"] = estimate(averages.pressure, no_heat);
     report["compressibility"] = estimate(averages.compressibility,

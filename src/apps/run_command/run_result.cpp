@@ -61,8 +61,8 @@ void fill_end(RunResult& result, const Run& run) {
 double last_packing(const SceneParameters& scene, const RunResult& result) {
     if (result.size != 1) return scene.packing() * (result.size * result.size);
     if (!result.stop_reason) return scene.last_packing();
-    const double growth = scene.effects.growth_at(static_cast<double>(result.last_step));
-    return scene.packing() * (growth * growth);
+    const double size = scene.effects.size_at(static_cast<double>(result.last_step));
+    return scene.packing() * (size * size);
 }
 
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {

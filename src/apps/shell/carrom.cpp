@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
         return static_cast<int>(carrom::ExitCode::collective_failure);
     }
     if (action.needs_mpi || action.stops_on_request) carrom::let_threads_sleep(argv);
-    if (action.stops_on_request) carrom::note_stop_signals();
+    if (action.stops_on_request) carrom::record_stop_signals();
     carrom::guard_exit();
     carrom::start_io();
     const carrom::Mpi mpi(argc, argv,

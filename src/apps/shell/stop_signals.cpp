@@ -30,7 +30,7 @@ void answer(int number) {
     }
 }
 
-void note_signal(int number) {
+void record_signal(int number) {
     signal_that_has_come = number;
     request_stop();
     if (!is_answer_due.exchange(false)) return;
@@ -41,12 +41,12 @@ void note_signal(int number) {
 
 } // namespace
 
-void note_stop_signals() {
+void record_stop_signals() {
     static bool are_noted = false;
     if (are_noted) return; // a second call would take the handler for the default action
     are_noted = true;
     struct sigaction action{};
-    action.sa_handler = note_signal;
+    action.sa_handler = record_signal;
     action.sa_flags = SA_RESTART; // so that system calls in progress continue
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, nullptr);
@@ -59,7 +59,7 @@ void note_stop_signals() {
 }
 
 StopSignals::StopSignals(bool are_reported) {
-    note_stop_signals();
+    record_stop_signals();
     if (!are_reported) return;
     is_answer_due = true;
     if (signal_that_has_come == 0 || !is_answer_due.exchange(false)) return;

@@ -8,12 +8,13 @@ namespace carrom {
 
 /// From here on these signals do not end the process, to its very end, because one that comes
 /// after the last step must not make a complete run fail. To be called before MPI starts.
-void note_stop_signals();
+void record_stop_signals();
 
 class StopSignals {
 public:
-    /// Records signals from here on, unless `note_stop_signals` does. If `are_reported`, the first
-    /// signal is answered on standard error at once, because the end of the step may be far away.
+    /// Records signals from here on, unless `record_stop_signals` does. If `are_reported`, the
+    /// first signal is answered on standard error at once, because the end of the step may be far
+    /// away.
     explicit StopSignals(bool are_reported);
     ~StopSignals(); ///< signals are no longer answered
     StopSignals(const StopSignals&) = delete;

@@ -153,7 +153,7 @@ public:
                                   sums.resize(sums.size() + n_sums, 0);
                                   compare(now, levels_[level][slot], std::span(sums).last(n_sums));
                               });
-        note_means(lags, sums);
+        record_means(lags, sums);
         for (std::size_t level = 0; level < levels_.size(); ++level)
             if (scheme_.keeps(level, n_samples_))
                 levels_[level][scheme_.slot(level, n_samples_)] = now;
@@ -263,7 +263,7 @@ private:
     }
 
     /// Adds the sums of all ranks, and adds a sample to each lag. **Collective.**
-    void note_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
+    void record_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
         // Each sum is on one rank, and the others have zeros
         std::vector<std::uint64_t> words(sums.size());
         for (std::size_t k = 0; k < sums.size(); ++k)

@@ -100,7 +100,7 @@ MeasuredQuantity volume_quantity() {
                         .keys = {quantities_key},
                         .is_broken =
                             [](const SceneParameters& s) {
-                                return measures(s, "volume") && !s.effects.barostat.is_any();
+                                return measures(s, "volume") && !s.effects.barostat.is_on();
                             }}}},
             make_measurement<Volume>,
             {"volume_history"}};

@@ -74,7 +74,7 @@ private:
 };
 
 const Need active{"without effects.activity.speed or effects.activity.force",
-                  [](const SceneParameters& s) { return s.effects.activity.is_any(); }};
+                  [](const SceneParameters& s) { return s.effects.activity.is_on(); }};
 
 std::vector<Key> keys_of_activity() {
     return {
@@ -115,18 +115,18 @@ std::vector<Rule> rules_of_activity() {
         rule("active discs", "no friction",
              "a force that never ends needs one; take effects.thermostat.kind = \"langevin\"", keys,
              [](const SceneParameters& s) {
-                 return s.effects.activity.is_any() &&
+                 return s.effects.activity.is_on() &&
                         s.effects.thermostat.kind != ThermostatKind::langevin;
              }),
         rule("active discs", "sheared sides", "the flow would have to turn their directions", keys,
              [](const SceneParameters& s) {
-                 return s.effects.activity.is_any() && s.effects.are_sheared();
+                 return s.effects.activity.is_on() && s.effects.are_sheared();
              }),
         rule("directions in discs.columns", "discs that are not active",
              "directions have no meaning without effects.activity", {"discs.columns"},
              [](const SceneParameters& s) {
                  return has_column(s, disc_column_of(SideColumn::direction)) &&
-                        !s.effects.activity.is_any();
+                        !s.effects.activity.is_on();
              }),
     };
 }
@@ -155,7 +155,7 @@ double speed_of(const SceneParameters& scene) {
 }
 
 void check_room_of_activity(const SceneDraft& draft) {
-    if (!draft.scene.effects.activity.is_any()) return;
+    if (!draft.scene.effects.activity.is_on()) return;
     const std::string_view key = draft.scene.effects.activity.force == 0 ? "effects.activity.speed"
                                                                          : "effects.activity.force";
     const std::string text = speed_problem(speed_of(draft.scene), draft.scene);
@@ -164,7 +164,7 @@ void check_room_of_activity(const SceneDraft& draft) {
 
 std::string summary_of_activity(const Effects& effects) {
     const Activity& activity = effects.activity;
-    if (!activity.is_any()) return {};
+    if (!activity.is_on()) return {};
     std::string text = activity.force == 0
                            ? fmt::format("active discs of speed {:g}", activity.speed)
                            : fmt::format("active discs of force {:g}", activity.force);
@@ -187,15 +187,15 @@ EffectDeclaration activity() {
         .check_room = check_room_of_activity,
         .summary = summary_of_activity,
         .allowance =
-            [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.activity.is_any()}; },
+            [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.activity.is_on()}; },
         .usual_speed = speed_of,
         .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
-            if (!s.effects.activity.is_any()) return nullptr;
+            if (!s.effects.activity.is_on()) return nullptr;
             return std::make_unique<Propulsion>(s);
         },
         .reason_without_z =
             [](const Effects& e) {
-                return std::string(e.activity.is_any()
+                return std::string(e.activity.is_on()
                                        ? "no Z, because active discs push on walls by their "
                                          "swim pressure, too"
                                        : "");

@@ -161,13 +161,13 @@ std::vector<Rule> rules_of_barostat() {
              "volumes are weighted for elastic discs in equilibrium", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (s.effects.contact.kind != ContactKind::elastic ||
-                                            s.effects.activity.is_any());
+                                            s.effects.activity.is_on());
              }),
         rule(constant, "gravity, a field, drag or obstacles",
              "discs need straight flights in an empty box, which can change as a whole", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s) ||
-                                            s.effects.field.is_any());
+                                            s.effects.field.is_on());
              }),
         rule(constant, "sides that are not all periodic, or sheared",
              "the volume needs a box without sides; make all four sides periodic", keys,
@@ -196,12 +196,12 @@ EffectDeclaration barostat() {
                 },
             .summary =
                 [](const Effects& e) {
-                    return e.barostat.is_any() ? fmt::format("volume moves at P d^2 / kT = {:g}",
-                                                             e.barostat.pressure)
-                                               : "";
+                    return e.barostat.is_on() ? fmt::format("volume moves at P d^2 / kT = {:g}",
+                                                            e.barostat.pressure)
+                                              : "";
                 },
             .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
-                if (!s.effects.barostat.is_any()) return nullptr;
+                if (!s.effects.barostat.is_on()) return nullptr;
                 return std::make_unique<VolumeMoves>(s);
             }};
 }

@@ -130,12 +130,12 @@ std::string problem_of_pair(const Numbers& row, std::size_t n_rows, bool are_rou
         std::size_t place;
         double low, high;
     };
-    bool is_any = false;
+    bool is_on = false;
     for (const Limit& one : {Limit{"restitution", pair_row::restitution, 0, 1},
                              Limit{"tangential_restitution", pair_row::tangential, -1, 1},
                              Limit{"friction", pair_row::friction, 0, 1e6}}) {
         if (!is_given(row, one.place)) continue;
-        is_any = true;
+        is_on = true;
         if (!are_rough && one.place != pair_row::restitution)
             return fmt::format("{} has no meaning without effects.contact.kind = \"rough\"",
                                one.name);
@@ -143,9 +143,9 @@ std::string problem_of_pair(const Numbers& row, std::size_t n_rows, bool are_rou
             return fmt::format("its {} must be from {} to {}, not {}", one.name, one.low, one.high,
                                row[one.place]);
     }
-    return is_any ? ""
-                  : "it gives no number; it takes restitution, and friction and "
-                    "tangential_restitution of rough discs";
+    return is_on ? ""
+                 : "it gives no number; it takes restitution, and friction and "
+                   "tangential_restitution of rough discs";
 }
 
 void check_pairs(const SceneDraft& draft) {

@@ -59,7 +59,7 @@ EffectDeclaration drag() {
         // If discs are also pulled, the loss depends on the flight and may be 0.
         .energy_left =
             [](const Effects& e, double time) {
-                return e.acceleration().is_any() ? 1 : std::exp(-2 * e.drag * time);
+                return e.acceleration().is_on() ? 1 : std::exp(-2 * e.drag * time);
             }};
 }
 

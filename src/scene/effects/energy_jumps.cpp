@@ -37,7 +37,7 @@ double temperature_in_the_end(const SceneParameters& scene) {
 /// Warns if a flow, or discs that lose energy, move far from their temperature between two syncs.
 void warn_of_rare_acts(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
-    if (!scene.effects.thermostat.is_any() || scene.steps == 0) return;
+    if (!scene.effects.thermostat.is_on() || scene.steps == 0) return;
     const double interval = steps_between_syncs(scene);
     if (interval > static_cast<double>(scene.steps)) {
         scene.warnings.push_back(

@@ -212,7 +212,7 @@ std::vector<Key> keys_of_field() {
     };
 }
 
-bool has_field(const SceneParameters& s) { return s.effects.field.is_any(); }
+bool has_field(const SceneParameters& s) { return s.effects.field.is_on(); }
 
 bool is_trap(const SceneParameters& s) { return s.effects.field.kind == FieldKind::trap; }
 
@@ -250,7 +250,7 @@ double turn_between_syncs(const SceneParameters& scene) {
 void prepare_field(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     ExternalField& field = scene.effects.field;
-    if (!field.is_any() || scene.box == Box()) return;
+    if (!field.is_on() || scene.box == Box()) return;
     if (field.kind == FieldKind::grid)
         field.spline = FieldSpline(field.values, scene.effects.is_periodic_x(),
                                    scene.effects.is_periodic_y());
@@ -357,18 +357,18 @@ EffectDeclaration field() {
             .summary = summary_of_field,
             .allowance =
                 [](const Effects& e) {
-                    return CheckAllowance{.acts_at_syncs = e.field.is_any(),
-                                          .acts_before_flights = e.field.is_any()};
+                    return CheckAllowance{.acts_at_syncs = e.field.is_on(),
+                                          .acts_before_flights = e.field.is_on()};
                 },
             .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
-                if (!e.field.is_any()) return std::nullopt;
+                if (!e.field.is_on()) return std::nullopt;
                 return OtherEnergy{.name = "potential_energy",
                                    .words = "in the field",
                                    .value = &Totals::potential_energy,
                                    .of_disc = energy_in_field,
                                    .is_of_syncs = true};
             },
-            .lets_discs_rest = [](const Effects& e) { return e.field.is_any(); },
+            .lets_discs_rest = [](const Effects& e) { return e.field.is_on(); },
             .usual_speed =
                 [](const SceneParameters& s) {
                     return std::sqrt(2 * s.effects.field.depth(s.box) *
@@ -384,7 +384,7 @@ EffectDeclaration field() {
                 },
             .reason_without_z =
                 [](const Effects& e) {
-                    return std::string(e.field.is_any()
+                    return std::string(e.field.is_on()
                                            ? "no Z, because the density differs from place to place"
                                            : "");
                 }};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform gravity (dynamics/gravity.hpp), which may change in time (dynamics/sway.hpp).
+// Uniform gravity (dynamics/falling_frame.hpp), which may change in time (dynamics/sway.hpp).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/drag.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
@@ -83,7 +83,7 @@ std::vector<Rule> rules_of_gravity() {
              "discs fly straight there; take time.method = \"event-driven\"",
              {"effects.gravity.y", "effects.gravity.x"},
              [](const SceneParameters& s) {
-                 return s.effects.gravity.is_any() && is_time_stepped(s);
+                 return s.effects.gravity.is_on() && is_time_stepped(s);
              }),
         rule("gravity along x", "periodic sides left and right where nothing stops discs", why,
              {"effects.gravity.x"},
@@ -117,7 +117,7 @@ std::vector<Rule> rules_of_gravity() {
              "nothing stops discs in a flow without walls",
              {"effects.gravity.x", "effects.gravity.y"},
              [](const SceneParameters& s) {
-                 return s.effects.are_sheared() && s.effects.gravity.is_any();
+                 return s.effects.are_sheared() && s.effects.gravity.is_on();
              }),
     };
 }
@@ -127,7 +127,7 @@ double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box
     const auto height = [](double place, double pull, double length) {
         return pull < 0 ? place : length - place;
     };
-    const Gravity& g = effects.gravity;
+    const Acceleration& g = effects.gravity;
     return disc.has.mass * (std::fabs(g.x) * height(disc.x, g.x, box.x) +
                             std::fabs(g.y) * height(disc.y, g.y, box.y));
 }
@@ -141,7 +141,7 @@ bool falls_too_far(const SceneParameters& scene, double g) {
 }
 
 bool sways_too_fast(const SceneParameters& scene) {
-    const Gravity& g = scene.effects.gravity;
+    const Acceleration& g = scene.effects.gravity;
     return g.sways() && least_syncs * steps_between_syncs(scene) > g.period;
 }
 
@@ -149,7 +149,7 @@ bool sways_too_fast(const SceneParameters& scene) {
 /// enough, check_fall reports it.
 void shorten_sync(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
-    const Gravity& g = scene.effects.gravity;
+    const Acceleration& g = scene.effects.gravity;
     const std::int64_t by_default = scene.sync_every;
     if (draft.settings.has("time.sync_every") || scene.box == Box()) return;
     const auto are_rare = [&] {
@@ -182,7 +182,7 @@ void check_period(const SceneDraft& draft) {
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!draft.knows_syncs()) return;
-    const Gravity& all = scene.effects.gravity;
+    const Acceleration& all = scene.effects.gravity;
     for (const auto& [key, g] :
          {std::pair("effects.gravity.x", all.amplitude_x == 0 ? all.x : all.largest_x()),
           {"effects.gravity.y", all.amplitude_y == 0 ? all.y : all.largest_y()}}) {
@@ -200,8 +200,8 @@ void check_fall(const SceneDraft& draft) {
 }
 
 std::string summary_of_gravity(const Effects& effects) {
-    const Gravity& g = effects.gravity;
-    std::string text = g.is_any() ? fmt::format("gravity ({:g}, {:g})", g.x, g.y) : "";
+    const Acceleration& g = effects.gravity;
+    std::string text = g.is_on() ? fmt::format("gravity ({:g}, {:g})", g.x, g.y) : "";
     if (g.sways())
         text += fmt::format(" and amplitudes ({:g}, {:g}) of period {:g}", g.amplitude_x,
                             g.amplitude_y, g.period);
@@ -229,7 +229,7 @@ EffectDeclaration gravity() {
         .summary = summary_of_gravity,
         .allowance =
             [](const Effects& e) {
-                return CheckAllowance{.collisions_take_energy = e.gravity.is_any() && e.drag != 0,
+                return CheckAllowance{.collisions_take_energy = e.gravity.is_on() && e.drag != 0,
                                       .walls_give_energy = e.gravity.sways() && do_surfaces_rub(e)};
             },
         .energy = [](const Effects& e) -> std::optional<OtherEnergy> {
@@ -243,15 +243,15 @@ EffectDeclaration gravity() {
                                           box.longest();
                                }};
         },
-        .lets_discs_rest = [](const Effects& e) { return e.gravity.is_any(); },
+        .lets_discs_rest = [](const Effects& e) { return e.gravity.is_on(); },
         .usual_speed =
             [](const SceneParameters& s) {
-                const Gravity& g = s.effects.gravity;
+                const Acceleration& g = s.effects.gravity;
                 return std::sqrt(2 * (g.largest_x() + g.largest_y()) * s.box.longest());
             },
         .common_motion =
             [](const Effects& e, Axis axis) {
-                const Gravity& g = e.gravity;
+                const Acceleration& g = e.gravity;
                 return CommonMotion{.is_driven = along(axis, g.largest_x(), g.largest_y()) != 0};
             }};
 }

@@ -53,7 +53,7 @@ std::vector<Rule> rules_of_growth() {
 void check_growth(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (scene.effects.growth == 0) return;
-    const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
+    const double growth = scene.effects.size_at(static_cast<double>(scene.steps));
     const double densest = scene.effects.species.empty() ? largest_packing : 1;
     const auto room = [&scene](double side, bool is_periodic) {
         return side / ((is_periodic ? 4 * (1 + 1e-6) : 2) * scene.radius);

@@ -30,7 +30,7 @@ constexpr double most_arrivals = 1e5; ///< at a sync, through one side
 
 bool has_inlets(const Effects& effects) {
     return std::ranges::any_of(effects.boundaries,
-                               [](const Boundary& side) { return side.inlet.is_any(); });
+                               [](const Boundary& side) { return side.inlet.is_on(); });
 }
 
 class Inlets final : public SyncEffect, public DiscSource {
@@ -46,7 +46,7 @@ public:
     std::vector<Arrival> arrivals(std::int64_t n_syncs) const override {
         std::vector<Arrival> all;
         for (std::size_t side = 0; side < sides_.size(); ++side)
-            if (sides_[side].inlet.is_any()) add_arrivals(side, n_syncs, all);
+            if (sides_[side].inlet.is_on()) add_arrivals(side, n_syncs, all);
         return all;
     }
     void count(const ArrivalCounts& these) override {
@@ -112,7 +112,7 @@ private:
 
 Need inlet_of(std::size_t side) {
     return {fmt::format("without {}", side_key(side, "inlet.rate")),
-            [side](const SceneParameters& s) { return s.effects.boundaries[side].inlet.is_any(); }};
+            [side](const SceneParameters& s) { return s.effects.boundaries[side].inlet.is_on(); }};
 }
 
 std::vector<Key> keys_of_inlets() {
@@ -192,7 +192,7 @@ void check_inlet(const SceneDraft& draft, std::size_t side) {
 
 void check_inlets(const SceneDraft& draft) {
     for (std::size_t side = 0; side < boundary_names.size(); ++side)
-        if (draft.scene.effects.boundaries[side].inlet.is_any()) check_inlet(draft, side);
+        if (draft.scene.effects.boundaries[side].inlet.is_on()) check_inlet(draft, side);
 }
 
 std::vector<Rule> rules_of_inlets() {
@@ -206,7 +206,7 @@ std::vector<Rule> rules_of_inlets() {
 std::string summary_of_inlets(const Effects& effects) {
     std::string all;
     for (std::size_t side = 0; side < boundary_names.size(); ++side)
-        if (const Inlet& inlet = effects.boundaries[side].inlet; inlet.is_any())
+        if (const Inlet& inlet = effects.boundaries[side].inlet; inlet.is_on())
             all += fmt::format("{}{} inlet of {:g} discs a step, temperature {:g}",
                                all.empty() ? "" : "; ", boundary_names[side], inlet.rate,
                                inlet.temperature);
@@ -216,7 +216,7 @@ std::string summary_of_inlets(const Effects& effects) {
 double usual_speed_of_inlets(const SceneParameters& scene) {
     double largest = 0;
     for (const Boundary& side : scene.effects.boundaries)
-        if (side.inlet.is_any()) largest = std::max(largest, side.inlet.temperature);
+        if (side.inlet.is_on()) largest = std::max(largest, side.inlet.temperature);
     return std::sqrt(largest);
 }
 

@@ -100,11 +100,11 @@ private:
     }
 
     void note(const SyncDiscs& at) const {
-        if (at.note_wall)
+        if (at.record_wall)
             for (const WallImpulse& wall : forces_.walls)
-                if (wall.normal > 0) at.note_wall(wall);
-        if (at.note_pair)
-            for (const PairImpulse& pair : forces_.pairs) at.note_pair(pair);
+                if (wall.normal > 0) at.record_wall(wall);
+        if (at.record_pair)
+            for (const PairImpulse& pair : forces_.pairs) at.record_pair(pair);
     }
 
     ContactImpulses impulses_;
@@ -134,9 +134,9 @@ std::vector<Rule> rules_of_lasting_contacts() {
     const std::string_view lasting = "contacts that last";
     const RuleKeys keys = {"effects.lasting_contacts.speed"};
     return {
-        rule(
-            lasting, "no gravity", "nothing presses discs on each other; set effects.gravity", keys,
-            [](const SceneParameters& s) { return has_lasting(s) && !s.effects.gravity.is_any(); }),
+        rule(lasting, "no gravity", "nothing presses discs on each other; set effects.gravity",
+             keys,
+             [](const SceneParameters& s) { return has_lasting(s) && !s.effects.gravity.is_on(); }),
         rule(lasting, "elastic discs, or discs that pass through each other",
              "these never come to rest; take effects.contact.kind = \"restitution\" or \"rough\"",
              keys,
@@ -148,7 +148,7 @@ std::vector<Rule> rules_of_lasting_contacts() {
         rule(lasting, "drag or a thermostat",
              "contacts that last need discs that gravity alone presses until the next sync", keys,
              [](const SceneParameters& s) {
-                 return has_lasting(s) && (s.effects.drag != 0 || s.effects.thermostat.is_any());
+                 return has_lasting(s) && (s.effects.drag != 0 || s.effects.thermostat.is_on());
              }),
         rule(lasting, "growing discs, walls that move, or sheared or thermal sides",
              "contacts that last need discs and sides that can lie still", keys,

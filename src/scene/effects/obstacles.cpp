@@ -101,7 +101,7 @@ std::vector<Rule> rules_of_obstacles() {
              "contacts with bodies are found on straight lines and parabolas",
              {"effects.drag.rate"},
              [](const SceneParameters& s) {
-                 return has_obstacles(s) && s.effects.drag > 0 && s.effects.gravity.is_any();
+                 return has_obstacles(s) && s.effects.drag > 0 && s.effects.gravity.is_on();
              }),
         rule("obstacles", "walls that move",
              "obstacles need walls at rest: a disc between the two would have no way out",

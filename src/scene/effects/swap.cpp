@@ -266,7 +266,7 @@ private:
 };
 
 const Need swapping{"without effects.swap.rounds",
-                    [](const SceneParameters& s) { return s.effects.swap.is_any(); }};
+                    [](const SceneParameters& s) { return s.effects.swap.is_on(); }};
 
 std::vector<Key> keys_of_swap() {
     return {
@@ -288,7 +288,7 @@ std::vector<Key> keys_of_swap() {
     };
 }
 
-bool swaps(const SceneParameters& s) { return s.effects.swap.is_any(); }
+bool swaps(const SceneParameters& s) { return s.effects.swap.is_on(); }
 
 bool have_one_radius(const Effects& effects) {
     return std::ranges::all_of(effects.species, [&](const Species& one) {
@@ -355,14 +355,14 @@ EffectDeclaration swap() {
             .check_room = check_and_list_radii,
             .summary =
                 [](const Effects& e) {
-                    if (!e.swap.is_any()) return std::string();
+                    if (!e.swap.is_on()) return std::string();
                     return fmt::format("{} rounds of swaps at each sync{}", e.swap.rounds,
                                        e.swap.until_step == 0
                                            ? ""
                                            : fmt::format(" up to step {}", e.swap.until_step));
                 },
             .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
-                if (!s.effects.swap.is_any()) return nullptr;
+                if (!s.effects.swap.is_on()) return nullptr;
                 return std::make_unique<SwapMoves>(s);
             },
             .at_end =

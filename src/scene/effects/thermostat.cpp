@@ -273,7 +273,7 @@ std::vector<Rule> rules_of_thermostat() {
              {"effects.thermostat.kind"},
              {},
              [](const SceneParameters& s) {
-                 return s.effects.thermostat.is_any() && s.effects.drag != 0;
+                 return s.effects.thermostat.is_on() && s.effects.drag != 0;
              }}};
 }
 
@@ -284,7 +284,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
     const double interval = static_cast<double>(scene.sync_every) /
                             static_cast<double>(scene.micro_steps);
     const double rate = scene.effects.thermostat.rate;
-    if (!scene.effects.thermostat.is_any() || !(rate * interval > longest)) return;
+    if (!scene.effects.thermostat.is_on() || !(rate * interval > longest)) return;
     draft.refuse({"effects.thermostat.rate"},
                  fmt::format("'effects.thermostat.rate' = {} acts more than {} times between two "
                              "syncs: {:g} at most, or a smaller time.sync_every",
@@ -294,7 +294,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
 /// A bath does not change the distribution of velocities if nothing else gives or takes energy.
 bool makes_energy_jump(const Effects& effects) {
     const CheckAllowance others = allowance_of(effects);
-    return effects.thermostat.is_any() &&
+    return effects.thermostat.is_on() &&
            (!effects.thermostat.is_bath() || others.collisions_take_energy ||
             others.walls_give_energy || effects.are_sheared());
 }
@@ -357,7 +357,7 @@ EffectDeclaration thermostat() {
         .check_room = check_room_of_thermostat,
         .summary = summary_of_thermostat,
         .allowance =
-            [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.thermostat.is_any()}; },
+            [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.thermostat.is_on()}; },
         .usual_speed = usual_speed_of_thermostat,
         .at_syncs = thermostat_at_syncs,
         .makes_energy_jump = makes_energy_jump,

@@ -73,7 +73,7 @@ TEST_CASE("effects: sides and gravity have the references' bits, alone and toget
     struct Case {
         ContactEffect contact;
         std::array<Boundary, 4> boundaries;
-        Gravity gravity;
+        Acceleration gravity;
     };
     const std::array<Boundary, 4> plain{}, all_lossy{lossy, lossy, lossy, lossy},
         pistons{Boundary{}, piston, rising, piston}, floor{Boundary{}, Boundary{}, lossy, rising};

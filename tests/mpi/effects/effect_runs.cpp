@@ -7,7 +7,7 @@
 #include <omp.h>
 
 #include "dynamics/drag.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "dynamics/obstacles.hpp"
 
 namespace carrom::test {

@@ -105,7 +105,8 @@ TEST_CASE("periodic: gravity along periodic sides with bodies has the reference'
             scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.002};
             scene.setting.effects.obstacles.restitution = 0.6;
             scene.setting.falling_contact = falling_contact;
-            for (const Gravity& gravity : {Gravity{0.01, -0.03}, Gravity{-0.2, 0.3}}) {
+            for (const Acceleration& gravity :
+                 {Acceleration{0.01, -0.03}, Acceleration{-0.2, 0.3}}) {
                 scene.setting.effects.gravity = gravity;
                 check_bits(scene, Method::event_driven);
             }

@@ -41,7 +41,7 @@ ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radi
 }
 
 /// The least time at which a disc that falls touches a point of the arc, by small steps.
-double touch_by_steps(const DiscState& disc, const Gravity& g, double radius, const Arc& arc,
+double touch_by_steps(const DiscState& disc, const Acceleration& g, double radius, const Arc& arc,
                       double until) {
     const auto gap = [&](double t) {
         const double x = disc.x + disc.vx * t + 0.5 * g.x * t * t - arc.x,
@@ -124,7 +124,7 @@ TEST_CASE("arcs: a disc alone in a round box keeps energy, angular momentum and 
 
 TEST_CASE("arcs: under gravity the first contact is that of small steps") {
     std::mt19937_64 random(5902);
-    const Gravity g{0.05, -0.2};
+    const Acceleration g{0.05, -0.2};
     int n_found = 0;
     for (int k = 0; k < 400; ++k) {
         const double from = uniform(random, -180, 180);

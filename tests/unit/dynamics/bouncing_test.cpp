@@ -60,7 +60,7 @@ Bouncer random_bouncer(Numbers& random) {
     if (random.index(5) == 0) gravity = 0;
     if (0.5 * gravity * 64 * 64 > 20)
         bouncer.sync = std::max(1.0, std::floor(std::sqrt(40 / gravity)));
-    Gravity& pull = bouncer.effects.gravity;
+    Acceleration& pull = bouncer.effects.gravity;
     (bouncer.is_x() ? pull.x : pull.y) = (random.index(8) == 0 ? 1 : -1) * sign * gravity;
     bouncer.effects.contact.contact_time = random.of_any_size(0.01, 0.125) *
                                            std::min(period, 2 * bouncer.sync);

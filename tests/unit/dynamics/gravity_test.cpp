@@ -7,7 +7,7 @@
 #include "catch.hpp"
 
 #include "dynamics/drag.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "numbers_of_any_size.hpp"
 
 using namespace carrom;

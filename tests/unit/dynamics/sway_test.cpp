@@ -10,7 +10,7 @@
 #include "catch.hpp"
 
 #include "dynamics/effects.hpp"
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 #include "dynamics/sway.hpp"
 #include "numbers_of_any_size.hpp"
 
@@ -22,8 +22,8 @@ namespace {
 using Long = long double;
 constexpr Long turn = 2 * std::numbers::pi_v<Long>;
 
-Gravity random_gravity(Numbers& random) {
-    Gravity gravity;
+Acceleration random_gravity(Numbers& random) {
+    Acceleration gravity;
     gravity.x = random.uniform(-1, 1), gravity.y = random.uniform(-1, 1);
     gravity.amplitude_x = random.of_any_size(1e-3, 10);
     gravity.amplitude_y = random.of_any_size(1e-3, 10);
@@ -34,7 +34,7 @@ Gravity random_gravity(Numbers& random) {
 
 /// A disc before a wall, at `time` after the sync; all is towards the inside.
 struct Flight {
-    Gravity gravity;
+    Acceleration gravity;
     double distance = 0, rate = 0, pull = 0, sign = 1, sync = 0, time = 0;
 
     Long phase(Long s) const {
@@ -91,7 +91,7 @@ Flight random_flight(Numbers& random) {
 TEST_CASE("sway: a frame at rest at a sync falls by the double integral of a sine") {
     Numbers random(61);
     for (int k = 0; k < 2000; ++k) {
-        const Gravity g = random_gravity(random);
+        const Acceleration g = random_gravity(random);
         const double sync = random.index(5000), time = random.uniform(0, 0.125) * g.period;
         Sway sway(g);
         sway.begin_interval(sync);
@@ -144,7 +144,7 @@ TEST_CASE("sway: contacts with walls are the first roots, and none is missed") {
 }
 
 TEST_CASE("sway: a disc at a wall leaves it, and comes back when it is pressed") {
-    Gravity g;
+    Acceleration g;
     g.amplitude_y = 0.01, g.period = 80;
     Sway sway(g);                                        // pulls up for half a period
     CHECK(sway.contact_delay(1, 1, 0, -0.1, 0, 0) == 0); // it comes nearer

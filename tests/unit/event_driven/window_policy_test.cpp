@@ -30,7 +30,7 @@ std::vector<double> ends_until(double target, WindowPolicy& policy, double rate)
     std::vector<double> ends;
     for (double time = 0; time < target; time = ends.back()) {
         ends.push_back(policy.plan(needs_at(time), rate, endless, target).end);
-        policy.note_end(ends.back() - time);
+        policy.record_end(ends.back() - time);
     }
     return ends;
 }
@@ -76,7 +76,7 @@ TEST_CASE("window policy: the speed bound falls by a hundredth a window, and ris
 TEST_CASE("window policy: speeds count until twice the last window, or to the target") {
     WindowPolicy policy({});
     CHECK(policy.soon(10, 100) == 12); // before the first window
-    policy.note_end(4);
+    policy.record_end(4);
     CHECK(policy.soon(10, 100) == 18);
     CHECK(policy.soon(10, 15) == 15);
 }
@@ -86,7 +86,7 @@ TEST_CASE("window policy: a rate that falls shortens no window by more than it w
     // least 0.9 times the one before, so the windows become long step by step.
     const auto duration = [](WindowPolicy& policy, double rate) {
         const double chosen = policy.plan(needs_at(0), rate, endless, 1e6).choice.duration;
-        policy.note_end(chosen);
+        policy.record_end(chosen);
         return chosen;
     };
     WindowPolicy at_once({}), slowly({}), by_nine_tenths({});
@@ -110,7 +110,7 @@ TEST_CASE("window policy: repeated runs deepen the halo of later windows, not a 
         WindowPolicy policy(setting), calm(setting);
         const auto halo = [](WindowPolicy& one) {
             const PlannedWindow window = one.plan(needs_at(0), 0.2, endless, 64);
-            one.note_end(window.end);
+            one.record_end(window.end);
             return window.choice.halo;
         };
         const int before = halo(policy);
@@ -130,10 +130,10 @@ TEST_CASE("window policy: windows become shorter where almost all runs are repea
     double length = 0, calm_length = 0;
     for (int k = 0; k < 60; ++k) {
         length = policy.plan(needs_at(0), 1, endless, 64).choice.duration;
-        policy.note_end(length);
+        policy.record_end(length);
         policy.note({.repeated = 1, .waited = 0, .price_of_reach = 0.1});
         calm_length = calm.plan(needs_at(0), 1, endless, 64).choice.duration;
-        calm.note_end(calm_length);
+        calm.record_end(calm_length);
     }
     CHECK(length < 0.5 * calm_length);
     CHECK(length >= 0.1); // a tenth of a collision per disc

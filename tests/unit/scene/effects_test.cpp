@@ -118,8 +118,9 @@ TEST_CASE("obstacles are read, each wrong one is named") {
     CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}),
               "no meaning without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a "
               "'box.shape'"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=triangular"}),
-              "know nothing of obstacles"));
+    CHECK(
+        has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=triangular"}),
+            "know nothing of obstacles"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving",
                              "box.top.speed=1", "time.method=event-driven"}),
               "cannot have obstacles together with walls that move"));
@@ -131,7 +132,7 @@ TEST_CASE("obstacles are read, each wrong one is named") {
 
 TEST_CASE("gravity is read, and refused where the falling frame would leave the box") {
     CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.method=event-driven"})
-              .effects.gravity == Gravity{0, -0.02});
+              .effects.gravity == Acceleration{0, -0.02});
     CHECK(has(problems_with({"effects.gravity.y=-0.02", "time.method=time-stepped"}),
               "take time.method = \"event-driven\""));
     CHECK(has(

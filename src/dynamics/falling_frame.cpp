@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/gravity.hpp"
+#include "dynamics/falling_frame.hpp"
 
 #include <array>
 #include <cstddef>
@@ -77,8 +77,8 @@ double FallingFrame::micro_steps_at(double clock) const { return time_of_drag_cl
 FlightIntegral FallingFrame::flight_integral_at(double time) const {
     if (!(time > 0)) return {};
     const double q = drag_ * time, weight = time * (1 - 0.5 * q);
-    if (!gravity_.is_any()) return {weight, 0, 0, 0, 0};
-    if (sway_.is_any()) return swaying_flight_integral_at(time);
+    if (!acceleration_.is_on()) return {weight, 0, 0, 0, 0};
+    if (sway_.is_on()) return swaying_flight_integral_at(time);
     double of_squares = 0; // integral of the squares, divided by s^3
     if (q < 0x1p-6) {
         for (int k = 10; k >= 3; --k) of_squares = 1.0 / k + q * of_squares;
@@ -87,7 +87,8 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
     }
     const double shift = 0.5 * time / (1 - 0.5 * q);
     const double rest = time * std::sqrt(time * (of_squares - 0.25 / (1 - 0.5 * q)));
-    return {weight, shift * gravity_.x, shift * gravity_.y, rest * gravity_.x, rest * gravity_.y};
+    return {weight, shift * acceleration_.x, shift * acceleration_.y, rest * acceleration_.x,
+            rest * acceleration_.y};
 }
 
 namespace {
@@ -122,13 +123,13 @@ FlightIntegral FallingFrame::swaying_flight_integral_at(double time) const {
 
 Frame FallingFrame::moving_at(double time) const {
     Frame frame{true,
-                fallen(gravity_.x, time),
-                fallen(gravity_.y, time),
-                gravity_.x * time,
-                gravity_.y * time,
+                fallen(acceleration_.x, time),
+                fallen(acceleration_.y, time),
+                acceleration_.x * time,
+                acceleration_.y * time,
                 slowing_at(time),
                 time};
-    if (!sway_.is_any()) return frame;
+    if (!sway_.is_on()) return frame;
     const Swayed x = sway_.at(0, time), y = sway_.at(1, time);
     frame.x += x.way, frame.y += y.way;
     frame.vx += x.speed, frame.vy += y.speed;

@@ -58,7 +58,7 @@ class FallingFrame {
 public:
     /// `effects` have times in micro-steps.
     explicit FallingFrame(const Effects& effects)
-        : gravity_(effects.acceleration()), drag_(effects.drag), sway_(gravity_) {}
+        : acceleration_(effects.acceleration()), drag_(effects.drag), sway_(acceleration_) {}
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(double n) { sway_.begin_interval(n); }
@@ -66,9 +66,9 @@ public:
     double clock_at(double micro_steps) const;
     double micro_steps_at(double clock) const;
 
-    const Gravity& acceleration() const { return gravity_; }
+    const Acceleration& acceleration() const { return acceleration_; }
     bool slows() const { return drag_ != 0; }
-    bool is_any() const { return gravity_.is_any() || drag_ != 0; }
+    bool is_on() const { return acceleration_.is_on() || drag_ != 0; }
 
     /// How far a disc under the acceleration `g` has fallen, and its speed divided by g.
     double fallen(double g, double time) const {
@@ -91,7 +91,7 @@ public:
 
     /// The frame's origin and velocity in the box.
     Frame at(double time) const {
-        if (is_any()) return moving_at(time);
+        if (is_on()) return moving_at(time);
         Frame at_rest; // returned at once, because it is needed often
         at_rest.clock = time;
         return at_rest;
@@ -100,11 +100,12 @@ public:
     void restart(DiscState& disc, double time) const { disc = at(time).in_box(disc, time); }
     /// The largest distance by which the frame jumps along `axis` at a sync at `time`.
     double jump_at(Axis axis, double time) const {
-        return std::fabs(fallen(along(axis, gravity_.largest_x(), gravity_.largest_y()), time));
+        return std::fabs(
+            fallen(along(axis, acceleration_.largest_x(), acceleration_.largest_y()), time));
     }
     /// The largest speed of the frame, in its own clock.
     double speed_gained_at(double time) const {
-        return (gravity_.largest_x() + gravity_.largest_y()) * falling_time(time);
+        return (acceleration_.largest_x() + acceleration_.largest_y()) * falling_time(time);
     }
     /// The part of gravity that changes in time.
     const Sway& sway() const { return sway_; }
@@ -113,7 +114,7 @@ private:
     Frame moving_at(double time) const;
     FlightIntegral swaying_flight_integral_at(double time) const;
 
-    Gravity gravity_;
+    Acceleration acceleration_;
     double drag_;
     Sway sway_;
 };
