@@ -15,10 +15,10 @@
 // Growing discs push each other: the work is the impulse times the speed at which surfaces grow.
 // How much energy thermal and moving walls give is not known beforehand, so the energy of discs
 // that have met such a wall is not checked. Oscillating walls give or take at most the impulse
-// times their largest speed. Gravity that changes in time is seen from a frame that falls with its
-// changing part from the last inspection on: there it does nothing, and walls move. Energies
-// include masses and spins. Price: 128 bytes a disc, every disc and collision sent once a step,
-// collisions to rank 0.
+// times their largest speed. An acceleration that changes in time is seen from a frame that falls
+// with its changing part from the last inspection on: there it does nothing, and walls move.
+// Energies include masses and spins. Price: 128 bytes a disc, every disc and collision sent once a
+// step, collisions to rank 0.
 #pragma once
 
 #include <array>
@@ -145,7 +145,7 @@ private:
     Effects effects_; ///< times in micro-steps
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;
-    /// Motion by gravity that changes in time, since the last inspection
+    /// Motion by an acceleration that changes in time, since the last inspection
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
     /// Of walls that swing: the largest speed, and the largest acceleration towards a disc

@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// Relative bounds of speeds that gravity and drag change from sync to sync.
+/// Relative bounds of speeds that falls and drag change from sync to sync.
 constexpr double motion_bound = 1e-13;
 constexpr double energy_bound = 1e-12;
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
@@ -99,7 +99,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || surfaces_give_energy_) return {};
     // Energy that effects give at a sync has become another one by now: it counts in a frame that
-    // gravity in time moves, and drag takes a part of it.
+    // an acceleration in time moves, and drag takes a part of it.
     if (acts_at_syncs_ && (effects_.acceleration().sways() || FallingFrame(effects_).slows()))
         return {};
     const double n = static_cast<double>(scene_.n_discs);
@@ -175,7 +175,7 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Updates bounds of speeds if effects make discs faster, and the motion of the frame by gravity
+/// Updates bounds of speeds if effects make discs faster, and the motion of the frame by falling
 /// that changes. **Collective.**
 void StateCheck::record_speeds() {
     if (!scene_.effects.are_any()) return;

@@ -2,9 +2,10 @@
 // The time integral of v_a v_b over one disc's flight, seen from the box.
 //
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from it
-// by the laws of gravity and drag (core/frame.hpp). So the integral since the last sync is a known
+// by the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known
 // function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b, and more_y^2 for yy
-// where gravity turns. Where a sync changes no velocity the integral may go on over many of them.
+// where the acceleration turns. Where a sync changes no velocity the integral may go on over many
+// of them.
 //
 // The integral over a path with collisions is then a sum over events. A collision at time t that
 // changes v into v' adds the integral up to t with v and subtracts the integral up to t with v'.
@@ -13,7 +14,7 @@
 
 namespace carrom {
 
-/// Times are micro-steps. Without gravity and drag `weight` is the time since the integral began,
+/// Times are micro-steps. Without falls and drag `weight` is the time since the integral began,
 /// and all else is 0.
 struct FlightIntegral {
     double weight = 0;

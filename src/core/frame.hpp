@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The frame of reference of stored states, as seen from the box.
 //
-// Under gravity states are stored in a frame that falls freely from each sync on. Under drag they
-// are stored in a clock that slows down as discs do. In this frame they fly straight at constant
-// speed, so contacts of pairs need neither gravity nor drag. In a periodic box stored states fly on
-// when a disc leaves it, and the box sees the image that is in it. Without these effects the frame
-// is the box's, and nothing is computed.
+// Where discs fall, states are stored in a frame that falls freely from each sync on. Under drag
+// they are stored in a clock that slows down as discs do. In this frame they fly straight at
+// constant speed, so contacts of pairs need neither falls nor drag. In a periodic box stored states
+// fly on when a disc leaves it, and the box sees the image that is in it. Without these effects the
+// frame is the box's, and nothing is computed.
 #pragma once
 
 #include "core/disc_state.hpp"

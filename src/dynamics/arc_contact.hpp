@@ -5,8 +5,9 @@
 // arc are points, which are bodies of their own (obstacles.hpp).
 //
 // On a straight flight both are roots of one quadratic, without subtracting nearly equal numbers.
-// Under gravity the distance is the root of a quartic, and is monotone in up to four pieces of time
-// (falling_contact.hpp). Price: some three square roots, or some 20 divisions a root under gravity.
+// Where discs fall the distance is the root of a quartic, and is monotone in up to four pieces of
+// time (falling_contact.hpp). Price: some three square roots, or some 20 divisions a root where
+// discs fall.
 #pragma once
 
 namespace carrom {
@@ -30,7 +31,7 @@ struct ArcFlight {
 /// and comes nearer to it; infinite if there is none. If rounding has left the disc too near, the
 /// contact is when it next comes nearer.
 double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span);
-/// As arc_contact, under gravity, which must not be zero.
+/// As arc_contact, for discs that fall; the acceleration must not be zero.
 double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
                            double arc_radius, const ArcSpan& span);
 

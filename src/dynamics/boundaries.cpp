@@ -11,13 +11,14 @@ namespace carrom {
 namespace {
 
 /// At most an eighth of a period, during which the wall's acceleration changes little.
-double rest_time_at(const Boundary& side, const ContactGuard& guard, double gravity, double sway,
-                    double period, double radius) {
+double rest_time_at(const Boundary& side, const ContactGuard& guard, double acceleration,
+                    double sway, double period, double radius) {
     if (sway != 0)
-        return std::min(guard.rest_time(std::fabs(gravity) + std::fabs(sway), radius), period / 8);
+        return std::min(guard.rest_time(std::fabs(acceleration) + std::fabs(sway), radius),
+                        period / 8);
     if (side.amplitude == 0) return 0;
     const double rate = 2 * std::numbers::pi / side.period;
-    const double pull = std::fabs(gravity) + side.amplitude * (rate * rate);
+    const double pull = std::fabs(acceleration) + side.amplitude * (rate * rate);
     return std::min(guard.rest_time(pull, radius), side.period / 8);
 }
 
@@ -75,9 +76,9 @@ Extent Boundaries::walls_between(double begin, double end) const {
     // A disc departs where its centre is a radius beyond an open side. So bounds for discs of every
     // radius begin at the side itself, which is two of the largest radii inside the line where the
     // largest disc departs. After a collision with an oscillating wall a disc is at most as fast as
-    // the wall, which limits its distance from the wall's highest position. If gravity changes, a
-    // wall that moves in may accelerate. Then the distance of a disc that it hits is at most the
-    // path of a wall under the largest constant acceleration.
+    // the wall, which limits its distance from the wall's highest position. If the acceleration
+    // changes, a wall that moves in may accelerate. Then the distance of a disc that it hits is at
+    // most the path of a wall under the largest constant acceleration.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
         const double pull = sways_along(side) ? 8 * largest_pull_at(side)
@@ -213,7 +214,7 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
         along = (speed * random_direction(random).x) / fall_.slowing_at(time) +
                 surface_velocity(side, time);
     }
-    // If gravity pulls the disc back, it leaves fast enough to stay away for the duration of a
+    // If the disc falls back, it leaves fast enough to stay away for the duration of a
     // contact, because a disc at rest would otherwise bounce for ever.
     const double pull = oscillates ? oscillations_[side].pressure_at(time, time + rest_times_[side])
                                    : pressure_at(side, time);

@@ -168,7 +168,7 @@ private:
     std::array<double, 4> away_{}; ///< distance from the box; infinite for periodic sides
     /// Moved: distance from the scene's start to the last sync
     std::array<double, 4> moved_{}, speeds_{};
-    /// The steady part of gravity, and the amplitudes of the part that changes in time
+    /// The steady part of the acceleration, and the amplitudes of the part that changes in time
     std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};

@@ -25,8 +25,8 @@ constexpr double sweeps_of_flow = 400;
 } // namespace
 
 bool may_flow_on(const Effects& effects) {
-    return (effects.gravity.x != 0 && effects.is_periodic_x()) ||
-           (effects.gravity.y != 0 && effects.is_periodic_y());
+    return (effects.acceleration().x != 0 && effects.is_periodic_x()) ||
+           (effects.acceleration().y != 0 && effects.is_periodic_y());
 }
 
 /// A body with its mean velocity until the next sync. `turning` is the spin times the radius.
@@ -57,9 +57,9 @@ ContactImpulses::ContactImpulses(const Box& box, const Effects& effects,
     : finder_(box, effects), effects_(effects), species_(species),
       rows_(rows_of(effects.obstacles, box)),
       rows_of_pieces_(rows_of_pieces(effects.obstacles, box)), interval_(interval),
-      pull_(std::hypot(effects.gravity.x, effects.gravity.y) * interval),
-      fall_x_((0.5 * effects.gravity.x) * interval), fall_y_((0.5 * effects.gravity.y) * interval),
-      rest_gap_(pull_ * interval / 8),
+      pull_(std::hypot(effects.acceleration().x, effects.acceleration().y) * interval),
+      fall_x_((0.5 * effects.acceleration().x) * interval),
+      fall_y_((0.5 * effects.acceleration().y) * interval), rest_gap_(pull_ * interval / 8),
       turning_(effects.contact.kind == ContactKind::rough ? 1 / effects.contact.inertia : 0),
       sweeps_(may_flow_on(effects) ? sweeps_of_flow : sweeps_at_most) {}
 
@@ -193,8 +193,8 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
         contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
         contact.mass = 1 / (1 / species_.of(a.id).mass +
                             (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));
-        contact.height = -(effects_.gravity.x * (a.x + radii[one.a] * one.nx) +
-                           effects_.gravity.y * (a.y + radii[one.a] * one.ny));
+        contact.height = -(effects_.acceleration().x * (a.x + radii[one.a] * one.nx) +
+                           effects_.acceleration().y * (a.y + radii[one.a] * one.ny));
         const std::tuple key(a.id, key_of(contact, discs));
         const auto found = std::lower_bound(
             kept.begin(), kept.end(), key,

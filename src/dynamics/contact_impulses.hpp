@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact dynamics at a sync: the impulses that keep slow discs from meeting until the next one.
 //
-// Gravity pulls a disc down by g T^2 / 2 between two syncs. What lies on something would so meet it
+// A disc falls by g T^2 / 2 between two syncs. What lies on something would so meet it
 // again and again. Here it gets at the sync what its supports give it in all of the time T, as in
 // the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl. Mech. Eng.
 // 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync, impulses P at the
@@ -33,7 +33,7 @@
 
 namespace carrom {
 
-/// Whether gravity pulls along periodic sides, so that discs may flow for ever.
+/// Whether discs fall along periodic sides, so that discs may flow for ever.
 bool may_flow_on(const Effects& effects);
 
 /// The impulse of a contact, from which the solution at the next sync begins. `b` is a disc's id,
@@ -56,7 +56,7 @@ class ContactImpulses {
 public:
     static constexpr double least_motion = 0.01;
 
-    /// `effects` have times in micro-steps, as `interval`. Gravity must not be zero.
+    /// `effects` have times in micro-steps, as `interval`. The acceleration must not be zero.
     ContactImpulses(const Box& box, const Effects& effects, const SpeciesTable& species,
                     double interval);
 

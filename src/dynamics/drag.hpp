@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Linear drag, dv/dt = -c v, the same for all discs. After a time t a disc has moved by v s, with s
 // = (1 - exp(-c t)) / c. In the clock s all discs fly straight at constant speed, so everything
-// except the clock is exactly as without drag. For drag with gravity see falling_frame.hpp.
+// except the clock is exactly as without drag. For discs that fall see falling_frame.hpp.
 //
 // It uses only + - * /, to within some ulp, so the bits are the same on every machine.
 #pragma once

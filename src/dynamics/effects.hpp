@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The effects of a scene beyond free flight, elastic pairs and four elastic walls, as numbers.
-// law.hpp, bodies.hpp, boundaries.hpp, gravity.hpp, drag.hpp and obstacles.hpp say what they do.
+// law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and obstacles.hpp say what they
+// do.
 #pragma once
 
 #include <algorithm>
@@ -129,7 +130,7 @@ struct Boundary {
 /// The order of Effects::boundaries: the low and the high side of x, then of y.
 inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "bottom", "top"};
 
-/// Uniform gravity: an acceleration.
+/// A uniform acceleration, as gravity gives.
 struct Acceleration {
     double x = 0, y = 0;
     // A second part, amplitude sin(2 pi t / period + phase), with t since the scene's start

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform gravity, alone or with linear drag (drag.hpp).
+// A uniform acceleration, alone or with linear drag (drag.hpp).
 //
 // All discs fall alike, so states are stored in a frame that falls with them. At each
 // sync it is at rest in the box. In it discs fly straight, and pairs need not know of
-// gravity. A wall rises in it, so a disc meets a wall at the root of a quadratic.
+// it. A wall rises in it, so a disc meets a wall at the root of a quadratic.
 //
 // With drag of the rate c the frame has its own clock s. A disc under the acceleration g is at x +
 // v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all discs share the
@@ -11,7 +11,7 @@
 // contact from there without passing it, in a handful of steps and without a bracket. Only + - * /
 // and sqrt in a fixed order are used, so the bits are the same on every machine.
 //
-// Gravity that changes in time moves the frame in another way (sway.hpp), without drag.
+// An acceleration that changes in time moves the frame in another way (sway.hpp), without drag.
 #pragma once
 
 #include <algorithm>
@@ -107,7 +107,7 @@ public:
     double speed_gained_at(double time) const {
         return (acceleration_.largest_x() + acceleration_.largest_y()) * falling_time(time);
     }
-    /// The part of gravity that changes in time.
+    /// The part of the acceleration that changes in time.
     const Sway& sway() const { return sway_; }
 
 private:

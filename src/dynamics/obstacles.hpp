@@ -4,9 +4,9 @@
 // not a rectangle has arcs and segments as walls (container.hpp).
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
-// predicate of pairs; a quartic under gravity: falling_contact.hpp), a segment if it is r from its
-// line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function of
-// the stored state alone. A grid of cells, built once, holds the bodies. A flight searches the
+// predicate of pairs; a quartic where discs fall: falling_contact.hpp), a segment if it is r from
+// its line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function
+// of the stored state alone. A grid of cells, built once, holds the bodies. A flight searches the
 // cells along its path, up to its first contact. In a periodic box the grid repeats itself, and a
 // body is also in the cells that its images cover. A stored state may be many boxes away: bodies
 // are shifted to it by whole box lengths.

@@ -31,8 +31,8 @@ public:
     /// A wall that does not oscillate.
     Oscillation() = default;
     /// `side` has times in micro-steps, `sign` is 1 if the inside is in the positive direction,
-    /// else -1. `gravity` is along the axis, `slack` the rounding of places.
-    Oscillation(const Boundary& side, double sign, double gravity, double slack);
+    /// else -1. `acceleration` is that of discs along the axis, `slack` the rounding of places.
+    Oscillation(const Boundary& side, double sign, double acceleration, double slack);
 
     bool is_on() const { return amplitude_ > 0; }
     double amplitude() const { return amplitude_; }
@@ -59,7 +59,7 @@ private:
 
     double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: angular frequency 2 pi / period
     double phase_ = 0, turns_ = 0;           ///< phase in turns, at the start and at the last sync
-    double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: gravity towards the inside
+    double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: acceleration towards the inside
     /// In turns, the times of equal acceleration within one turn (see the top)
     double first_bend_ = 0, second_bend_ = 0;
 };

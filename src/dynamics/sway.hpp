@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of uniform gravity that changes in time: A sin(2 pi t / P + phase) along each axis, with
-// t the time since the scene's start. Both axes have one period, so that the field may swing along
-// a line, or turn.
+// The part of a uniform acceleration that changes in time: A sin(2 pi t / P + phase) along each
+// axis, with t the time since the scene's start. Both axes have one period, so that the field may
+// swing along a line, or turn.
 //
 // All discs fall alike in it, so it only moves the falling frame (falling_frame.hpp), and contacts
 // of pairs do not depend on it. In the frame a wall is on a parabola and a sine, and a disc meets
@@ -33,7 +33,7 @@ struct Swayed {
 class Sway {
 public:
     Sway() = default;
-    explicit Sway(const Acceleration& gravity);
+    explicit Sway(const Acceleration& acceleration);
 
     bool is_on() const { return rate_ != 0; }
     bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
@@ -41,14 +41,14 @@ public:
     void begin_interval(double time);
     /// The motion since the sync; `time` is at most about an eighth of a period.
     Swayed at(std::size_t axis, double time) const;
-    /// The time until a disc meets a wall: `distance`, its `rate` and the `pull` of constant
-    /// gravity are towards the inside, in the direction `sign`, at `time`. Like fall_delay;
+    /// The time until a disc meets a wall: `distance`, its `rate` and the steady `pull`
+    /// are towards the inside, in the direction `sign`, at `time`. Like fall_delay;
     /// infinite if that is later than an eighth of a period after the sync.
     double contact_delay(std::size_t axis, double sign, double distance, double rate, double pull,
                          double time) const;
 
     /// The motion between two times since the scene's start.
-    static std::array<Swayed, 2> between(const Acceleration& gravity, double from, double to);
+    static std::array<Swayed, 2> between(const Acceleration& acceleration, double from, double to);
 
 private:
     /// The amplitude times the sine and the cosine of the phase at a time after the sync.

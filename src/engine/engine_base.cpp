@@ -327,17 +327,7 @@ template <class Dynamics> void EngineBase<Dynamics>::forget_neighbours() {
 /// smaller.
 template <class Dynamics>
 void EngineBase<Dynamics>::visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const {
-    const Population all = population();
-    const double unit = size();
-    visit_near_pairs(discs_.grid(), [&](LocalIndex a, LocalIndex b) {
-        const DiscState &p = all.discs[a], &q = all.discs[b];
-        const Shift shift = discs_.periods().between(p, q, 0);
-        const double dx = q.x - p.x + shift.x, dy = q.y - p.y + shift.y,
-                     distance = std::sqrt(dx * dx + dy * dy) / unit;
-        if (distance > reach) return;
-        if (a < all.n_own) visit(a, q.id, distance);
-        if (b < all.n_own) visit(b, p.id, distance);
-    });
+    visit_pairs_within(discs_.grid(), population(), discs_.periods(), size(), reach, visit);
 }
 
 template <class Dynamics> double EngineBase<Dynamics>::squared_speed_of_own(double time) const {

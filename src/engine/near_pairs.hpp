@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "cell_list/cell_grid.hpp"
+#include "cell_list/population.hpp"
 
 namespace carrom {
 
@@ -40,6 +42,22 @@ void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
 template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& visit) {
     for (int column = 0; column < grid.geometry().n_columns; ++column)
         visit_near_pairs_of(grid, column, visit);
+}
+
+/// Calls `visit(index, id of the other, distance)` for each own disc of a pair that is at most
+/// `reach` apart, images included. Distances are in `unit`; states are at time 0.
+template <class Visit>
+void visit_pairs_within(const CellGrid& grid, const Population& all, const Periods& periods,
+                        double unit, double reach, const Visit& visit) {
+    visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
+        const DiscState &p = all.discs[a], &q = all.discs[b];
+        const Shift shift = periods.between(p, q, 0);
+        const double dx = q.x - p.x + shift.x, dy = q.y - p.y + shift.y,
+                     distance = std::sqrt(dx * dx + dy * dy) / unit;
+        if (distance > reach) return;
+        if (a < all.n_own) visit(a, q.id, distance);
+        if (b < all.n_own) visit(b, p.id, distance);
+    });
 }
 
 } // namespace carrom

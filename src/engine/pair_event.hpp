@@ -3,7 +3,7 @@
 // the velocities afterwards. Engines record it only if a measurement follows pairs.
 //
 // Lasting contacts give such events at syncs, with the impulses until the next one. Everything is
-// as the box sees it at the time of the collision, so gravity and drag are in it. Places are not
+// as the box sees it at the time of the collision, so falls and drag are in it. Places are not
 // brought back into a periodic box.
 #pragma once
 

@@ -49,7 +49,7 @@ double thermal_speed(const SceneParameters& scene, const Totals& totals) {
 
 double driven_speed(const SceneParameters& scene) {
     double speed = std::sqrt(
-        2 * (scene.effects.gravity.largest_x() + scene.effects.gravity.largest_y()) *
+        2 * (scene.effects.acceleration().largest_x() + scene.effects.acceleration().largest_y()) *
         scene.box.longest());
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.speed));
@@ -68,7 +68,7 @@ VelocityChange change_until_half_way(const MeasuredRun& run) {
     if (effects.lasting_speed == 0) return {};
     const double micro_steps = 0.5 * static_cast<double>(run.scene.sync_every) - run.system.clock(),
                  steps = micro_steps / static_cast<double>(run.scene.micro_steps);
-    return {effects.gravity.x * steps, effects.gravity.y * steps};
+    return {effects.acceleration().x * steps, effects.acceleration().y * steps};
 }
 
 } // namespace carrom

@@ -14,7 +14,7 @@ double driven_speed(const SceneParameters& scene);
 /// **Collective.**
 double usual_speed(const MeasuredRun& run);
 
-/// The velocity that gravity adds in half the time between two syncs, if contacts last; otherwise
+/// The velocity that a fall adds in half the time between two syncs, if contacts last; otherwise
 /// 0. Discs at rest hop from sync to sync, so their velocity half way between syncs is their mean
 /// velocity.
 struct VelocityChange {

@@ -36,7 +36,7 @@ std::string remedy_of(const SceneParameters& scene) {
     if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
     const double radius = smallest_radius(scene);
     // About 2 g T for the longest default time T between syncs.
-    const double pull = std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
+    const double pull = std::hypot(scene.effects.acceleration().x, scene.effects.acceleration().y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
 
@@ -67,7 +67,7 @@ HeapWarning::HeapWarning(const SceneParameters& scene, const DiscSystem& system,
 
 bool HeapWarning::may_warn(const SceneParameters& scene) {
     const Effects& effects = scene.effects;
-    return effects.gravity.is_on() && are_pairs_lossy(effects);
+    return effects.acceleration().is_on() && are_pairs_lossy(effects);
 }
 
 bool HeapWarning::act() {
@@ -91,10 +91,10 @@ bool HeapWarning::act() {
 }
 
 std::string HeapWarning::text_on_rest(double per_step) const {
-    const Acceleration& gravity = scene_.effects.gravity;
+    const Acceleration pull = scene_.effects.acceleration();
     const double per_contact_time = per_step *
                                     ContactGuard(scene_.effects, scene_.radius)
-                                        .rest_time(std::hypot(gravity.x, gravity.y), scene_.radius);
+                                        .rest_time(std::hypot(pull.x, pull.y), scene_.radius);
     if (!(per_contact_time > 1)) return {};
     return fmt::format("which is {:.2g} times in a contact time: discs that lie on each other make "
                        "the run slow, and have no friction; try: {}",
@@ -109,9 +109,9 @@ std::string HeapWarning::text_on_flow(double per_step) const {
     // The flow may still become faster, and its discs fall over each other by about a radius. The
     // advice stays below the limits beyond which the scene is an error or impacts lose too much
     // energy.
-    const Acceleration& gravity = scene_.effects.gravity;
+    const Acceleration pull = scene_.effects.acceleration();
     const double radius = smallest_radius(scene_),
-                 fallen = std::sqrt(2 * std::hypot(gravity.x, gravity.y) * radius),
+                 fallen = std::sqrt(2 * std::hypot(pull.x, pull.y) * radius),
                  best = std::min({rounded_up(std::max(speed_of_passing(), fallen)),
                                   2 * radius / time, 2 * fallen});
     if (!(scene_.effects.lasting_speed < enough * best)) return {};

@@ -8,7 +8,7 @@
 // speed and density. If contacts last, a disc collides a few times between two syncs. In a flow
 // with too small a `speed` it has about a hundred collisions, because faster contacts do not last,
 // and such discs bounce between their neighbours until the next sync. Price: a sum over discs and
-// ranks at each sync, only in scenes with gravity and losses.
+// ranks at each sync, only in scenes with falling discs and losses.
 #pragma once
 
 #include <cstdint>

@@ -60,10 +60,10 @@ public:
     /// The present time in micro-steps since the last sync, for DiscState::x_at.
     double clock() const;
     /// The frame of the coordinates of `discs()` at `clock()`. It is the box's own
-    /// unless there is gravity.
+    /// unless discs fall.
     Frame frame() const;
-    /// The own discs as the box sees them at `clock()`. This is `discs()` itself unless there is
-    /// gravity; otherwise it is valid until the next call.
+    /// The own discs as the box sees them at `clock()`. This is `discs()` itself unless discs
+    /// fall; otherwise it is valid until the next call.
     std::span<const DiscState> shown() const;
     /// Like `shown()`, but only velocities are valid. The mean flow between sheared sides is
     /// subtracted, because it is not part of the temperature.
@@ -122,7 +122,7 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< sums to which the engine adds
     std::unique_ptr<StateCheck> check_;
-    mutable DiscStates shown_;              ///< the result of `shown()` under gravity
+    mutable DiscStates shown_;              ///< the result of `shown()` where discs fall
     mutable DiscStates stored_;             ///< the result of `discs()` if discs have left the box
     mutable SideColumns stored_columns_;    ///< the same for their side columns
     std::vector<Collision>* log_ = nullptr; ///< the user's log; the check has a log of its own

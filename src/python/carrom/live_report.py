@@ -67,12 +67,13 @@ def report_of(
     return report | {"averages": of_averages | estimates, "changes": changes.as_dict()}
 
 
-def facts_to_show(report: Mapping[str, Any], step: int, last_step: int) -> dict[str, Any]:
-    """Return what a notebook shows of a simulation."""
+def facts_to_show(sim: Any) -> dict[str, Any]:
+    """Return what a notebook shows of a `carrom.Simulation`."""
+    report = sim.report
     return {
-        "step": f"{step} of {last_step}",
-        "discs": report["n_discs"],
-        "method": report["method"],
+        "step": f"{sim.step} of {sim.last_step}",
+        "discs": sim.n_discs,
+        "method": sim.method,
         "kinetic energy": f"{report['kinetic_energy']:.9g}",
         "collisions of pairs": report["pair_collisions"],
         "state hash": report["state_hash"],

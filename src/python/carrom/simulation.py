@@ -109,8 +109,7 @@ class Simulation(Guarded):
         facts, (radii, masses, species) = made.facts, map(locked, made.kinds)
         vars(self).update(
             method=facts["method"],
-            box=locked(np.array(facts["box"])),
-            corner=locked(np.array(facts["corner"])),
+            **{name: locked(np.array(facts[name])) for name in ("box", "corner")},
             periodic=facts["periodic"],
             last_step=int(facts["steps"]),
             n_discs=int(facts["n_discs"]),
@@ -398,5 +397,4 @@ class Simulation(Guarded):
         return f"<Simulation of {self.n_discs} discs, step {self.step} of {self.last_step}>"
 
     def _repr_html_(self) -> str:
-        facts = facts_to_show(self.report, self.step, self.last_step)
-        return display.facts("simulation", facts) + display.picture(self.frame)
+        return display.facts("simulation", facts_to_show(self)) + display.picture(self.frame)

@@ -144,7 +144,7 @@ struct EffectDeclaration {
 /// All effects in the order of the list, which is the order of the reference.
 const std::vector<EffectDeclaration>& all_effects();
 
-/// One line for a summary, such as "restitution 0.9 of pairs; gravity (0, -0.001)"; empty if there
+/// One line for a summary, such as "restitution 0.9 of pairs; drag 0.01"; empty if there
 /// are no effects.
 std::string summary_of(const Effects& effects);
 /// The changes that the self-check must not report with these effects and sides of the box.
