@@ -86,6 +86,8 @@ protected:
     /// inspected at each step would otherwise have a window for each, which costs as much as a long
     /// one.
     std::int64_t horizon_of(std::int64_t target) const;
+    /// Whether `horizon_of` may be after the stop.
+    bool windows_pass_stops() const { return windows_pass_stops_; }
     /// What cells cover: the whole region that the rank uses, or only the part of it where its
     /// discs are. If discs are clustered, cells of the whole region would hold hundreds of discs
     /// each.

@@ -75,8 +75,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
 /// box can go on after a stop, because its discs, cells and predictions are those of one block.
 template <class Dynamics>
 void EventDrivenEngine<Dynamics>::run_window(double target, double horizon) {
-    if (!std::exchange(this->is_in_window_, false))
-        begin_window(can_run_alone() ? horizon : target);
+    if (!std::exchange(this->is_in_window_, false)) {
+        is_alone_ = can_run_alone(target - time_);
+        begin_window(is_alone_ ? horizon : target);
+    }
     if (!run_until(target)) return;
     if (reduced_.counts.ranks_jammed > 0 || jam_watch_.add(reduced_.counts.events)) refuse_jam();
     commit();

@@ -119,7 +119,7 @@ private:
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
     double collision_rate(const BlockNeeds& needs) const;
-    bool can_run_alone() const;
+    bool can_run_alone(double until_stop) const;
     double speed_bound_until(double target) const;
     double largest_of_all() const;
     void record_first_speed();

@@ -20,6 +20,9 @@ namespace {
 constexpr double jam_heating = 64;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
+/// Collisions of a disc from stop to stop, times threads, up to which one thread whose windows go
+/// on after stops is faster than all of them.
+constexpr double most_hits = 0.25;
 
 } // namespace
 
@@ -30,7 +33,6 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     window.holds_begin = time_ == 0;
     window.speed_bound = speed_bound_until(target);
     this->refuse_long_flights(window.speed_bound);
-    is_alone_ = can_run_alone();
     if (n_windows_ > 0) take_crowding(reduced_.counts.crowding);
     const BlockNeeds needs = block_needs(window.speed_bound);
     double longest = target - time_;
@@ -86,11 +88,14 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether one run of the whole box serves.
-template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
+/// Whether one run of the whole box serves, if the run stops after a time. Threads would need a
+/// window for each stop.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone(double until_stop) const {
     const auto n = static_cast<double>(discs_.n_total());
+    const double hits = policy_.collision_rate() * until_stop * tuning_.threads;
     const bool is_few = tuning_.threads == 1 ||
-                        n < 2 * static_cast<double>(tuning_.discs_per_thread);
+                        n < 2 * static_cast<double>(tuning_.discs_per_thread) ||
+                        (this->windows_pass_stops() && !jam_watch_.is_on() && hits < most_hits);
     return communicator_.size() == 1 && is_few && n <= most_discs_alone && !block_tuning_.halo &&
            !block_tuning_.block_side && !block_tuning_.cuts_by_work;
 }
@@ -138,7 +143,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     template void EventDrivenEngine<Dynamics>::record_first_speed();                               \
     template bool EventDrivenEngine<Dynamics>::are_jammed() const;                                 \
     template void EventDrivenEngine<Dynamics>::refuse_jam() const;                                 \
-    template bool EventDrivenEngine<Dynamics>::can_run_alone() const;                              \
+    template bool EventDrivenEngine<Dynamics>::can_run_alone(double) const;                        \
     template void EventDrivenEngine<Dynamics>::shorten();
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
