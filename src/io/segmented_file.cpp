@@ -251,9 +251,16 @@ void SegmentedFile::sync_segment() const {
 /// Throws if another program's file has taken the small file's name, because it would be replaced.
 void SegmentedFile::refuse_other_file() const {
     std::error_code error;
-    if (seal_ && std::filesystem::exists(path_, error) && seal_of(path_) != seal_)
-        throw FileError("was replaced by another file while the run wrote there; move that away, "
-                        "then go on by --resume");
+    const auto is_there = [&] { return std::filesystem::exists(path_, error); };
+    if (!seal_ || !is_there()) return;
+    try {
+        if (seal_of(path_) == seal_) return;
+    } catch (const FileError&) { // it may be removed right now, with its folder
+        if (!is_there()) return;
+        throw;
+    }
+    throw FileError("was replaced by another file while the run wrote there; move that away, "
+                    "then go on by --resume");
 }
 
 void SegmentedFile::commit_here() {
