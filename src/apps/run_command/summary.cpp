@@ -65,8 +65,7 @@ std::string imbalance_text(const RunResult& result) {
 
 std::string windows_text(const RollbackCounts& runs) {
     return fmt::format(
-        "{}, {:.3g} % of them redone in part; {} replays of blocks, {:.3g} % repeated",
-        runs.windows,
+        "{}, {:.3g} % of them redone in part; {} runs of blocks, {:.3g} % repeated", runs.windows,
         100 * ratio(static_cast<double>(runs.windows_redone), static_cast<double>(runs.windows)),
         runs.blocks,
         100 * ratio(static_cast<double>(runs.blocks_redone), static_cast<double>(runs.blocks)));

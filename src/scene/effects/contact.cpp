@@ -39,7 +39,7 @@ constexpr std::size_t first = 0, second = 1, restitution = 2, tangential = 3, fr
 } // namespace pair_row
 
 Key key_of_pairs() {
-    Key pairs = key("effects.contact.pairs", "1",
+    Key pairs = key("effects.contact.pairs", "1, 1, 1, 1",
                     "Other numbers for contacts between discs of two rows of 'discs.species', "
                     "counted from 1; the order of the two does not matter. Numbers that a row "
                     "leaves out are those of all pairs.",
