@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <random>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "problems_of.hpp"
+#include "random_overrides.hpp"
 #include "scene/compare.hpp"
 #include "scene/disc_columns.hpp"
 #include "scene/key.hpp"
@@ -21,13 +20,16 @@
 #include "scene/scene_text.hpp"
 
 using namespace carrom;
+using test::box;
+using test::Draw;
+using test::is_found_later;
 using test::mentions;
 using test::places_of;
 using test::problems_of;
+using test::random_overrides;
+using test::Texts;
 
 namespace {
-
-using Texts = std::vector<std::string>;
 
 const std::string good = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n";
 
@@ -48,199 +50,6 @@ Texts keys_that_differ(const SceneParameters& a, const SceneParameters& b) {
     if (a.first_numbers != b.first_numbers) names.push_back("first_numbers");
     if (!(a.effects == b.effects)) names.push_back("effects");
     return names;
-}
-
-class Draw {
-public:
-    explicit Draw(std::uint64_t seed) : engine_(seed) {}
-
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(engine_() % n); }
-    double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-
-    std::string value(const Key& key) {
-        switch (key.kind) {
-        case Kind::number: return std::to_string(number(key));
-        case Kind::integer: return std::to_string(integer(key));
-        case Kind::flag: return below(2) == 0 ? "true" : "false";
-        case Kind::text: return "\"a \\\"b\\\" \\\\ c\\t" + std::to_string(below(9)) + "\"";
-        case Kind::choice: return '"' + std::string(key.words[below(key.words.size())]) + '"';
-        case Kind::words: return words(key);
-        case Kind::point:
-            return below(2) == 0 ? "\"centre\"" : "[-3.5, " + std::to_string(share()) + ']';
-        default: return "";
-        }
-    }
-    std::string rows(const std::string& name) {
-        std::string list;
-        for (std::size_t i = 0, n = 1 + below(3); i < n; ++i) {
-            const std::string x = std::to_string(10 + 80 * share()),
-                              y = std::to_string(10 + 80 * share());
-            if (name == "discs.region") return "[1, 2, " + x + ", " + y + ']';
-            if (name == "effects.field.strengths") return "[0.5]";
-            list += name == "discs.streams"
-                        ? "{region = [1, 2, " + x + ", " + y + "], velocity = [-0.0, " + y + "]}, "
-                    : name == "discs.species"
-                        ? "{count = 2, radius = " + std::to_string(0.5 + share()) +
-                              ", mass = " + x + spin() + region(x, y) + "}, "
-                    : name == "discs.groups"
-                        ? "{count = 3, temperature = " + std::to_string(share()) + region(x, y) +
-                              (below(2) == 0 ? ", generator = \"compressed\"" : "") +
-                              (below(4) == 0 ? ", freeze = true" : "") + "}, "
-                    : name == "discs.list" ? '[' + x + ", " + y + ", -0.0, 1e-7], "
-                    : name.ends_with("segments") || name == "discs.freeze"
-                        ? "[1, 2, " + x + ", " + y + "], "
-                    : name.ends_with("polygons") ? "[1, 2, " + x + ", " + y + ", 1, " + y + "], "
-                                                 : '[' + x + ", " + y + ", 3], ";
-        }
-        return '[' + list + ']';
-    }
-
-private:
-    double number(const Key& key) {
-        const double low = std::isfinite(key.range.low) ? std::max(key.range.low, 1e-3) : -1;
-        const double high = std::min(key.range.high, 1.0);
-        return low + (high - low) * share();
-    }
-    std::int64_t integer(const Key& key) {
-        const auto low = static_cast<std::int64_t>(std::max(key.range.low, 0.0));
-        return low + static_cast<std::int64_t>(below(key.range.high < 10 ? 9 : 40));
-    }
-    std::string words(const Key& key) {
-        std::string list;
-        for (const std::string_view word : key.words)
-            if (below(2) == 0) list += '"' + std::string(word) + "\", ";
-        return '[' + list + ']';
-    }
-    std::string region(const std::string& x, const std::string& y) {
-        return below(4) == 0 ? ", region = [0, 0, " + x + ", " + y + "]" : "";
-    }
-    std::string spin() { return below(2) == 0 ? ", spin = " + std::to_string(share()) : ""; }
-
-    std::mt19937_64 engine_;
-};
-
-/// A scene is whole once the file is read, or discs that freeze are found.
-bool is_found_later(const Key& key) {
-    return key.name.starts_with("discs.from") || key.name == "discs.frozen";
-}
-
-const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
-
-/// Fields, and discs that exchange sizes: keys that go with each other, in some scenes.
-void add_fields(Draw& draw, Texts& texts) {
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(), {"effects.gravity.amplitude_y=0.01", "effects.gravity.period=50",
-                                   "time.sync_every=1"});
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(), {"effects.field.kind=trap", "effects.field.stiffness_y=0.01",
-                                   "time.sync_every=1"});
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(), {"effects.field.kind=sine", "effects.field.amplitude=0.01",
-                                   "time.sync_every=1"});
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(),
-                     {"discs.species=[{count = 2, radius = 1}, {count = 3, radius = 0.5}]",
-                      "effects.swap.rounds=2"});
-}
-
-const std::string two_species =
-    "discs.species=[{count = 2, radius = 1}, {count = 3, radius = 0.5}]";
-
-/// Inlets, and what needs several species, in some scenes.
-void add_mixtures(Draw& draw, Texts& texts) {
-    if (draw.below(8) == 0) {
-        const std::string side = std::string("box.") + boundary_names[draw.below(4)];
-        texts.insert(texts.end(), {side + ".kind=open", side + ".inlet.rate=0.1",
-                                   side + ".inlet.temperature=0.01"});
-    }
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(),
-                     {two_species, "effects.contact.kind=restitution",
-                      "effects.contact.restitution=0.9",
-                      "effects.contact.pairs=[{species = [1, 2], restitution = 0.5}]"});
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(),
-                     {two_species, "output.folder=a", "output.measurements.every_steps=1",
-                      "output.measurements.quantities=[\"profiles\"]",
-                      "output.measurements.profile_species=1"});
-}
-
-/// A short scene that has a key which few of the others may have; empty for other keys.
-Texts scene_with(Draw& draw, const Key& key) {
-    if (key.name.starts_with("time.") && !key.has_rows()) // without effects
-        return {"discs.count=20", "discs.radius=1",
-                draw.below(2) == 0 ? "time.arithmetic=naive" : "time.method=time-stepped",
-                key.name + '=' + draw.value(key)};
-    const std::string end = ".inlet.species";
-    if (!key.name.ends_with(end)) return {};
-    const std::string side = key.name.substr(0, key.name.size() - end.size());
-    return {two_species, side + ".kind=open", side + ".inlet.rate=0.1",
-            side + ".inlet.temperature=0.01", key.name + "=1"};
-}
-
-/// Discs in one of the ways there are, features that need several keys, and about one other key in
-/// eight; most are right or nearly so.
-Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
-    if (Texts texts = wanted ? scene_with(draw, *wanted) : Texts(); !texts.empty()) return texts;
-    Texts texts = {"time.method=event-driven"};
-    const std::string source[] = {"discs.list", "discs.species", "discs.groups"};
-    if (const std::size_t way = draw.below(6); way < 3)
-        texts.push_back(source[way] + '=' + draw.rows(source[way]));
-    if (texts.back().starts_with(source[2]))
-        texts.push_back("discs.radius=1");
-    else if (texts.size() == 1)
-        texts.insert(texts.end(), {"discs.count=20", "discs.radius=1"});
-    if (draw.below(3) == 0)
-        texts.insert(texts.end(), {"effects.contact.kind=rough", "effects.contact.restitution=0.9",
-                                   "effects.contact.tangential_restitution=0.5"});
-    const auto any_side = [&draw] { return std::string("box.") + boundary_names[draw.below(4)]; };
-    if (draw.below(4) == 0) {
-        const std::string side = any_side();
-        texts.insert(texts.end(), {side + ".kind=thermal", side + ".temperature=0.1"});
-    }
-    if (draw.below(3) == 0) {
-        const std::string side = any_side();
-        texts.insert(texts.end(),
-                     {side + ".kind=oscillating", side + ".amplitude=0.5", side + ".period=3"});
-        if (draw.below(2) == 0) texts.push_back(side + ".phase=3.5");
-    }
-    if (draw.below(12) == 0)
-        texts.insert(texts.end(), {"box.top.kind=moving", "box.top.speed=0.01"});
-    if (draw.below(4) == 0)
-        texts.insert(texts.end(),
-                     {"effects.thermostat.kind=langevin", "effects.thermostat.rate=0.01",
-                      "effects.thermostat.temperature=0.01"});
-    if (texts.back().ends_with("temperature=0.01") && draw.below(2) == 0)
-        texts.push_back(draw.below(2) == 0 ? "effects.activity.speed=0.01"
-                                           : "effects.activity.force=0.01");
-    if (draw.below(8) == 0)
-        texts.insert(texts.end(),
-                     {"effects.gravity.y=-0.01", "effects.contact.kind=restitution",
-                      "effects.contact.restitution=0.9", "effects.lasting_contacts.speed=0.05"});
-    add_fields(draw, texts);
-    add_mixtures(draw, texts);
-    if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");
-    if (draw.below(8) == 0) // with keys that need these quantities, and periodic sides
-        texts.insert(texts.end(), {"box.left.kind=periodic", "box.right.kind=periodic",
-                                   "box.bottom.kind=periodic", "box.top.kind=periodic",
-                                   "output.folder=a", "output.measurements.every_steps=1",
-                                   "output.measurements.quantities=[\"structure_factor\", "
-                                   "\"diffusion\", \"correlations\"]",
-                                   "output.measurements.correlation_points=8"});
-    if (draw.below(8) == 0) // without quantities that few scenes may have
-        texts.insert(texts.end(), {"output.folder=a", "output.measurements.every_steps=1",
-                                   "output.measurements.quantities=[\"profiles\"]"});
-    if (draw.below(8) == 0) // both sides, and the flow goes through the others
-        texts.insert(texts.end(),
-                     {"box.left.kind=periodic", "box.right.kind=periodic",
-                      "box.bottom.kind=sheared", "box.top.kind=sheared", "effects.shear.rate=0.1"});
-    for (const Key& key : keys()) {
-        if (key.name == "box.size" || (&key != wanted && draw.below(8) != 0)) continue;
-        if (std::ranges::find(source, key.name) != std::end(source)) continue;
-        if (is_found_later(key)) continue;
-        texts.push_back(key.name + '=' + (key.has_rows() ? draw.rows(key.name) : draw.value(key)));
-    }
-    return texts;
 }
 
 } // namespace
