@@ -100,7 +100,7 @@ FileDifference compare_files(const std::string& a, const std::string& b) {
     differences.compare_counts(one.n_rows, other.n_rows, "number of discs");
     for (const auto edge : {&Box::x, &Box::y})
         differences.compare(one.box.*edge, other.box.*edge, "box", [] { return "the files"; });
-    for (const std::size_t axis : {0, 1})
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
         differences.compare(one.origin[axis], other.origin[axis], "origin",
                             [] { return "the files"; });
     if (one.n_rows == other.n_rows) compare_frames(first, second, differences);

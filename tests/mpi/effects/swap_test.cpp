@@ -29,7 +29,7 @@ TestScene swapping(std::uint64_t seed) {
 
 TEST_CASE("effects: swaps give the same bits on every machine shape, and are checked") {
     const Communicator world = Communicator::world();
-    for (const std::uint64_t seed : {690, 691}) {
+    for (const std::uint64_t seed : {690u, 691u}) {
         TestScene scene = swapping(seed);
         check_shared_run(scene, Method::event_driven, world);
         scene.setting.effects.thermostat = {ThermostatKind::langevin, 0, 0.1, 0.02, 7};

@@ -85,7 +85,7 @@ TEST_CASE("lasting contacts: a column holds itself and presses the floor with it
     CHECK(heap.count_held() == 8);
     CHECK(heap.forces.walls[2].normal == Approx(weight * interval).epsilon(0.005));
     CHECK(heap.forces.walls[2].along == 0);
-    for (const std::size_t side : {0, 1, 3}) CHECK(heap.forces.walls[side].normal == 0);
+    for (const std::size_t side : {0u, 1u, 3u}) CHECK(heap.forces.walls[side].normal == 0);
     const std::vector<HeapDisc> before = heap.discs;
     const std::vector<KeptImpulse> kept = heap.kept;
     heap.run(effects, SpeciesTable(effects.species, r), 7);

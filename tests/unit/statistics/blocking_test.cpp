@@ -89,7 +89,7 @@ TEST_CASE("a trend is reported, a constant is known to be one") {
 }
 
 TEST_CASE("a rare event is no trend, early or late in a series") {
-    for (const std::size_t at : {0, 3, 20, 60, 63}) {
+    for (const std::size_t at : {0u, 3u, 20u, 60u, 63u}) {
         std::vector<double> x(64);
         x[at] = 1;
         CAPTURE(at);
