@@ -7,7 +7,6 @@
 It runs inputs/constant_pressure.toml at two pressures, and reads docs/data/validation/barostat.csv. The picture is
 docs/pictures/constant_pressure.png.
 """
-import argparse
 import csv
 import pathlib
 
@@ -26,11 +25,7 @@ def run_at(program, pressure):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", metavar="CARROM")
-    parser.add_argument("picture", metavar="PICTURE")
-    options = parser.parse_args()
-    plot_style.use()
+    options = plot_style.program_and_picture(__doc__)
     figure, (time, state) = plt.subplots(1, 2, figsize=(11, 4.5))
     for pressure in PRESSURES:
         history = run_at(options.program, pressure).tables["volume_history"]

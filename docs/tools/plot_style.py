@@ -5,6 +5,8 @@ Plots are at least 900 pixels wide, so that they stay sharp on a page of that wi
 as large as the text around them.
 """
 
+import argparse
+
 import matplotlib
 import matplotlib.pyplot as plt
 
@@ -30,3 +32,14 @@ def use():
             "legend.frameon": False,
         }
     )
+
+
+def program_and_picture(text):
+    """The words CARROM and PICTURE of the command line, and this style. `text` is the tool's own."""
+    parser = argparse.ArgumentParser(
+        description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("program", metavar="CARROM")
+    parser.add_argument("picture", metavar="PICTURE")
+    use()
+    return parser.parse_args()

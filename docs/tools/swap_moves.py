@@ -7,7 +7,6 @@
 It runs inputs/swap.toml with swaps to the end and up to step 400, and reads docs/data/validation/swap_times.csv. The
 picture is docs/pictures/swap.png.
 """
-import argparse
 import csv
 import math
 import pathlib
@@ -29,11 +28,7 @@ def correlations(program, until_step):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", metavar="CARROM")
-    parser.add_argument("picture", metavar="PICTURE")
-    options = parser.parse_args()
-    plot_style.use()
+    options = plot_style.program_and_picture(__doc__)
     figure, (decay, times) = plt.subplots(1, 2, figsize=(11, 4.5))
     for until_step, label in ((0, "with swaps"), (400, "without, from the same states")):
         table = correlations(options.program, until_step)

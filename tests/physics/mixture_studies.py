@@ -43,7 +43,9 @@ PACKING = 0.05
 
 
 def cooling(own, other, restitution):
-    """The loss of discs of kT `own` to as many of kT `other`, but for a common factor."""
+    """The rate at which discs of kT `own` lose energy in collisions with as many of kT `other`,
+    both of Maxwell's velocities, in units that drop out.
+    """
     share = (1 + restitution) * own - (1 + restitution) ** 2 / 4 * (own + other)
     return math.sqrt(own + other) * share
 

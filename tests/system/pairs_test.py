@@ -5,8 +5,12 @@ Expected velocities follow from restitution and Coulomb's law by hand, and the t
 mixture that cools from kinetic theory.
 """
 import math
+import sys
 
 from program import SOURCES, ProgramTest, lines_of, main
+
+sys.path.append(str(SOURCES / "tests" / "physics"))
+from mixture_studies import ratio_of_theory  # noqa: E402
 
 # Pairs that meet head-on, each in a lane of its own; ids count by species.
 LANES = """
@@ -48,27 +52,6 @@ text = "ends"
 
 MORE = ["--set", "discs.species=[{count=300,radius=0.5},{count=300,radius=0.5}]", "--set",
         "box.size=90", "--quiet"]
-
-
-def cooling(own, other, restitution):
-    """The rate at which discs of kT `own` lose energy in collisions with as many of kT `other`,
-    both of Maxwell's velocities, in units that drop out.
-    """
-    share = (1 + restitution) * own - (1 + restitution) ** 2 / 4 * (own + other)
-    return math.sqrt(own + other) * share
-
-
-def ratio_of_theory(steel, mixed, rubber):
-    """Of kT of two species that cool at one rate."""
-    low, high = 0, 1
-    for _ in range(60):
-        middle = (low + high) / 2
-        fast = (cooling(middle, middle, rubber) + cooling(middle, 1, mixed)) / middle
-        if fast > cooling(1, 1, steel) + cooling(1, middle, mixed):
-            high = middle
-        else:
-            low = middle
-    return low
 
 
 class Pairs(ProgramTest):
