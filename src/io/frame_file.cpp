@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/computed_fields.hpp"
 #include "io/checked_dataset.hpp"
 #include "io/checkpoint_fields.hpp"
 #include "io/checksums.hpp"
@@ -35,12 +36,12 @@ std::vector<ColumnSource> sources_of_frames() {
                                          {"vx", "velocity", 3, 0},
                                          {"vy", "velocity", 3, 1},
                                          {"pair_collisions", "collisions", 2, 1},
-                                         {"wall_collisions", "collisions", 2, 0},
-                                         {"psi6_real", "psi6", 2, 0},
-                                         {"psi6_imaginary", "psi6", 2, 1},
-                                         {"neighbours", "neighbours", 1, 0},
-                                         {"image_x", "image", 3, 0},
-                                         {"image_y", "image", 3, 1}};
+                                         {"wall_collisions", "collisions", 2, 0}};
+    for (const ComputedField& field : computed_field_table)
+        for (std::size_t k = 0; k < field.width(); ++k)
+            sources.push_back({field.columns[k], field.name, field.width(), k});
+    sources.push_back({"image_x", "image", 3, 0});
+    sources.push_back({"image_y", "image", 3, 1});
     for (const SideColumnInfo& info : side_column_table)
         sources.push_back({info.shown, info.shown, 1, 0});
     for (ColumnSource& source : sources)

@@ -32,10 +32,9 @@ enum Place : std::size_t {
     position = 0,
     velocity = 3,
     collisions = 6, ///< collisions with walls, then with discs
-    psi6 = 8,
-    neighbours = 10,
-    image = 11,
-    side_columns = 14,
+    computed = 8,
+    image = computed + n_computed_numbers,
+    side_columns = image + 3,
     n_words = side_columns + n_side_columns
 };
 
@@ -61,8 +60,13 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     add(layout.has_position, {"position", position, 3, real, unit(1, 0)});
     add(layout.has_velocity, {"velocity", velocity, 3, real, unit(1, -1)});
     add(layout.has_collisions, {"collisions", collisions, 2, H5T_STD_U64LE, ""});
-    add(layout.has_psi6, {"psi6", psi6, 2, real, ""});
-    add(layout.has_neighbours, {"neighbours", neighbours, 1, H5T_STD_U64LE, ""});
+    std::size_t place = computed;
+    for (std::size_t k = 0; k < computed_field_table.size(); ++k) {
+        const ComputedField& one = computed_field_table[k];
+        add(layout.computed[k],
+            {one.name, place, one.width(), one.is_count ? H5T_STD_U64LE : real, ""});
+        place += one.width();
+    }
     add(layout.has_image, {"image", image, 3, H5T_STD_I32LE, ""});
     layout.columns.for_each([&](SideColumn column) {
         const SideColumnInfo& info = info_of(column);
@@ -133,11 +137,11 @@ private:
 class SlabStream {
 public:
     SlabStream(std::span<const DiscState> discs, const SideSpans& columns,
-               std::span<const BondOrder> orders, std::span<const DiscImage> images, double clock,
-               const TrajectoryLayout& layout, const CollectedWords& collected,
+               std::span<const ComputedNumbers> computed_numbers, std::span<const DiscImage> images,
+               double clock, const TrajectoryLayout& layout, const CollectedWords& collected,
                const Communicator& communicator)
-        : discs_(discs), columns_(columns), orders_(orders), images_(images), clock_(clock),
-          layout_(layout), collected_(collected), communicator_(communicator),
+        : discs_(discs), columns_(columns), computed_(computed_numbers), images_(images),
+          clock_(clock), layout_(layout), collected_(collected), communicator_(communicator),
           order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
         std::sort(order_.begin(), order_.end(),
@@ -178,6 +182,14 @@ private:
         images_ = images_.subspan(n);
     }
 
+    static void add_computed(const ComputedNumbers& numbers, DiscWords& words) {
+        std::size_t k = 0;
+        for (const ComputedField& field : computed_field_table)
+            for (const std::size_t end = k + field.width(); k < end; ++k)
+                words[computed + k] = field.is_count ? static_cast<std::uint64_t>(numbers[k])
+                                                     : std::bit_cast<std::uint64_t>(numbers[k]);
+    }
+
     DiscWords shown(LocalIndex i) const {
         const DiscState& disc = discs_[i];
         const double unit = layout_.velocity_unit;
@@ -195,17 +207,13 @@ private:
             set(side_columns + static_cast<std::size_t>(column),
                 columns_[column][i] * (info_of(column).is_rate ? unit : 1));
         });
-        if (!orders_.empty() && orders_[i].has_cell()) {
-            set(psi6, orders_[i].real);
-            set(psi6 + 1, orders_[i].imaginary);
-            words[neighbours] = static_cast<std::uint64_t>(orders_[i].n_neighbours);
-        }
+        if (!computed_.empty()) add_computed(computed_[i], words);
         return words;
     }
 
     std::span<const DiscState> discs_;
     SideSpans columns_;
-    std::span<const BondOrder> orders_;
+    std::span<const ComputedNumbers> computed_;
     std::span<const DiscImage> images_; ///< those with larger ids
     double clock_;
     const TrajectoryLayout& layout_;
@@ -264,10 +272,10 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
 }
 
 void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, double clock,
-                        const SideSpans& columns, std::span<const BondOrder> orders,
+                        const SideSpans& columns, std::span<const ComputedNumbers> computed_numbers,
                         std::span<const DiscImage> images) {
-    ensure(orders.size() == discs.size() || !(layout_.has_psi6 || layout_.has_neighbours),
-           "psi6 does not run along the discs");
+    ensure(computed_numbers.size() == discs.size() || layout_.computed == ComputedFieldSet{},
+           "computed numbers do not run along the discs");
     layout_.columns.for_each([&](SideColumn column) {
         ensure(columns[column].size() == discs.size(), "a column does not run along the discs");
     });
@@ -275,7 +283,8 @@ void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, dou
     file.attempt([&] { static_cast<void>(file.room()); });
     const std::vector<Field> fields = fields_of(layout_);
     const CollectedWords collected(fields);
-    SlabStream stream(discs, columns, orders, images, clock, layout_, collected, communicator_);
+    SlabStream stream(discs, columns, computed_numbers, images, clock, layout_, collected,
+                      communicator_);
     const std::uint64_t n = layout_.system.n_discs,
                         at_a_time = discs_at_a_time(communicator_.size());
     for (std::uint64_t begin = 0; begin < n; begin += at_a_time) {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bond_order.hpp"
+#include "core/computed_fields.hpp"
 #include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
 #include "core/stored_samples.hpp"
@@ -26,9 +26,10 @@ struct TrajectoryLayout {
     RecordedSystem system;
     double velocity_unit = 1; ///< converts stored velocities to velocities per step
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_psi6 = false, has_neighbours = false, has_image = false;
-    SideColumnSet columns; ///< side columns in each frame
-    bool is_single = true; ///< numbers are float32 instead of float64
+    bool has_image = false;
+    ComputedFieldSet computed{}; ///< computed fields in each frame
+    SideColumnSet columns;       ///< side columns in each frame
+    bool is_single = true;       ///< numbers are float32 instead of float64
     /// Description of the run; if its text is empty, the file does not name its run
     CheckpointHeader run;
 };
@@ -56,10 +57,12 @@ public:
     std::int64_t recorded_before() const { return recorded_before_; }
 
     /// Adds a frame: the discs at `clock`, in any distribution over the ranks, the layout's columns
-    /// along them, and their orders if the layout has psi6 or neighbours. If the layout has images,
-    /// `images` are those of a run of ids, which the next rank's run follows. **Collective.**
+    /// along them, and their computed numbers if the layout has such fields. If the layout has
+    /// images, `images` are those of a run of ids, which the next rank's run follows.
+    /// **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
-                const SideSpans& columns = {}, std::span<const BondOrder> orders = {},
+                const SideSpans& columns = {},
+                std::span<const ComputedNumbers> computed_numbers = {},
                 std::span<const DiscImage> images = {});
 
     /// Makes all frames so far permanent and visible to readers. Writes the XDMF description again

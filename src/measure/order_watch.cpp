@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "measure/speeds.hpp"
-#include "simulation/disc_statistics.hpp"
+#include "simulation/disc_order.hpp"
 
 namespace carrom {
 
@@ -99,7 +99,7 @@ OrderWatch::Sample OrderWatch::sampled() const {
         std::accumulate(sums.neighbours.begin(), sums.neighbours.end(), std::uint64_t{0}));
     if (!(n > 0)) return sample;
     const double real = sums.real.value(), imaginary = sums.imaginary.value();
-    sample.psi6 = std::sqrt(real * real + imaginary * imaginary) / n;
+    sample.together = std::sqrt(real * real + imaginary * imaginary) / n;
     sample.local = sums.modulus.value() / n;
     return sample;
 }
@@ -112,7 +112,7 @@ void OrderWatch::keep(KeptNumbers& kept) {
     kept(n);
     if (n >= most_samples) return kept.refuse();
     samples_.resize(n);
-    for (Sample& sample : samples_) kept(sample.psi6), kept(sample.local), kept(sample.energy);
+    for (Sample& sample : samples_) kept(sample.together), kept(sample.local), kept(sample.energy);
 }
 
 std::vector<std::int64_t> OrderWatch::stored() {
@@ -153,8 +153,8 @@ std::vector<WatchedNumber> OrderWatch::watched() const {
     std::vector<WatchedNumber> all;
     if (samples_.empty()) return all;
     if (has_order_) {
-        all.push_back(number("psi6", &Sample::psi6));
-        all.push_back(number("local_psi6", &Sample::local));
+        all.push_back(number(order_names[0], &Sample::together));
+        all.push_back(number(order_names[1], &Sample::local));
     }
     if (has_energy_)
         if (WatchedNumber energy = number("energy", &Sample::energy);

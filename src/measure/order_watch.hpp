@@ -28,8 +28,8 @@ namespace carrom {
 
 /// A number that is watched over the run.
 struct WatchedNumber {
-    std::string name; ///< "psi6": the modulus of its mean; "local_psi6": the mean modulus of
-                      ///< discs; "energy": of motion, rotation and height
+    std::string name; ///< one of OrderWatch::order_names, or "energy": of motion, rotation and
+                      ///< height
     SampledMean mean;
     /// Means over the quarters of the run; NaN if the run is short
     std::array<double, 4> quarters{};
@@ -39,6 +39,8 @@ class OrderWatch : public StepAction {
 public:
     static constexpr double least_watched_packing = 0.65;
     static constexpr std::size_t most_samples = 64;
+    /// The modulus of the mean of psi6, and the mean modulus of discs
+    static constexpr std::array<const char*, 2> order_names = {"psi6", "local_psi6"};
 
     /// All arguments must outlive this.
     OrderWatch(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
@@ -57,7 +59,7 @@ public:
 
 private:
     struct Sample {
-        double psi6 = 0, local = 0, energy = 0;
+        double together = 0, local = 0, energy = 0; ///< order of all discs and of each; energy
     };
 
     bool is_watching() const { return has_order_ || has_energy_; }

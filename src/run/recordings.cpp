@@ -10,7 +10,7 @@
 #include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
 #include "scene/frame_times.hpp"
-#include "simulation/disc_statistics.hpp"
+#include "simulation/disc_order.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -117,11 +117,10 @@ bool Recordings::act() {
     ImageCounts* const counts = run_.images();
     if (counts) static_cast<void>(counts->counts()); // so that their memory stays small
     if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
-        std::vector<BondOrder> orders; // first, because it moves discs in memory
-        if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
-            orders = bond_orders(system);
+        std::vector<ComputedNumbers> computed; // first, because it moves discs in memory
+        if (scene_.trajectory->computed != ComputedFieldSet{}) computed = computed_numbers(system);
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};
-        trajectory_->append(step, system.shown(), system.clock(), system.side_columns(), orders,
+        trajectory_->append(step, system.shown(), system.clock(), system.side_columns(), computed,
                             images);
     }
     commit_now_and_then();

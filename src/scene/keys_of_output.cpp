@@ -74,10 +74,13 @@ std::vector<Key> keys_of_checkpoints() {
 
 std::vector<Key> keys_of_recordings() {
     using Output = TrajectoryOutput;
-    std::vector<Flag<Output>> fields = {
-        {"position", &Output::has_position},     {"velocity", &Output::has_velocity},
-        {"collisions", &Output::has_collisions}, {"psi6", &Output::has_psi6},
-        {"neighbours", &Output::has_neighbours}, {"image", &Output::has_image}};
+    std::vector<Flag<Output>> fields = {{"position", &Output::has_position},
+                                        {"velocity", &Output::has_velocity},
+                                        {"collisions", &Output::has_collisions}};
+    for (std::size_t k = 0; k < computed_field_table.size(); ++k)
+        fields.push_back({computed_field_table[k].name,
+                          [k](Output& output) -> bool& { return output.computed[k]; }});
+    fields.push_back({"image", &Output::has_image});
     for (std::size_t k = 0; k < n_side_columns; ++k)
         fields.push_back({side_column_table[k].shown,
                           [k](Output& output) -> bool& { return output.columns.flags[k]; }});

@@ -17,6 +17,7 @@
 
 #include <carrom/box.hpp>
 
+#include "core/computed_fields.hpp"
 #include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "scene/size_distribution.hpp"
@@ -138,11 +139,11 @@ struct TrajectoryOutput {
     std::string file; ///< relative to the run's folder
     std::int64_t every_steps = 1;
     std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
-    bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
-         has_neighbours = false;
-    bool has_image = false; ///< for a periodic box; true if the scene lists no fields
-    SideColumnSet columns;  ///< all columns of the discs, if the scene lists no fields
-    bool is_single = true;  ///< numbers of 4 bytes instead of 8
+    bool has_position = true, has_velocity = true, has_collisions = false;
+    bool has_image = false;      ///< for a periodic box; true if the scene lists no fields
+    ComputedFieldSet computed{}; ///< none, if the scene lists no fields
+    SideColumnSet columns;       ///< all columns of the discs, if the scene lists no fields
+    bool is_single = true;       ///< numbers of 4 bytes instead of 8
 };
 
 /// `[output.collisions]`: every collision in one file.

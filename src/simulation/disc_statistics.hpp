@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Statistics of all discs of a system at its present step, on all ranks: sums of motion, pairs by
-// distance, and psi6. The module `statistics` contains the arithmetic; these functions provide the
-// discs for it, and add the results of all ranks. All results have the same bits on any number of
-// ranks.
+// Statistics of all discs of a system at its present step, on all ranks: sums of motion, and pairs
+// by distance. The module `statistics` contains the arithmetic; these functions provide the discs
+// for it, and add the results of all ranks. All results have the same bits on any number of ranks.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "core/bond_order.hpp"
 #include "simulation/disc_system.hpp"
-#include "statistics/hexatic_order.hpp"
 #include "statistics/motion.hpp"
 
 namespace carrom {
@@ -32,14 +28,5 @@ void integrate_flights(const DiscSystem& system, MotionSample& sample);
 /// **Collective.**
 void count_pair_distances(DiscSystem& system, double bin_width,
                           std::span<const DiscId> species_ends, std::span<std::uint64_t> counts);
-
-/// psi6 of all discs together, and correlations of pairs up to that distance, over all ranks.
-/// **Collective.**
-HexaticSums hexatic_order(DiscSystem& system, double largest_distance, std::size_t n_bins);
-/// psi6 of at most `most_discs` discs, evenly spread over the ids, without pairs. **Collective.**
-HexaticSums sampled_order(DiscSystem& system, std::uint64_t most_discs);
-/// psi6 of each own disc, in the order of `DiscSystem::discs` after the call, which moves the discs
-/// in memory. **Collective.**
-std::vector<BondOrder> bond_orders(DiscSystem& system);
 
 } // namespace carrom

@@ -116,9 +116,8 @@ TrajectoryLayout layout_of(const SceneParameters& scene, const TrajectoryOutput&
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;
     layout.has_collisions = wanted.has_collisions;
-    layout.has_psi6 = wanted.has_psi6;
-    layout.has_neighbours = wanted.has_neighbours;
     layout.has_image = wanted.has_image;
+    layout.computed = wanted.computed;
     layout.columns = wanted.columns;
     layout.is_single = wanted.is_single;
     return layout;

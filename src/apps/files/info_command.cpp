@@ -2,7 +2,6 @@
 #include "apps/shell/subcommands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -11,6 +10,7 @@
 
 #include "apps/shell/words.hpp"
 #include "core/box_text.hpp"
+#include "core/computed_fields.hpp"
 #include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
@@ -58,18 +58,16 @@ std::string span_text(const FrameFile& file) {
 
 /// The fields of a trajectory, by their names in scenes.
 std::string fields_text(const FileSummary& summary) {
-    constexpr std::array<std::array<const char*, 2>, 6> common = {
-        {{"position", "x"},
-         {"velocity", "vx"},
-         {"collisions", "pair_collisions"},
-         {"psi6", "psi6_real"},
-         {"neighbours", "neighbours"},
-         {"image", "image_x"}}};
     std::vector<std::string> fields;
-    for (const auto& [field, column] : common)
+    const auto add = [&](const char* field, const char* column) {
         if (summary.has(column)) fields.emplace_back(field);
-    for (const SideColumnInfo& info : side_column_table)
-        if (summary.has(info.shown)) fields.emplace_back(info.shown);
+    };
+    add("position", "x");
+    add("velocity", "vx");
+    add("collisions", "pair_collisions");
+    for (const ComputedField& field : computed_field_table) add(field.name, field.columns.front());
+    add("image", "image_x");
+    for (const SideColumnInfo& info : side_column_table) add(info.shown, info.shown);
     return fmt::format("{}", fmt::join(fields, " "));
 }
 

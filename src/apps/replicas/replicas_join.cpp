@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "core/plain_file.hpp"
 #include "measure/measurement.hpp"
+#include "measure/order_watch.hpp"
 #include "run/files/owned_files.hpp"
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
@@ -46,7 +47,7 @@ bool differ_by_rounding(const Mean& mean, double scatter) {
 }
 
 /// A line for the terminal. Values that differ only by roundings have no error.
-std::string line_of(const char* name, const Mean& mean, double scatter) {
+std::string line_of(const std::string& name, const Mean& mean, double scatter) {
     if (differ_by_rounding(mean, scatter))
         return fmt::format("{:<20}{:.6g} in each\n", name, mean.value);
     return fmt::format("{:<20}{:.6g} +- {:.2g}\n", name, mean.value, mean.error);
@@ -58,25 +59,27 @@ std::string field(double number) { return std::isfinite(number) ? fmt::format("{
 
 /// One average of a report; `path` is a JSON pointer to it, or to its number if it has no error.
 struct AveragedColumn {
-    const char* name;
-    const char* path;
+    std::string name, path;
 };
-constexpr AveragedColumn averaged_columns[] = {
-    {"temperature", "/temperature"},
-    {"pressure", "/pressure"},
-    {"compressibility", "/compressibility"},
-    {"pressure_xx", "/pressure_tensor/xx"},
-    {"pressure_xy", "/pressure_tensor/xy"},
-    {"pressure_yy", "/pressure_tensor/yy"},
-    {"collision_frequency", "/averages/collision_frequency"},
-    {"mean_free_time", "/averages/mean_free_time"},
-    {"wall_pressure", "/averages/wall_pressure"},
-    {"mean_speed", "/averages/mean_speed"},
-    {"speed_kurtosis", "/averages/speed_kurtosis"},
-    {"kinetic_energy", "/kinetic_energy"},
-    {"psi6", "/watched/psi6"},
-    {"local_psi6", "/watched/local_psi6"},
-};
+std::vector<AveragedColumn> averaged_columns() {
+    std::vector<AveragedColumn> columns = {
+        {"temperature", "/temperature"},
+        {"pressure", "/pressure"},
+        {"compressibility", "/compressibility"},
+        {"pressure_xx", "/pressure_tensor/xx"},
+        {"pressure_xy", "/pressure_tensor/xy"},
+        {"pressure_yy", "/pressure_tensor/yy"},
+        {"collision_frequency", "/averages/collision_frequency"},
+        {"mean_free_time", "/averages/mean_free_time"},
+        {"wall_pressure", "/averages/wall_pressure"},
+        {"mean_speed", "/averages/mean_speed"},
+        {"speed_kurtosis", "/averages/speed_kurtosis"},
+        {"kinetic_energy", "/kinetic_energy"},
+    };
+    for (const std::string name : OrderWatch::order_names)
+        columns.push_back({name, "/watched/" + name});
+    return columns;
+}
 
 /// A part of an average, "value" or "error". A number without an error is its own value.
 double part_of(const Json& report, const AveragedColumn& quantity, const char* part) {
@@ -123,7 +126,7 @@ Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantit
     for (const Json& report : reports) {
         const double error = part_of(report, quantity, "error");
         if (std::isfinite(error) && error > 0) squares += error * error, n += 1;
-        const Json::json_pointer reason(std::string(quantity.path) + "/without_error");
+        const Json::json_pointer reason(quantity.path + "/without_error");
         if (!report.contains(reason) || !report.at(reason).is_string()) continue;
         const std::string text = report.at(reason).get<std::string>();
         const bool is_changing = text.starts_with("still changing");
@@ -139,7 +142,7 @@ class SingleRuns {
 public:
     explicit SingleRuns(std::size_t n_replicas) : n_replicas_(n_replicas) {}
 
-    void add(const char* name, const Claims& claims) {
+    void add(const std::string& name, const Claims& claims) {
         if (claims.are_too_small(n_replicas_))
             too_small_.push_back(fmt::format("{} {:.1f} times", name, claims.ratio));
         add(changing_, name, claims.n_changing);
@@ -162,7 +165,7 @@ public:
     }
 
 private:
-    void add(std::vector<std::string>& list, const char* name, std::size_t n) const {
+    void add(std::vector<std::string>& list, const std::string& name, std::size_t n) const {
         if (n * 4 > n_replicas_)
             list.push_back(fmt::format("{} in {} of {}", name, n, n_replicas_));
     }
@@ -211,12 +214,12 @@ bool may_be_replaced(const std::filesystem::path& path) {
 std::string lines_of_replicas(const std::vector<Replica>& replicas,
                               const std::vector<Json>& reports) {
     std::string text = lines_begin;
-    for (const AveragedColumn& quantity : averaged_columns)
+    for (const AveragedColumn& quantity : averaged_columns())
         text += fmt::format(",{}", quantity.name);
     for (std::size_t k = 0; k < reports.size(); ++k) {
         text += fmt::format("\n{},{},{}", k, replicas[k].seed,
                             reports[k]["state_hash"].get<std::string>());
-        for (const AveragedColumn& quantity : averaged_columns)
+        for (const AveragedColumn& quantity : averaged_columns())
             text += ',' + field(value_in(reports[k], quantity));
     }
     return text + '\n';
@@ -331,7 +334,7 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
     std::string text = fmt::format("replicas           {}\n", replicas.size());
     Json joined = {{"replicas", replicas.size()}};
     SingleRuns runs(replicas.size());
-    for (const AveragedColumn& quantity : averaged_columns) {
+    for (const AveragedColumn& quantity : averaged_columns()) {
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);

@@ -190,7 +190,7 @@ std::string time_lines(const RunResult& result, std::int64_t last_step) {
     return text;
 }
 
-/// Text such as "psi6 = 0.207 +- 0.02, local_psi6 = 0.6 +- 0.001".
+/// Text such as "energy = 0.207 +- 0.02", for each number that is watched.
 std::string watched_text(const std::vector<WatchedNumber>& watched) {
     std::string text;
     for (const WatchedNumber& one : watched) {

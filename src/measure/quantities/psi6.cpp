@@ -6,7 +6,7 @@
 #include "measure/kept_blocks.hpp"
 #include "measure/pair_reach.hpp"
 #include "measure/table_parts.hpp"
-#include "simulation/disc_statistics.hpp"
+#include "simulation/disc_order.hpp"
 #include "statistics/blocking.hpp"
 
 namespace carrom {

@@ -11,7 +11,7 @@
 
 #include "measured_runs.hpp"
 #include "parallel/exchange.hpp"
-#include "simulation/disc_statistics.hpp"
+#include "simulation/disc_order.hpp"
 #include "statistics/voronoi_cell.hpp"
 
 using namespace carrom;

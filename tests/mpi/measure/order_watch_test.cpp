@@ -7,10 +7,9 @@
 
 #include "catch.hpp"
 
-#include "core/bond_order.hpp"
 #include "measure/order_watch.hpp"
 #include "measured_runs.hpp"
-#include "simulation/disc_statistics.hpp"
+#include "simulation/disc_order.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
