@@ -33,7 +33,7 @@ std::vector<Key> keys_of_steps() {
             .within({1, largest_steps}),
         key("time.sync_every", "micro-steps",
             "Time between common rewrites of all positions. Another value rounds "
-            "differently. Under strong gravity, and in fields, the default is 32, 16 or less.",
+            "differently. Under strong forces, and in fields, the default is 32, 16 or less.",
             [](auto& s) -> auto& { return s.sync_every; })
             .within({1, 0x1p30}),
         key("time.accuracy", "1",

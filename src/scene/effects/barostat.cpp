@@ -163,7 +163,7 @@ std::vector<Rule> rules_of_barostat() {
                  return has_barostat(s) && (s.effects.contact.kind != ContactKind::elastic ||
                                             s.effects.activity.is_on());
              }),
-        rule(constant, "gravity, a field, drag or obstacles",
+        rule(constant, "forces, drag or obstacles",
              "discs need straight flights in an empty box, which can change as a whole", keys,
              [](const SceneParameters& s) {
                  return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s) ||

@@ -22,9 +22,9 @@ const Need lossy_pairs{"without effects.contact.kind = \"restitution\" or \"roug
 const Need rough{"without effects.contact.kind = \"rough\"", [](const SceneParameters& s) {
                      return s.effects.contact.kind == ContactKind::rough;
                  }};
-const Need loss_or_gravity{"without discs, walls or obstacles of restitution, a wall that "
-                           "oscillates, or gravity",
-                           [](const SceneParameters& s) { return lose_energy_or_fall(s.effects); }};
+const Need loss_or_fall{
+    "without collisions that take or give energy, or a force that discs fall in",
+    [](const SceneParameters& s) { return lose_energy_or_fall(s.effects); }};
 const Need rows_of_lossy_discs{
     "without 'discs.species' and effects.contact.kind = \"restitution\" or \"rough\"",
     [](const SceneParameters& s) {
@@ -100,7 +100,7 @@ std::vector<Key> keys_of_contact() {
             .by_default("while two discs close in by a millionth of the sum of their radii, or a "
                         "disc and a wall by a ten-thousandth of the radius")
             .within({.low = 0, .excludes_low = true})
-            .needs(loss_or_gravity),
+            .needs(loss_or_fall),
     };
 }
 

@@ -232,7 +232,7 @@ std::vector<Rule> rules_of_field() {
              {"effects.field.kind"},
              [](const SceneParameters& s) { return has_field(s) && s.effects.are_sheared(); }),
         rule("a field", "contacts that last",
-             "these need discs that gravity alone presses until the next sync",
+             "these need discs that one constant force presses until the next sync",
              {"effects.lasting_contacts.speed"},
              [](const SceneParameters& s) { return has_field(s) && s.effects.lasting_speed > 0; }),
     };

@@ -34,7 +34,7 @@ std::vector<Rule> rules_of_growth() {
                  return has_growth(s) &&
                         (is_rough(s) || s.effects.contact.kind == ContactKind::none);
              }),
-        rule("growing discs", "gravity, drag or obstacles",
+        rule("growing discs", "a force in flight, drag or obstacles",
              "growing discs need straight flights in an empty box, on which contacts are found",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {

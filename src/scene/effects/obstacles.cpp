@@ -97,11 +97,11 @@ std::vector<Key> keys_of_obstacles() {
 
 std::vector<Rule> rules_of_obstacles() {
     return {
-        rule("obstacles", "drag and gravity at once",
+        rule("obstacles", "drag and a force in flight at once",
              "contacts with bodies are found on straight lines and parabolas",
              {"effects.drag.rate"},
              [](const SceneParameters& s) {
-                 return has_obstacles(s) && s.effects.drag > 0 && s.effects.gravity.is_on();
+                 return has_obstacles(s) && s.effects.drag > 0 && s.effects.acceleration().is_on();
              }),
         rule("obstacles", "walls that move",
              "obstacles need walls at rest: a disc between the two would have no way out",

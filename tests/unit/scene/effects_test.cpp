@@ -86,8 +86,8 @@ TEST_CASE("sides are read, and contradictions explained") {
     CHECK(has(problems_with({"effects.thermal.seed=1"}),
               "no meaning without a side of kind = \"thermal\""));
     CHECK(has(problems_with({"effects.contact.contact_time=0.1"}),
-              "no meaning without discs, walls or obstacles of restitution, a wall that "
-              "oscillates, or gravity"));
+              "no meaning without collisions that take or give energy, or a force that discs "
+              "fall in"));
     CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
     CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.boundaries[0] ==
           Boundary{BoundaryKind::open, 1, 0, 0});
@@ -164,7 +164,7 @@ TEST_CASE("drag is read, and refused beside what it does not go with yet") {
               .empty());
     CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01",
                              "effects.obstacles.discs=[[5, 5, 1]]", all}),
-              "cannot have obstacles together with drag and gravity at once"));
+              "cannot have obstacles together with drag and a force in flight at once"));
     CHECK(has(problems_with({"effects.gravity.x=0.03", "time.sync_every=64", all}),
               "time.sync_every = 57 or less"));
     CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all})
