@@ -14,10 +14,10 @@
 // and slow down, that discs of an ideal gas may overlap, and how much energy collisions take.
 // Growing discs push each other: the work is the impulse times the speed at which surfaces grow.
 // How much energy thermal and moving walls give is not known beforehand, so the energy of discs
-// that have met such a wall is not checked. Oscillating walls give or take at most the impulse
-// times their largest speed. An acceleration that changes in time is seen from a frame that falls
-// with its changing part from the last inspection on: there it does nothing, and walls move.
-// Energies include masses and spins. Price: 128 bytes a disc, every disc and collision sent once a
+// that have met such a wall is not checked. Other walls give or take at most the impulse times
+// their largest speed. An acceleration that changes in time is seen from a frame that falls with
+// its changing part from the last inspection on: there it does nothing, and walls move. Energies
+// include masses and spins. Price: 128 bytes a disc, every disc and collision sent once a
 // step, collisions to rank 0.
 #pragma once
 

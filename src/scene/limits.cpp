@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/boundaries/boundary.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/places.hpp"
 
@@ -25,10 +26,11 @@ bool are_pairs_lossy(const Effects& effects) {
 
 bool lose_energy_or_fall(const Effects& effects) {
     const auto is_lossy = [&effects](const Boundary& side) {
-        return side.restitution < 1 || side.kind == BoundaryKind::oscillating ||
+        return side.restitution < 1 ||
                (effects.drag > 0 && side.speed != 0); // drag presses discs against a moving wall
     };
     return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_lossy) ||
+           do_sides_let_discs_rest(effects) ||
            std::ranges::any_of(all_effects(), [&effects](const EffectDeclaration& one) {
                return one.lets_discs_rest && one.lets_discs_rest(effects);
            });

@@ -17,9 +17,6 @@ inline bool has_open(const SceneParameters& s) { return s.effects.have_open_boun
 inline bool has_moving(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::moving);
 }
-inline bool has_oscillating(const SceneParameters& s) {
-    return has_boundary(s.effects, BoundaryKind::oscillating);
-}
 /// Also true if discs will freeze and become obstacles.
 inline bool has_obstacles(const SceneParameters& s) {
     return s.effects.obstacles.are_any() || s.freezes();

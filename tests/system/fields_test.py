@@ -294,7 +294,7 @@ class GravityInTime(ProgramTest):
                 ("effects.obstacles.discs=[[15, 12, 1]]", "together with obstacles"),
                 ("effects.gravity.period=10", "is less than 8 times between syncs"),
                 ("box.top={kind = \"oscillating\", amplitude = 0.1, period = 10}",
-                 "cannot have gravity that changes")):
+                 "cannot have an oscillating wall together with drag, or a force that changes")):
             self.run_program(1, "run", scene, "--set", setting, code=2, says=problem)
 
 

@@ -33,19 +33,6 @@ const std::string& help_of_kinds() {
     return text;
 }
 
-Need reflecting(std::size_t side) {
-    std::string words;
-    for (const BoundaryDeclaration& one : all_boundaries())
-        if (one.has_restitution)
-            words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", word_of(one.kind));
-    if (const auto last = words.rfind(", "); last != std::string::npos)
-        words.replace(last, 2, " or ");
-    return {fmt::format("without {} = {}", side_key(side, "kind"), words),
-            [side](const SceneParameters& s) {
-                return declaration_of(s.effects.boundaries[side].kind).has_restitution;
-            }};
-}
-
 } // namespace
 
 std::vector<Key> keys_of_boundaries() {
@@ -65,7 +52,7 @@ std::vector<Key> keys_of_boundaries() {
                 "Share of the normal velocity that is left after a collision.",
                 [side](auto& s) -> auto& { return s.effects.boundaries[side].restitution; })
                 .within({0, 1})
-                .needs(reflecting(side)));
+                .needs(side_reflects(side)));
         for (const BoundaryDeclaration& one : all_boundaries())
             if (one.keys_of_side)
                 for (Key& more : one.keys_of_side(side)) all.push_back(std::move(more));
@@ -106,8 +93,27 @@ bool are_walls_at_rest(const Effects& effects) {
     });
 }
 
+bool do_sides_let_discs_rest(const Effects& effects) {
+    return std::ranges::any_of(effects.boundaries, [](const Boundary& side) {
+        return declaration_of(side.kind).lets_discs_rest;
+    });
+}
+
 std::string side_key(std::size_t side, std::string_view name) {
     return fmt::format("box.{}.{}", boundary_names[side], name);
+}
+
+Need side_reflects(std::size_t side) {
+    std::string words;
+    for (const BoundaryDeclaration& one : all_boundaries())
+        if (one.has_restitution)
+            words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", word_of(one.kind));
+    if (const auto last = words.rfind(", "); last != std::string::npos)
+        words.replace(last, 2, " or ");
+    return {fmt::format("without {} = {}", side_key(side, "kind"), words),
+            [side](const SceneParameters& s) {
+                return declaration_of(s.effects.boundaries[side].kind).has_restitution;
+            }};
 }
 
 Need side_needs(std::size_t side, BoundaryKind kind) {

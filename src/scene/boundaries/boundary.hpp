@@ -27,6 +27,7 @@ struct BoundaryDeclaration {
     // Abilities that other features require of a side. A kind cannot be combined with a feature if
     // it does not declare the ability.
     bool is_at_rest = true;                         ///< its line never moves
+    bool lets_discs_rest = false;                   ///< see EffectDeclaration
     bool takes_growing_discs = false;               ///< growing discs may touch it
     bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration
     /// Keys of one side, such as box.left.speed.
@@ -56,9 +57,12 @@ CheckAllowance allowance_of_boundaries(const Effects& effects);
 /// Whether all sides have the abilities that growing discs need: see BoundaryDeclaration.
 bool do_sides_take_growing_discs(const Effects& effects);
 bool are_walls_at_rest(const Effects& effects);
+bool do_sides_let_discs_rest(const Effects& effects);
 
 /// The key of a side, such as "box.left.speed" for side 0 and "speed".
 std::string side_key(std::size_t side, std::string_view name);
+/// The condition of a key that applies to sides with `has_restitution`.
+Need side_reflects(std::size_t side);
 /// The condition of a key that applies to one kind of side only.
 Need side_needs(std::size_t side, BoundaryKind kind);
 /// Text such as " of restitution 0.9" for summaries; empty if the wall is elastic.

@@ -16,6 +16,10 @@ namespace {
 /// start.
 constexpr double smallest_period = 1e-6;
 
+bool has_oscillating(const SceneParameters& s) {
+    return has_boundary(s.effects, BoundaryKind::oscillating);
+}
+
 std::vector<Key> keys_of_oscillating_side(std::size_t side) {
     const Need oscillating = side_needs(side, BoundaryKind::oscillating);
     return {key(side_key(side, "amplitude"), "length",
@@ -41,9 +45,12 @@ std::vector<Rule> rules_of_oscillating_sides() {
              "walls are at rest there; take time.method = \"event-driven\"",
              BoundaryKind::oscillating,
              [](const SceneParameters& s) { return has_oscillating(s) && is_time_stepped(s); }),
-        rule("an oscillating wall", "drag", "contacts are found on straight lines and parabolas",
-             BoundaryKind::oscillating,
-             [](const SceneParameters& s) { return has_oscillating(s) && s.effects.drag != 0; }),
+        rule("an oscillating wall", "drag, or a force that changes",
+             "contacts are found on straight lines and parabolas", BoundaryKind::oscillating,
+             [](const SceneParameters& s) {
+                 return has_oscillating(s) &&
+                        (s.effects.drag != 0 || s.effects.acceleration().sways());
+             }),
     };
 }
 
@@ -105,6 +112,7 @@ BoundaryDeclaration oscillating() {
             .help = "a shaker",
             .has_restitution = true,
             .is_at_rest = false,
+            .lets_discs_rest = true,
             .keys_of_side = keys_of_oscillating_side,
             .rules = rules_of_oscillating_sides(),
             .check_times = check_contact_at_oscillating_walls,

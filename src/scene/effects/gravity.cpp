@@ -97,11 +97,11 @@ std::vector<Rule> rules_of_gravity() {
                  return s.effects.gravity.y != 0 && s.effects.is_periodic_y() &&
                         !s.effects.are_sheared() && !are_stopped(s, 0);
              }),
-        rule("gravity that changes", "drag, or walls that oscillate",
+        rule("gravity that changes", "drag",
              "contacts with walls are found on parabolas and one sine",
              {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
              [](const SceneParameters& s) {
-                 return s.effects.gravity.sways() && (s.effects.drag != 0 || has_oscillating(s));
+                 return s.effects.gravity.sways() && s.effects.drag != 0;
              }),
         rule(
             "gravity that changes", "obstacles",

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/boundaries/boundary.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
@@ -12,11 +13,6 @@
 namespace carrom {
 
 namespace {
-
-bool reflects(const Boundary& side) {
-    return side.kind == BoundaryKind::wall || side.kind == BoundaryKind::moving ||
-           side.kind == BoundaryKind::oscillating;
-}
 
 bool slides(const Boundary& side) {
     return side.kind == BoundaryKind::thermal || side.surface.rubs();
@@ -50,8 +46,7 @@ std::vector<Key> keys_of_rubbing() {
         const std::string table = std::string("box.") + boundary_names[side];
         add_surface(
             all, table, [side](auto& s) -> auto& { return s.effects.boundaries[side].surface; },
-            {"without " + table + ".kind = \"wall\", \"moving\" or \"oscillating\"",
-             [side](const SceneParameters& s) { return reflects(s.effects.boundaries[side]); }},
+            side_reflects(side),
             {"without " + table + ".tangential_restitution above -1",
              [side](const SceneParameters& s) {
                  return s.effects.boundaries[side].surface.tangential_restitution != -1;
