@@ -72,7 +72,7 @@ public:
     }
 
     /// From now on all radii are the scene's times `size`. Only for bodies that can grow, in a
-    /// scene without a rate of growth.
+    /// scene that gives radii no rate.
     void resize(double size) {
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }

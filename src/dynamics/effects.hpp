@@ -326,8 +326,12 @@ struct Effects {
     double flow_at(double y, const Box& box) const {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
+    /// The rate at which radii change between collisions, as a share of their first values.
+    double rate_of_radii() const { return growth; }
     /// The factor by which radii have grown at `time` since the scene's start.
     double size_at(double time) const { return 1 + growth * time; }
+    /// Makes the radii at that size the first ones.
+    void begin_at(double size) { growth /= size; }
     bool are_any() const {
         return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
                           features());

@@ -201,7 +201,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         while (slot >= levels[level].end_slot) ++level;
         return level;
     }
-    /// The radius before growth.
+    /// The radius at the scene's start.
     double first_radius_of(const DiscState& disc) const {
         if constexpr (has_sizes)
             return dynamics.species_table().of(disc.id).radius;

@@ -9,7 +9,7 @@ namespace carrom {
 namespace {
 
 /// Radii grow by at most this share of the first ones in a bin.
-constexpr double growth_in_bin = 0x1p-10;
+constexpr double most_in_bin = 0x1p-10;
 /// The first bin after a start is shorter than others by this factor. Each next one is twice as
 /// long as the one before, because before the first bin no frequency is known.
 constexpr double first_bin = 0x1p-10;
@@ -23,10 +23,10 @@ constexpr double sure = 2;
 
 } // namespace
 
-JamWatch::JamWatch(const Growth& growth)
-    : growth_(growth), width_(growth.interval),
-      enough_(enough_of_all + enough_per_disc * growth.n_discs) {
-    while (growth.rate * width_ > growth_in_bin) width_ /= 2;
+JamWatch::JamWatch(const Setting& setting)
+    : setting_(setting), width_(setting.interval),
+      enough_(enough_of_all + enough_per_disc * setting.n_discs) {
+    while (setting.rate * width_ > most_in_bin) width_ /= 2;
 }
 
 void JamWatch::start(double time, double sync) {
@@ -37,8 +37,8 @@ void JamWatch::start(double time, double sync) {
 
 /// Bins end at multiples of their width, which syncs are.
 void JamWatch::begin_bin(double begin, double width) {
-    if (begin >= growth_.interval) {
-        sync_ += growth_.interval;
+    if (begin >= setting_.interval) {
+        sync_ += setting_.interval;
         begin = 0;
     }
     begin_ = begin;
@@ -59,7 +59,7 @@ bool JamWatch::finish_bin() {
     if (n_collisions_ > enough_)
         if (const Past* const then = when_rarer(now.rate)) {
             const double room = now.time - then->time; // how long it lasts
-            if (growth_.end - now.time > sure * room) sign_ = Sign::no_room_left;
+            if (setting_.end - now.time > sure * room) sign_ = Sign::no_room_left;
         }
     if (width == width_) remember(now);
     begin_bin(end_, std::min(2 * width, width_));

@@ -22,8 +22,8 @@ namespace carrom {
 /// Times are in micro-steps.
 class JamWatch {
 public:
-    /// The growth of discs.
-    struct Growth {
+    /// What the run does.
+    struct Setting {
         double rate = 0;     ///< rate of radii, as a share of the initial ones per micro-step
         double interval = 1; ///< time between syncs
         double end = 0;      ///< end of the run, from its start
@@ -31,10 +31,10 @@ public:
     };
     enum class Sign { none, no_room_left, ever_more_frequent };
 
-    /// Without growth nothing is watched.
-    explicit JamWatch(const Growth& growth);
+    /// Without a rate nothing is watched.
+    explicit JamWatch(const Setting& setting);
 
-    bool is_on() const { return growth_.rate > 0; }
+    bool is_on() const { return setting_.rate > 0; }
     /// A run starts or continues at `time` after a sync, which is `sync` after the run's start.
     void start(double time, double sync);
     /// The end of the present bin, since the last sync. Windows must end there.
@@ -57,7 +57,7 @@ private:
     void remember(const Past& bin);
     const Past* when_rarer(double rate) const;
 
-    Growth growth_;
+    Setting setting_;
     double width_ = 1; ///< width of the bins, except the first ones after a start
     double sync_ = 0;  ///< time of the last sync, since the run's start
     double begin_ = 0, end_ = std::numeric_limits<double>::infinity();

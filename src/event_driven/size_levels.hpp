@@ -16,7 +16,7 @@
 namespace carrom {
 
 struct SizeLevel {
-    double smallest_radius = 0, largest_radius = 0; ///< radii before growth
+    double smallest_radius = 0, largest_radius = 0; ///< radii at the scene's start
     double n_discs = 0;
     double sum_of_radii = 0;
 };

@@ -79,12 +79,12 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
 /// jam, because that depends on windows and threads. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
     const double safe = jam_watch_.safe_until();
-    const double growth = dynamics_.size_at(safe - static_cast<double>(this->last_sync()));
+    const double size = dynamics_.size_at(safe - static_cast<double>(this->last_sync()));
     throw Jammed(fmt::format("discs jam after step {:.6g}, at a packing fraction of {:.5g} (radii "
                              "{:.6g} times the first): they collide ever more often, because they "
                              "have no room to grow further",
                              safe / static_cast<double>(this->micro_steps_),
-                             first_packing_ * growth * growth, growth),
+                             first_packing_ * size * size, size),
                  static_cast<std::int64_t>(safe));
 }
 

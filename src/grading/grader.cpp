@@ -14,9 +14,9 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A correct program may have roundings larger by this factor than the runs by which their growth
-/// is measured.
-constexpr double growth_margin = 1000;
+/// A correct program may have roundings larger by this factor than the runs that show how they
+/// grow.
+constexpr double spread_margin = 1000;
 /// The same factor for a single step from known numbers.
 constexpr double step_margin = 20;
 /// The first ones vary the last digits of the output's numbers, the others vary the last bits
@@ -48,15 +48,15 @@ Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& str
     if (scene.steps > 0) points_.are_counters_right = false; // until counters have been compared
 }
 
-void Grader::record_growth(std::int64_t step, const ExpectedDiscs& expected) {
+void Grader::record_spread(std::int64_t step, const ExpectedDiscs& expected) {
     if (has_left_runs_) return;
     const double largest = *std::max_element(expected.spread.begin(), expected.spread.end());
-    has_left_runs_ = growth_margin * largest > deciding * setting_.radius;
+    has_left_runs_ = spread_margin * largest > deciding * setting_.radius;
     first_left_ = step;
 }
 
 bool Grader::grade(std::int64_t step, const ExpectedDiscs& expected) {
-    record_growth(step, expected);
+    record_spread(step, expected);
     if (step == 0) before_ = SharedState{setting_, expected.discs, 0};
     const bool goes_on = steps_.is_next(step) ? grade_lines(step, expected) : record_missing(step);
     if (goes_on) return step < scene_.steps || record_more(step);
@@ -201,7 +201,7 @@ double Grader::tolerance_of(const StudentLine& line) const {
 Grader::Aim Grader::aim_at(const ExpectedDiscs& expected) const {
     Aim aim{expected.discs, expected.clock, {}, {}};
     for (const StudentLine& line : lines())
-        aim.allowed.push_back(tolerance_of(line) + growth_margin * expected.spread[line.id]);
+        aim.allowed.push_back(tolerance_of(line) + spread_margin * expected.spread[line.id]);
     return aim;
 }
 

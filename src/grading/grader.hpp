@@ -2,7 +2,7 @@
 // Compares a student's lines with the rule, step by step, on one rank.
 //
 // At first lines are compared with the program's own run. Each disc may differ by the tolerance and
-// by the growth of roundings. Once roundings have grown to the size of discs, two correct programs
+// by what roundings have grown to. Once these have grown to the size of discs, two correct programs
 // differ. Then each step is compared with the rule applied to the student's own step before. A step
 // that is missing or cannot be read is counted, and later steps are still graded. Takes the memory
 // of N lines, and later a step of the plain rule for each step.
@@ -56,7 +56,7 @@ private:
         std::vector<std::vector<DiscState>> others; ///< results of the runs with other roundings
     };
 
-    void record_growth(std::int64_t step, const ExpectedDiscs& expected);
+    void record_spread(std::int64_t step, const ExpectedDiscs& expected);
     bool record_problem(const std::string& problem);
     bool record_missing(std::int64_t step);
     bool record_more(std::int64_t step);

@@ -65,7 +65,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     around.steps = 1;
     const double grown = size_before(scene, failure);
     around.radius *= grown;
-    around.effects.growth /= grown;
+    around.effects.begin_at(grown);
     around.text_output = TextOutput::none;
     around.checkpoint.reset();
     around.trajectory.reset();

@@ -164,11 +164,11 @@ Key count_key() {
     return count;
 }
 
-Key growth_rate_key() {
-    return key("discs.growth_rate", "1",
+Key compression_rate_key() {
+    return key("discs.compression_rate", "1",
                "How fast the largest diameter grows, over the root mean square speed. Slow growth "
                "jams later.",
-               [](auto& s) -> auto& { return s.growth_rate; })
+               [](auto& s) -> auto& { return s.compression_rate; })
         .within({1e-6, 0.2})
         .needs(compressed);
 }
@@ -234,7 +234,7 @@ std::vector<Key> keys_of_speeds() {
 
 std::vector<Key> keys_of_generation() {
     return {
-        growth_rate_key(),
+        compression_rate_key(),
         region_key(),
         key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
             [](auto& s) -> auto& { return s.seed; })

@@ -214,9 +214,9 @@ struct SceneParameters {
     /// Velocities of listed discs are drawn, because the scene gives `discs.speed` or
     /// `discs.temperature` for the list
     bool draws_velocities = false;
-    /// For Generator::compressed: growth rate of the largest diameter relative to the root mean
-    /// square speed
-    double growth_rate = 0.01;
+    /// For Generator::compressed: rate of the largest diameter relative to the root mean square
+    /// speed
+    double compression_rate = 0.01;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::optional<StartRegion> region; ///< for discs without a region of their own
@@ -274,8 +274,8 @@ struct SceneParameters {
     double packing() const;
     /// The packing at the end of the last step, for growing discs.
     double last_packing() const {
-        const double growth = effects.size_at(static_cast<double>(steps));
-        return packing() * (growth * growth);
+        const double size = effects.size_at(static_cast<double>(steps));
+        return packing() * (size * size);
     }
     /// Whether the discs are lines of text, in `discs_file` or after a legacy header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }

@@ -80,7 +80,7 @@ private:
     /// far they fly in the step. Returns the growth that is left before discs jam: the nearer they
     /// are to it, the faster they heat up. If gaps shrink from a to b, speeds grow by a / b.
     double run_stretch() {
-        const double speed = 2 * scene_.radius * size_ * growth_ / scene_.growth_rate;
+        const double speed = 2 * scene_.radius * size_ * growth_ / scene_.compression_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;
         DiscSystem system(stretch(), std::move(discs_), communicator_, tuning_);
         try {

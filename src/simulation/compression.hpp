@@ -3,8 +3,8 @@
 //
 // A random gas of small discs runs under the event-driven method while radii grow, in stretches.
 // After each stretch speeds are scaled back. The heating in a stretch shows how much room is left,
-// which determines the growth in the next stretch. All sums are exact, so the discs have the same
-// bits on any ranks and threads.
+// which determines how far radii grow in the next stretch. All sums are exact, so the discs have
+// the same bits on any ranks and threads.
 #pragma once
 
 #include <vector>

@@ -29,7 +29,7 @@ SceneParameters scene_of_group(const SceneParameters& scene, const DiscGroup& gr
     alone.n_discs = group.count;
     alone.radius = radius;
     alone.generator = group.generator;
-    alone.growth_rate = scene.growth_rate;
+    alone.compression_rate = scene.compression_rate;
     alone.seed = scene.seed + number;
     for (std::size_t side = 0; side < boundary_names.size(); ++side) {
         const bool is_whole = side < 2 ? alone.box.x == scene.box.x : alone.box.y == scene.box.y;

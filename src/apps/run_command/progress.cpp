@@ -14,7 +14,7 @@ namespace {
 constexpr double terminal_interval = 0.2; // in seconds; looks continuous, and costs the run nothing
 constexpr double first_log_interval = 5;
 constexpr double longest_log_interval = 1800;
-constexpr double log_growth = 1.5;
+constexpr double log_factor = 1.5;
 
 } // namespace
 
@@ -30,7 +30,7 @@ void StatusLine::show(const std::string& text) {
         line_is_open_ = true;
     } else {
         print_message("{}\n", text);
-        interval_ = std::min(interval_ * log_growth,
+        interval_ = std::min(interval_ * log_factor,
                              std::chrono::duration<double>(longest_log_interval));
     }
     due_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(interval_);

@@ -156,7 +156,7 @@ std::vector<Rule> rules_of_barostat() {
              "radii stay there; take time.method = \"event-driven\"", keys,
              [](const SceneParameters& s) { return has_barostat(s) && is_time_stepped(s); }),
         rule(constant, "growing discs", "both change the radii; take one of them", keys,
-             [](const SceneParameters& s) { return has_barostat(s) && has_growth(s); }),
+             [](const SceneParameters& s) { return has_barostat(s) && has_growing_discs(s); }),
         rule(constant, "discs that lose energy, are rough, active, or pass through each other",
              "volumes are weighted for elastic discs in equilibrium", keys,
              [](const SceneParameters& s) {

@@ -26,25 +26,25 @@ std::vector<Rule> rules_of_growth() {
     return {
         rule("growing discs", "time.method = \"time-stepped\"",
              "radii stay there; take time.method = \"event-driven\"", {"effects.growth.rate"},
-             [](const SceneParameters& s) { return has_growth(s) && is_time_stepped(s); }),
+             [](const SceneParameters& s) { return has_growing_discs(s) && is_time_stepped(s); }),
         rule("growing discs", "rough discs, or effects.contact.kind = \"none\"",
              "growing discs need smooth discs that collide, because surfaces push each other apart",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growth(s) &&
+                 return has_growing_discs(s) &&
                         (is_rough(s) || s.effects.contact.kind == ContactKind::none);
              }),
         rule("growing discs", "a force in flight, drag or obstacles",
              "growing discs need straight flights in an empty box, on which contacts are found",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growth(s) && (!s.effects.are_flights_free() || has_obstacles(s));
+                 return has_growing_discs(s) && (!s.effects.are_flights_free() || has_obstacles(s));
              }),
         rule("growing discs", "sides that are no smooth walls at rest, and not periodic",
              "growing discs need sides that stay where they are, do not rub and let nothing out",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growth(s) && !do_sides_take_growing_discs(s.effects);
+                 return has_growing_discs(s) && !do_sides_take_growing_discs(s.effects);
              }),
     };
 }

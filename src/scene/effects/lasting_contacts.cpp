@@ -153,7 +153,7 @@ std::vector<Rule> rules_of_lasting_contacts() {
         rule(lasting, "growing discs, walls that move, or sheared or thermal sides",
              "contacts that last need discs and sides that can lie still", keys,
              [](const SceneParameters& s) {
-                 return has_lasting(s) && (has_growth(s) || s.effects.are_sheared() ||
+                 return has_lasting(s) && (has_growing_discs(s) || s.effects.are_sheared() ||
                                            !are_walls_at_rest(s.effects) ||
                                            has_boundary(s.effects, BoundaryKind::thermal));
              }),

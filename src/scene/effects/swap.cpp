@@ -313,7 +313,7 @@ std::vector<Rule> rules_of_swap() {
         rule("swaps", "rough discs", "their energy of rotation depends on the radius", keys,
              [](const SceneParameters& s) { return swaps(s) && is_rough(s); }),
         rule("swaps", "growing discs", "there is no equilibrium to reach", keys,
-             [](const SceneParameters& s) { return swaps(s) && has_growth(s); }),
+             [](const SceneParameters& s) { return swaps(s) && has_growing_discs(s); }),
         rule("swaps", "contacts that last", "they belong to discs of their radii", keys,
              [](const SceneParameters& s) { return swaps(s) && s.effects.lasting_speed > 0; }),
     };

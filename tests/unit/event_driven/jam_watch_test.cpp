@@ -19,7 +19,7 @@ struct Ending {
 /// Goes to the end or to a jam. `before(t)` is how many collisions come before the time t. The
 /// windows cut each bin into `n_windows`.
 template <class Before>
-Ending watch(const JamWatch::Growth& growth, double start, int n_windows, const Before& before) {
+Ending watch(const JamWatch::Setting& growth, double start, int n_windows, const Before& before) {
     JamWatch watched(growth);
     double sync = std::floor(start / growth.interval) * growth.interval, time = start - sync;
     watched.start(time, sync);
@@ -46,7 +46,7 @@ auto jam_at(double jam, double a) {
 } // namespace
 
 TEST_CASE("a jam before the end is found, near it, whatever the windows are") {
-    const JamWatch::Growth growth{0.001, 64, 735, 200};
+    const JamWatch::Setting growth{0.001, 64, 735, 200};
     for (const double a : {1e5, 8e6, 1e8})
         for (const int n_windows : {1, 7}) {
             const Ending found = watch(growth, 0, n_windows, jam_at(708.6, a)),
@@ -60,7 +60,7 @@ TEST_CASE("a jam before the end is found, near it, whatever the windows are") {
 }
 
 TEST_CASE("runs that end before the jam, and gases in which collisions are frequent, go on") {
-    const JamWatch::Growth growth{0.001, 64, 700, 200};
+    const JamWatch::Setting growth{0.001, 64, 700, 200};
     CHECK(watch(growth, 0, 1, jam_at(708.6, 1e8)).sign == JamWatch::Sign::none);
     CHECK(watch(growth, 0, 1, [](double t) { return 1e8 * t; }).sign == JamWatch::Sign::none);
     // A fluid that would jam at 400 freezes at 300. Collisions become rarer, and it has room.
@@ -71,7 +71,7 @@ TEST_CASE("runs that end before the jam, and gases in which collisions are frequ
 }
 
 TEST_CASE("a run that begins a moment before the jam finds it as well") {
-    const JamWatch::Growth growth{0.001, 64, 735, 200};
+    const JamWatch::Setting growth{0.001, 64, 735, 200};
     for (const double start : {704.0, 708.0, 708.5}) {
         const Ending found = watch(growth, start, 1, jam_at(708.6, 8e6));
         CHECK(found.sign != JamWatch::Sign::none);
@@ -80,7 +80,7 @@ TEST_CASE("a run that begins a moment before the jam finds it as well") {
 }
 
 TEST_CASE("with losses collisions go as 1 / (t_J - t), and the jam is found") {
-    const JamWatch::Growth growth{0.01, 16, 100, 20};
+    const JamWatch::Setting growth{0.01, 16, 100, 20};
     const auto lossy = [](double t) { return t < 60 ? -1e5 * std::log((60 - t) / 60) : 1e300; };
     const Ending found = watch(growth, 0, 1, lossy);
     CHECK(found.sign != JamWatch::Sign::none);

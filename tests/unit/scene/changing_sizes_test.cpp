@@ -118,7 +118,7 @@ TEST_CASE("a compressed start has a rate of growth, and knows no obstacles") {
     const SceneParameters scene = read_scene(
         good, "s.toml", {"discs.generator=compressed", "discs.growth_rate=0.1"});
     CHECK(scene.generator == Generator::compressed);
-    CHECK(scene.growth_rate == 0.1);
+    CHECK(scene.compression_rate == 0.1);
     CHECK(has(problems_with({"discs.growth_rate=0.1"}),
               "no meaning without discs.generator = \"compressed\""));
     CHECK(has(problems_with({"discs.generator=compressed", "discs.growth_rate=2"}), "from"));
