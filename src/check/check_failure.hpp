@@ -19,7 +19,7 @@ enum class Invariant : int {
     in_box,     ///< the disc's centre is at least a radius away from every wall, within rounding
     in_domain,  ///< the disc is in the domain of the rank that owns it
     in_cell,    ///< the disc is in the cell into which it was sorted
-    clear,      ///< the disc does not overlap an obstacle
+    clear,      ///< the disc does not overlap a fixed body
     /// The disc's counters have grown by the number of its collisions; a collision of a pair counts
     /// for both discs
     counters,

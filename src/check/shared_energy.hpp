@@ -17,7 +17,7 @@ struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    /// Reflections from obstacles at any angle, which round like collisions of pairs
+    /// Reflections from fixed bodies at any angle, which round like collisions of pairs
     double n_reflections = 0;
 };
 

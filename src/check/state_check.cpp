@@ -51,7 +51,8 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
                        std::span<const DiscState> own, std::int64_t micro_steps_done,
                        const Communicator& communicator, const Frame& frame, double time,
                        std::span<const double> spins, double energy_given)
-    : scene_(scene), effects_(per_micro_step(scene)), species_(species),
+    : scene_(scene), effects_(per_micro_step(scene)),
+      fixed_bodies_(scene.box, scene.radius, effects_), species_(species),
       communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
@@ -77,8 +78,7 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
     wall_pull_ = largest_wall_pull(effects_);
     for (const Boundary& side : effects_.boundaries)
         surfaces_rub_ = surfaces_rub_ || side.surface.rubs();
-    surfaces_rub_ = surfaces_rub_ || effects_.obstacles.surface.rubs();
-    if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box, scene.radius, effects_);
+    surfaces_rub_ = surfaces_rub_ || effects_.fixed_bodies.surface.rubs();
     known_.resize(slab_of_rank(communicator.rank(), scene.n_discs, communicator.size()).size());
     for (Known& known : known_) known.free_from = micro_steps_done;
     total_mass_ = effects_.species.empty() ? static_cast<double>(scene.n_discs) : 0;
@@ -120,7 +120,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
                                        micro_steps_done_ / scene_.sync_every * scene_.sync_every);
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
-    fail_if_found(first_in_obstacle(now), log);
+    fail_if_found(first_in_fixed_body(now), log);
     fail_if_found(first_wrong_count(), log);
     fail_if_found(find_velocity_change(), log);
     fail_if_found(first_overlap(now), log);
@@ -154,7 +154,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
             if (effects_.swap.is_on()) radii.push_back(species_.of(each.disc.id).radius);
         }
     const std::string body = first.invariant == Invariant::clear
-                                 ? obstacles_->name_of(static_cast<std::uint32_t>(first.partner))
+                                 ? fixed_bodies_.name_of(static_cast<std::uint32_t>(first.partner))
                                  : "";
     throw CheckFailure(text_of(first, scene_, body, step), first.invariant, step, first.disc,
                        first.rank, std::move(discs), std::move(spins), std::move(radii));
@@ -297,16 +297,16 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
     return first.value_or(Finding{});
 }
 
-/// In both methods a disc that would run into an obstacle within a micro-step stops
-/// there. `partner` is the obstacle.
-Finding StateCheck::first_in_obstacle(const LocalView& now) const {
-    if (!obstacles_) return {};
+/// In both methods a disc that would run into a fixed body within a micro-step stops
+/// there. `partner` is the fixed body.
+Finding StateCheck::first_in_fixed_body(const LocalView& now) const {
+    if (!fixed_bodies_.are_any()) return {};
     const double bound = 2 * tolerance_ + blur(64);
     for (const DiscState& disc : now.population.discs.first(now.population.n_own)) {
         const DiscState seen = now.frame.in_box(disc, now.time);
-        const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y,
-                                                         species_.of(disc.id).radius, bound);
-        if (overlap.body != ObstacleContact::no_body)
+        const auto overlap = fixed_bodies_.deepest_overlap(seen.x, seen.y,
+                                                           species_.of(disc.id).radius, bound);
+        if (overlap.body != BodyContact::no_body)
             return {Invariant::clear, communicator_.rank(), disc.id, overlap.depth, bound,
                     overlap.body};
     }

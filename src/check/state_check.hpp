@@ -23,7 +23,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,7 +31,7 @@
 #include "check/shared_energy.hpp"
 #include "check/surroundings.hpp"
 #include "core/disc_state.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "dynamics/sway.hpp"
 #include "engine/collision.hpp"
 #include "engine/engine.hpp"
@@ -90,7 +89,7 @@ private:
                          const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const LocalView& now) const;
-    Finding first_in_obstacle(const LocalView& now) const;
+    Finding first_in_fixed_body(const LocalView& now) const;
     Finding first_wrong_count() const;
     Finding find_velocity_change() const;
     static void keep_lowest(Finding& first, const Suspect& s);
@@ -143,7 +142,7 @@ private:
 
     const SceneParameters& scene_;
     Effects effects_; ///< times in micro-steps
-    std::optional<Obstacles> obstacles_;
+    FixedBodies fixed_bodies_;
     SpeciesTable species_;
     /// Motion by an acceleration that changes in time, since the last inspection
     std::array<Swayed, 2> swayed_{};
@@ -158,7 +157,7 @@ private:
     /// Energies, or the work on a disc's way, depend on these coordinates
     bool depends_on_x_ = false, depends_on_y_ = false;
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
-    bool surfaces_rub_ = false; ///< walls or obstacles rub, so spins change there
+    bool surfaces_rub_ = false; ///< walls or fixed bodies rub, so spins change there
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection
     double energy_given_ = 0, energy_given_before_ = 0;

@@ -149,7 +149,8 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
         energy.before += 2 * known.work;
         energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
     }
-    if (obstacles_ || surfaces_rub_) energy.n_reflections = static_cast<double>(known.walls);
+    if (fixed_bodies_.are_any() || surfaces_rub_)
+        energy.n_reflections = static_cast<double>(known.walls);
     if (FallingFrame(effects_).slows()) energy.allowance += energy_bound * energy.before;
     if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i) || were_rewritten())
         energy.allowance = std::numeric_limits<double>::infinity();

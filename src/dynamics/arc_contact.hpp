@@ -2,7 +2,7 @@
 // When a disc first touches an arc, a part of a circle without thickness. A disc of radius r meets
 // the outer face of an arc of radius R where its centre comes nearer than R + r to the arc's, and
 // the inner face where it gets farther than R - r, if the arc is in that direction. The ends of an
-// arc are points, which are bodies of their own (obstacles.hpp).
+// arc are points, which are bodies of their own (fixed_bodies.hpp).
 //
 // On a straight flight both are roots of one quadratic, without subtracting nearly equal numbers.
 // Where discs fall the distance is the root of a quartic, and is monotone in up to four pieces of

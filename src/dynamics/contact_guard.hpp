@@ -7,9 +7,9 @@
 // contact time before collides elastically. By default a contact is a length, not a time: the
 // collision is elastic if the two have closed in by less than a millionth of the sum of their radii
 // since the last collision of either. So the guard is the same in all units, and follows discs as
-// they cool. At walls and obstacles the share is a hundred times larger: they do not give way, so
-// whatever presses a disc to one or into the wedge between two brings it back without end. A scene
-// may name a time instead, which costs fewer collisions where discs lie at rest.
+// they cool. At walls and fixed bodies the share is a hundred times larger: they do not give way,
+// so whatever presses a disc to one or into the wedge between two brings it back without end. A
+// scene may name a time instead, which costs fewer collisions where discs lie at rest.
 //
 // Where discs are pulled to a wall, a contact at rest is a series of small bounces without loss.
 // What these spare is no error, so losses leave them out. Where contacts last, slow ones lose their

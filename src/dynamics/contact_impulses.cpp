@@ -55,8 +55,8 @@ struct ContactImpulses::Part {
 ContactImpulses::ContactImpulses(const Box& box, const Effects& effects,
                                  const SpeciesTable& species, double interval)
     : finder_(box, effects), effects_(effects), species_(species),
-      rows_(rows_of(effects.obstacles, box)),
-      rows_of_pieces_(rows_of_pieces(effects.obstacles, box)), interval_(interval),
+      rows_(rows_of(effects.fixed_bodies, box)),
+      rows_of_pieces_(rows_of_pieces(effects.fixed_bodies, box)), interval_(interval),
       pull_(std::hypot(effects.acceleration().x, effects.acceleration().y) * interval),
       fall_x_((0.5 * effects.acceleration().x) * interval),
       fall_y_((0.5 * effects.acceleration().y) * interval), rest_gap_(pull_ * interval / 8),
@@ -115,16 +115,16 @@ LastingForces ContactImpulses::forces_of(std::span<const Contact> contacts,
             wall.energy += pair.ix * pair.p_vx + pair.iy * pair.p_vy;
         } else {
             const auto piece = static_cast<std::size_t>(contact.body) - WallImpulse::n_sides;
-            add_obstacle(forces.walls[WallImpulse::n_sides + rows_of_pieces_[piece]], contact, a,
-                         pair);
+            add_fixed_body(forces.walls[WallImpulse::n_sides + rows_of_pieces_[piece]], contact, a,
+                           pair);
         }
     }
     return forces;
 }
 
-void ContactImpulses::add_obstacle(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
-                                   const PairImpulse& given) const {
-    const ObstacleRow& row = rows_[wall.side - WallImpulse::n_sides];
+void ContactImpulses::add_fixed_body(WallImpulse& wall, const Contact& contact,
+                                     const HeapDisc& disc, const PairImpulse& given) const {
+    const BodyRow& row = rows_[wall.side - WallImpulse::n_sides];
     const double radius = species_.of(disc.id).radius, x = disc.x + radius * contact.nx - row.x,
                  y = disc.y + radius * contact.ny - row.y;
     wall.normal += contact.normal;

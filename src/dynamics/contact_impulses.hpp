@@ -37,7 +37,7 @@ namespace carrom {
 bool may_flow_on(const Effects& effects);
 
 /// The impulse of a contact, from which the solution at the next sync begins. `b` is a disc's id,
-/// or negative for walls and obstacles.
+/// or negative for walls and fixed bodies.
 struct KeptImpulse {
     DiscId a = 0;
     std::int64_t b = 0;
@@ -48,7 +48,7 @@ struct KeptImpulse {
 
 struct LastingForces {
     std::vector<PairImpulse> pairs;
-    std::vector<WallImpulse> walls; ///< of the four sides, then of the rows of obstacles
+    std::vector<WallImpulse> walls; ///< of the four sides, then of the rows of fixed bodies
     int n_sweeps = 0;               ///< largest number of sweeps that a connected component needed
 };
 
@@ -75,8 +75,8 @@ private:
     /// Forces of contacts that have an impulse; `discs` hold the velocities before them.
     LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
                             std::span<const Body> bodies) const;
-    void add_obstacle(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
-                      const PairImpulse& given) const;
+    void add_fixed_body(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
+                        const PairImpulse& given) const;
     static std::vector<KeptImpulse> kept_of(std::span<const Contact> contacts,
                                             std::span<const HeapDisc> discs);
     void set_velocities(std::span<const Contact> contacts, std::span<const Body> bodies,
@@ -93,8 +93,8 @@ private:
     LastingContactFinder finder_;
     Effects effects_;
     SpeciesTable species_;
-    std::vector<ObstacleRow> rows_;             ///< of obstacles
-    std::vector<std::uint32_t> rows_of_pieces_; ///< the scene's rows of obstacles
+    std::vector<BodyRow> rows_;                 ///< of fixed bodies
+    std::vector<std::uint32_t> rows_of_pieces_; ///< the scene's rows of fixed bodies
     double interval_, pull_;
     double fall_x_, fall_y_; ///< speed gained in half a sync interval, g T / 2
     double rest_gap_;

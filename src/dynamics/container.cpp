@@ -73,42 +73,42 @@ std::vector<Segment> edges_of(const Polygon& corners) {
     return edges;
 }
 
-std::vector<Segment> all_segments(const ObstacleList& obstacles, const Box& box) {
-    std::vector<Segment> all = obstacles.segments;
-    for (const Polygon& polygon : obstacles.polygons)
+std::vector<Segment> all_segments(const FixedBodyList& fixed_bodies, const Box& box) {
+    std::vector<Segment> all = fixed_bodies.segments;
+    for (const Polygon& polygon : fixed_bodies.polygons)
         for (const Segment& edge : edges_of(polygon)) all.push_back(edge);
-    for (const Segment& segment : Container(obstacles.shape, box).segments())
+    for (const Segment& segment : Container(fixed_bodies.shape, box).segments())
         all.push_back(segment);
     return all;
 }
 
-std::vector<Arc> all_arcs(const ObstacleList& obstacles, const Box& box) {
-    std::vector<Arc> all = obstacles.arcs;
-    for (const Arc& arc : Container(obstacles.shape, box).arcs()) all.push_back(arc);
+std::vector<Arc> all_arcs(const FixedBodyList& fixed_bodies, const Box& box) {
+    std::vector<Arc> all = fixed_bodies.arcs;
+    for (const Arc& arc : Container(fixed_bodies.shape, box).arcs()) all.push_back(arc);
     return all;
 }
 
-double area_of(const ObstacleList& obstacles, const Box& box) {
-    return Container(obstacles.shape, box).area();
+double area_of(const FixedBodyList& fixed_bodies, const Box& box) {
+    return Container(fixed_bodies.shape, box).area();
 }
 
-std::string ObstacleRow::name() const {
+std::string BodyRow::name() const {
     return number > 0 ? fmt::format("{} {}", kind, number) : std::string(kind);
 }
 
-std::vector<ObstacleRow> rows_of(const ObstacleList& obstacles, const Box& box) {
-    std::vector<ObstacleRow> rows;
+std::vector<BodyRow> rows_of(const FixedBodyList& fixed_bodies, const Box& box) {
+    std::vector<BodyRow> rows;
     std::uint32_t number = 0;
-    for (const FixedDisc& disc : obstacles.discs)
+    for (const FixedDisc& disc : fixed_bodies.discs)
         rows.push_back(
             {"fixed disc", ++number, disc.x, disc.y, 2 * std::numbers::pi * disc.radius});
     number = 0;
-    for (const Segment& one : obstacles.segments)
+    for (const Segment& one : fixed_bodies.segments)
         rows.push_back(
             {"segment", ++number, (one.x0 + one.x1) / 2, (one.y0 + one.y1) / 2, length_of(one)});
     number = 0;
-    for (const Polygon& polygon : obstacles.polygons) {
-        ObstacleRow row{"polygon", ++number};
+    for (const Polygon& polygon : fixed_bodies.polygons) {
+        BodyRow row{"polygon", ++number};
         for (const Segment& edge : edges_of(polygon)) {
             row.x += 2 * edge.x0 / static_cast<double>(polygon.size());
             row.y += 2 * edge.y0 / static_cast<double>(polygon.size());
@@ -117,28 +117,28 @@ std::vector<ObstacleRow> rows_of(const ObstacleList& obstacles, const Box& box) 
         rows.push_back(row);
     }
     number = 0;
-    for (const Arc& arc : obstacles.arcs)
+    for (const Arc& arc : fixed_bodies.arcs)
         rows.push_back({"arc", ++number, arc.x, arc.y, length_of(arc)});
-    if (!obstacles.has_shape()) return rows;
-    const Container container(obstacles.shape, box);
-    ObstacleRow wall{container.name(), 0, box.x / 2, box.y / 2};
+    if (!fixed_bodies.has_shape()) return rows;
+    const Container container(fixed_bodies.shape, box);
+    BodyRow wall{container.name(), 0, box.x / 2, box.y / 2};
     for (const Segment& one : container.segments()) wall.length += length_of(one);
     for (const Arc& arc : container.arcs()) wall.length += length_of(arc);
     rows.push_back(wall);
     return rows;
 }
 
-std::vector<std::uint32_t> rows_of_pieces(const ObstacleList& obstacles, const Box& box) {
+std::vector<std::uint32_t> rows_of_pieces(const FixedBodyList& fixed_bodies, const Box& box) {
     std::vector<std::uint32_t> rows;
     std::uint32_t row = 0;
-    for (std::size_t k = 0; k < obstacles.discs.size() + obstacles.segments.size(); ++k)
+    for (std::size_t k = 0; k < fixed_bodies.discs.size() + fixed_bodies.segments.size(); ++k)
         rows.push_back(row++);
-    for (const Polygon& polygon : obstacles.polygons) {
+    for (const Polygon& polygon : fixed_bodies.polygons) {
         rows.insert(rows.end(), polygon.size() / 2, row);
         ++row;
     }
-    const auto n_arcs = static_cast<std::uint32_t>(obstacles.arcs.size()), wall = row + n_arcs;
-    const Container container(obstacles.shape, box);
+    const auto n_arcs = static_cast<std::uint32_t>(fixed_bodies.arcs.size()), wall = row + n_arcs;
+    const Container container(fixed_bodies.shape, box);
     rows.insert(rows.end(), container.segments().size(), wall);
     for (std::uint32_t k = 0; k < n_arcs; ++k) rows.push_back(row++);
     rows.insert(rows.end(), container.arcs().size(), wall);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes that are not rectangles. Discs move inside a closed line of arcs and segments, which are
-// obstacles like those that a scene lists. The rectangle around it still defines strips, cells and
-// outputs.
+// fixed bodies like those that a scene lists. The rectangle around it still defines strips, cells
+// and outputs.
 //
 //   round      the largest circle in a square
 //   stadium    two halves of a circle, joined by segments along the longer side
@@ -45,14 +45,14 @@ private:
 
 std::vector<Segment> edges_of(const Polygon& polygon);
 /// The scene's segments, then the edges of its polygons, then those of the box's shape.
-std::vector<Segment> all_segments(const ObstacleList& obstacles, const Box& box);
+std::vector<Segment> all_segments(const FixedBodyList& fixed_bodies, const Box& box);
 /// The scene's arcs, then those of the box's shape.
-std::vector<Arc> all_arcs(const ObstacleList& obstacles, const Box& box);
-/// The area of the region in which discs move; obstacles inside it are not subtracted.
-double area_of(const ObstacleList& obstacles, const Box& box);
+std::vector<Arc> all_arcs(const FixedBodyList& fixed_bodies, const Box& box);
+/// The area of the region in which discs move; fixed bodies inside it are not subtracted.
+double area_of(const FixedBodyList& fixed_bodies, const Box& box);
 
-/// A row of the scene's lists of obstacles, or the wall of the box's shape.
-struct ObstacleRow {
+/// A row of the scene's lists of fixed bodies, or the wall of the box's shape.
+struct BodyRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
     std::uint32_t number = 0; ///< from 1 on in its list; 0 for the box's wall
     double x = 0, y = 0;      ///< position: its centre, or the mean of its corners if it has none
@@ -60,11 +60,11 @@ struct ObstacleRow {
 
     std::string name() const; ///< name for messages, such as "fixed disc 3" or "the round wall"
 };
-/// Rows of all obstacles: discs first, then segments, polygons, arcs and the wall.
-std::vector<ObstacleRow> rows_of(const ObstacleList& obstacles, const Box& box);
+/// Rows of all fixed bodies: discs first, then segments, polygons, arcs and the wall.
+std::vector<BodyRow> rows_of(const FixedBodyList& fixed_bodies, const Box& box);
 /// For each disc, each of `all_segments` and each of `all_arcs`, one after the other: its row in
 /// `rows_of`.
-std::vector<std::uint32_t> rows_of_pieces(const ObstacleList& obstacles, const Box& box);
+std::vector<std::uint32_t> rows_of_pieces(const FixedBodyList& fixed_bodies, const Box& box);
 
 /// The point of an arc at an angle in degrees. Its bits are the same on every machine.
 struct PointOfArc {

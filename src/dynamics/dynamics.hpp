@@ -5,7 +5,8 @@
 //        bodies (bodies.hpp)       radius, mass, speed of the surface
 //        law (law.hpp)             what a meeting does to velocities and spins
 //      + arithmetic                precision and formula of contacts (arithmetic.hpp)
-//        sides, obstacles, flight  what else discs meet, and in which frame (surroundings.hpp)
+//        sides, fixed bodies,
+//        flight                    what else discs meet, and in which frame (surroundings.hpp)
 //
 // Each is a value with a small concept in its own header. The text that uses the first four stands
 // in motion.hpp, and the text about all else that discs meet stands here. Kernels take a dynamics
@@ -27,9 +28,9 @@
 #include "core/axis.hpp"
 #include "core/flight_integral.hpp"
 #include "core/frame.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "dynamics/motion.hpp"
 #include "dynamics/never.hpp"
-#include "dynamics/obstacles.hpp"
 #include "dynamics/surroundings.hpp"
 
 namespace carrom {
@@ -46,7 +47,7 @@ public:
     using typename Base::Arithmetic, typename Base::Real;
 
     static constexpr bool has_mirror_walls = !have_effects, // walls only reverse a velocity
-        may_have_obstacles = have_effects && !OfBodies::grow;
+        may_have_fixed_bodies = have_effects && !OfBodies::grow;
     /// If discs collide thousands of times within this many micro-steps, the run ends as a
     /// collision cascade.
     static constexpr double cascade_interval = std::max(OfBodies::cascade_interval,
@@ -79,9 +80,9 @@ public:
 
     // Questions about the scene.
 
-    /// Whether discs can meet walls or obstacles.
-    bool has_walls() const { return space_.has_sides() || has_obstacles(); }
-    bool has_obstacles() const { return may_have_obstacles && obstacles_ != nullptr; }
+    /// Whether discs can meet walls or fixed bodies.
+    bool has_walls() const { return space_.has_sides() || has_fixed_bodies(); }
+    bool has_fixed_bodies() const { return may_have_fixed_bodies && fixed_bodies_ != nullptr; }
     bool has_open_sides() const { return may_lose_discs && sides_.are_any_open(); }
     const SpeciesTable& species_table() const { return species_; }
 
@@ -137,38 +138,37 @@ public:
 
     const typename Surroundings::Sides& sides() const { return sides_; }
 
-    // Obstacles.
+    // Fixed bodies.
 
-    /// The first obstacle that the disc meets.
-    ObstacleContact first_obstacle(const DiscState& disc, const ContactTimes& times) const {
+    /// The first fixed body that the disc meets.
+    BodyContact first_fixed_body(const DiscState& disc, const ContactTimes& times) const {
         return disc.has_departed()
-                   ? ObstacleContact{}
-                   : obstacles_->first_contact(disc, bodies_.of(disc).radius, times);
+                   ? BodyContact{}
+                   : fixed_bodies_->first_contact(disc, bodies_.of(disc).radius, times);
     }
-    /// Whether no obstacle is in the way of a disc that flies from one state of this interval's
+    /// Whether no fixed body is in the way of a disc that flies from one state of this interval's
     /// start to the other one in this time.
     bool is_way_free(const DiscState& from, const DiscState& to, double time) const {
-        if (!has_obstacles()) return true;
+        if (!has_fixed_bodies()) return true;
         const double radius = bodies_.of(to).radius;
         const auto is_clear = [&](const DiscState& disc) {
-            return obstacles_->deepest_overlap(disc.x, disc.y, radius, 0).body ==
-                   ObstacleContact::no_body;
+            return !fixed_bodies_->do_overlap(disc.x, disc.y, radius);
         };
         return is_clear(from) && is_clear(to) &&
-               !obstacles_->first_contact(from, radius, {0, time}).exists();
+               !fixed_bodies_->first_contact(from, radius, {0, time}).exists();
     }
-    /// Where a disc touches the obstacle that it meets at `time`.
-    ObstacleTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
+    /// Where a disc touches the fixed body that it meets at `time`.
+    BodyTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
         DiscState there = disc;
         advance(there, time);
-        return obstacles_->touch(there, body, time, bodies_.at(there, time).radius);
+        return fixed_bodies_->touch(there, body, time, bodies_.at(there, time).radius);
     }
-    /// Reflects the disc from the obstacle that it comes to at `time`.
+    /// Reflects the disc from the fixed body that it comes to at `time`.
     Loss bounce_off(DiscState& disc, std::uint32_t body, double time, double since,
                     double* spin = nullptr) const {
         const Body its = bodies_.at(disc, time);
         advance(disc, time);
-        Loss loss = obstacles_->rebound(disc, body, time, since, {spin, its.radius});
+        Loss loss = fixed_bodies_->rebound(disc, body, time, since, {spin, its.radius});
         loss.taken *= its.mass;
         loss.spared *= its.mass;
         disc.wall_collisions += 1;
@@ -182,15 +182,15 @@ private:
         : Base(box, radius, effects, formula, species.view(), pairs.view()),
           species_(std::move(species)), pairs_(std::move(pairs)), sides_(box_, radius_, effects),
           flight_(effects) {
-        if (may_have_obstacles && effects.obstacles.are_any())
-            obstacles_ = std::make_shared<const Obstacles>(box_, radius_, effects);
+        if (may_have_fixed_bodies && effects.fixed_bodies.are_any())
+            fixed_bodies_ = std::make_shared<const FixedBodies>(box_, radius_, effects);
     }
 
     SpeciesTable species_; ///< owns the table that bodies read
     PairTable pairs_;      ///< owns the table that the law reads
     typename Surroundings::Sides sides_;
     typename Surroundings::Flight flight_;
-    std::shared_ptr<const Obstacles> obstacles_; ///< null if there are none; copies share it
+    std::shared_ptr<const FixedBodies> fixed_bodies_; ///< null if there are none; copies share it
 };
 
 } // namespace carrom

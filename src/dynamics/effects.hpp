@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The effects of a scene beyond free flight, elastic pairs and four elastic walls, as numbers.
-// law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and obstacles.hpp say what they
-// do.
+// law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and fixed_bodies.hpp say what
+// they do.
 #pragma once
 
 #include <algorithm>
@@ -83,11 +83,11 @@ enum class BoundaryKind { wall, thermal, moving, oscillating, open, periodic, sh
 inline constexpr auto boundary_words = std::to_array<std::string_view>(
     {"wall", "thermal", "moving", "oscillating", "open", "periodic", "sheared"});
 
-/// What a wall or an obstacle does along its surface (rubbing.hpp).
+/// What a wall or a fixed body does along its surface (rubbing.hpp).
 struct Surface {
     double tangential_restitution = -1; ///< as for rough discs; -1 is smooth
     double friction = std::numeric_limits<double>::infinity();
-    double velocity = 0; ///< of sides along +x or +y, of obstacles counterclockwise around
+    double velocity = 0; ///< of sides along +x or +y, of fixed bodies counterclockwise around
                          ///< themselves, of arcs around their centres; thermal sides have one, too
 
     /// Whether the surface can change spins or tangential velocities.
@@ -149,7 +149,7 @@ struct Acceleration {
     friend bool operator==(const Acceleration&, const Acceleration&) = default;
 };
 
-/// Fixed bodies in the box that reflect discs (obstacles.hpp).
+/// Fixed bodies in the box that reflect discs (fixed_bodies.hpp).
 struct FixedDisc {
     double x = 0, y = 0, radius = 0;
 
@@ -178,7 +178,7 @@ using Polygon = std::vector<double>;
 /// The shape of the region in which discs move (container.hpp).
 enum class BoxShape { rectangle, round, stadium };
 
-struct ObstacleList {
+struct FixedBodyList {
     std::vector<FixedDisc> discs;
     std::vector<Segment> segments;
     double restitution = 1;
@@ -194,7 +194,7 @@ struct ObstacleList {
                has_shape();
     }
     bool is_on() const { return are_any(); }
-    friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
+    friend bool operator==(const FixedBodyList&, const FixedBodyList&) = default;
 };
 
 /// What keeps discs moving, at syncs (scene/effects/thermostat.cpp). Rates are per step.
@@ -285,7 +285,7 @@ struct Effects {
     double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
     std::uint64_t inlet_seed = 3210;
-    ObstacleList obstacles{};
+    FixedBodyList fixed_bodies{};
     std::vector<Species>
         species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
@@ -302,7 +302,7 @@ struct Effects {
 
     /// All features; seeds belong to them.
     auto features() const {
-        return std::tie(contact, boundaries, gravity, drag, obstacles, species, growth, shear,
+        return std::tie(contact, boundaries, gravity, drag, fixed_bodies, species, growth, shear,
                         lasting_speed, thermostat, activity, swap, barostat, own, field);
     }
     /// The acceleration of discs in free flight by all fields together, without drag.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When a point on a parabola first comes within a distance of a point at rest.
-// Obstacles need this where discs fall.
+// Fixed bodies need this where discs fall.
 //
 // The squared distance is a quartic of the time. The roots of its second derivative divide time
 // into pieces on which the first derivative is monotone, and the roots of the first derivative

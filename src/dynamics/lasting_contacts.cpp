@@ -133,7 +133,7 @@ std::vector<LastingContact> LastingContactFinder::find(std::span<const HeapDisc>
     Search search(box_, effects_, discs, radii, widest_gap);
     add_pairs(search);
     add_walls(search);
-    add_obstacles(search);
+    add_fixed_bodies(search);
     return std::move(search.found);
 }
 
@@ -165,7 +165,7 @@ void LastingContactFinder::add_pairs(Search& search) const {
 /// Thermal and moving walls have no lasting contacts. In a box of another shape discs do not reach
 /// the sides.
 void LastingContactFinder::add_walls(Search& search) const {
-    if (effects_.obstacles.has_shape()) return;
+    if (effects_.fixed_bodies.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
         const Boundary& wall = effects_.boundaries[static_cast<std::size_t>(side)];
         if (wall.kind != BoundaryKind::wall) continue;
@@ -186,15 +186,15 @@ void LastingContactFinder::add_walls(Search& search) const {
     }
 }
 
-/// The surface of an obstacle moves counterclockwise around it.
-void LastingContactFinder::add_obstacles(Search& search) const {
-    const ObstacleList& obstacles = effects_.obstacles;
+/// The surface of a fixed body moves counterclockwise around it.
+void LastingContactFinder::add_fixed_bodies(Search& search) const {
+    const FixedBodyList& fixed_bodies = effects_.fixed_bodies;
     LastingContact contact;
-    contact.friction = friction_of(obstacles.surface);
-    contact.velocity = -obstacles.surface.velocity;
+    contact.friction = friction_of(fixed_bodies.surface);
+    contact.velocity = -fixed_bodies.surface.velocity;
     contact.body = 3;
     const double reach = search.largest_radius + search.widest_gap;
-    for (const FixedDisc& body : obstacles.discs) {
+    for (const FixedDisc& body : fixed_bodies.discs) {
         const double far = reach + body.radius;
         ++contact.body;
         search.in_rectangle(body.x - far, body.x + far, body.y - far, body.y + far,
@@ -204,12 +204,12 @@ void LastingContactFinder::add_obstacles(Search& search) const {
                                            body.y - search.discs[i].y, body.radius);
                             });
     }
-    const std::vector<Segment> lines = all_segments(obstacles, box_);
-    const std::size_t n_turning = Container(obstacles.shape, box_).segments().size();
+    const std::vector<Segment> lines = all_segments(fixed_bodies, box_);
+    const std::size_t n_turning = Container(fixed_bodies.shape, box_).segments().size();
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Segment& line = lines[k];
         // The wall of a box slides in the direction of its arcs.
-        contact.velocity = obstacles.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
+        contact.velocity = fixed_bodies.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,
                             std::min(line.y0, line.y1) - reach, std::max(line.y0, line.y1) + reach,
@@ -220,14 +220,14 @@ void LastingContactFinder::add_obstacles(Search& search) const {
                                 search.add(contact, x - disc.x, y - disc.y, 0);
                             });
     }
-    for (const Arc& arc : all_arcs(obstacles, box_)) add_arc(search, arc, contact);
+    for (const Arc& arc : all_arcs(fixed_bodies, box_)) add_arc(search, arc, contact);
 }
 
 /// If an arc turns counterclockwise, its inner face moves clockwise as seen from a disc inside.
 void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,
-                 velocity = effects_.obstacles.surface.velocity;
+                 velocity = effects_.fixed_bodies.surface.velocity;
     const ArcSpan span = span_of(arc);
     const PointOfArc from = point_of(arc, arc.from), to = point_of(arc, arc.to);
     search.in_rectangle(arc.x - far, arc.x + far, arc.y - far, arc.y + far, [&](std::uint32_t i) {

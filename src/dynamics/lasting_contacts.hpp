@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pairs, and the discs at walls and obstacles, that are so close at a sync that they may press
-// each other until the next one. They are found with cells as wide as the largest contact.
+// The pairs, and the discs at walls and fixed bodies, that are so close at a sync that they may
+// press each other until the next one. They are found with cells as wide as the largest contact.
 //
 // A contact that is left out costs time but causes no error, because its discs collide as others
 // do.
@@ -25,13 +25,13 @@ struct HeapDisc {
     friend bool operator==(const HeapDisc&, const HeapDisc&) = default;
 };
 
-/// A contact between disc `a` and disc `b`, which is `fixed_body` for walls and obstacles. The
+/// A contact between disc `a` and disc `b`, which is `fixed_body` also for walls. The
 /// normal (nx, ny) points from a to b, and the tangent is (-ny, nx).
 struct LastingContact {
     static constexpr std::uint32_t fixed_body = 0xffffffff;
 
     std::uint32_t a = 0, b = fixed_body; ///< indices in the list of discs
-    /// Number of the fixed body: the side of the box, or 4 plus the number of the obstacle, where
+    /// Number of the fixed body: the side of the box, or 4 plus the number of the body, where
     /// segments follow discs, and arcs follow segments
     std::int64_t body = -1;
     double nx = 0, ny = 0;
@@ -55,7 +55,7 @@ private:
 
     void add_pairs(Search& search) const;
     void add_walls(Search& search) const;
-    void add_obstacles(Search& search) const;
+    void add_fixed_bodies(Search& search) const;
     void add_arc(Search& search, const Arc& arc, LastingContact& contact) const;
 
     Box box_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a wall or an obstacle changes a disc's velocity along its surface and its spin: restitution
+// How a wall or a fixed body changes a disc's velocity along its surface and its spin: restitution
 // and Coulomb's friction of the touching surfaces, as between rough discs (law.hpp), with a body
 // that cannot move.
 //

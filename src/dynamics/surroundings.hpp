@@ -3,8 +3,8 @@
 // beside space, bodies and law in a dynamics (dynamics.hpp).
 //
 //   PlainSurroundings        four elastic walls at rest, in the box's own frame
-//   SurroundingsOfEffects    sides of any kind (boundaries.hpp), obstacles (obstacles.hpp), a frame
-//                            that falls (falling_frame.hpp)
+//   SurroundingsOfEffects    sides of any kind (boundaries.hpp), fixed bodies (fixed_bodies.hpp), a
+//                            frame that falls (falling_frame.hpp)
 //
 // These functions of sides are for the event-driven method. Walls within a micro-step of the
 // time-stepped method are in time_stepped/step_walls.hpp.

@@ -26,15 +26,15 @@
 
 namespace carrom {
 
-/// The impulse and energy that a side of the box, or an obstacle, gives to discs at a sync.
+/// The impulse and energy that a side of the box, or a fixed body, gives to discs at a sync.
 struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
-    std::size_t side = 0;              ///< numbers from `n_sides` on are rows of obstacles
+    std::size_t side = 0;              ///< numbers from `n_sides` on are rows of fixed bodies
     double normal = 0;                 ///< impulse away from the side
     double along = 0;                  ///< impulse along the side, in the direction of its axis
     double energy = 0;                 ///< change of the discs' kinetic energy
-    double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; for obstacles
+    double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; for fixed bodies
 };
 
 /// The impulse that one disc gives another one at a sync.
@@ -124,7 +124,7 @@ struct Arrival {
 /// What has become of arrivals.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
-    std::uint64_t without_place = 0; ///< because another disc or an obstacle is there
+    std::uint64_t without_place = 0; ///< because another disc or a fixed body is there
     std::uint64_t without_disc = 0;  ///< because no disc had departed
 };
 

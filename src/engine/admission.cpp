@@ -93,9 +93,9 @@ void place(Candidate& candidate, const Arrival& arrival, double mass, const Box&
     candidate.is_blocked_there = depth > length - radius;
 }
 
-/// Where obstacles are, a disc comes straight from the side.
-void block_by_obstacles(Candidate& candidate, const Arrival& arrival,
-                        const AdmissionGround& ground) {
+/// Where fixed bodies are, a disc comes straight from the side.
+void block_by_fixed_bodies(Candidate& candidate, const Arrival& arrival,
+                           const AdmissionGround& ground) {
     DiscState from = candidate.disc.state, to = candidate.there;
     for (DiscState* const disc : {&from, &to}) (arrival.side < 2 ? disc->vy : disc->vx) = 0;
     if (!ground.has_room(from, from, 0)) candidate.is_blocked = true;
@@ -149,7 +149,7 @@ Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground
         candidate.radius = has.radius;
         waiting.erase(first);
         place(candidate, arrival, has.mass, ground.box);
-        block_by_obstacles(candidate, arrival, ground);
+        block_by_fixed_bodies(candidate, arrival, ground);
     }
     if (ground.have_pairs) block_by_discs(candidates, ground);
     std::vector<std::pair<DiscState, double>> admitted; // with radii

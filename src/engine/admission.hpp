@@ -28,8 +28,8 @@ struct AdmissionGround {
     bool have_pairs; ///< otherwise discs pass through each other, and are in nobody's way
     std::span<const DiscState> own, departed; ///< of this rank
     const SideColumns& departed_columns;      ///< along `departed`
-    /// Whether obstacles leave room for a disc that has flown from the first state straight to the
-    /// second one in this time.
+    /// Whether fixed bodies leave room for a disc that has flown from the first state straight to
+    /// the second one in this time.
     std::function<bool(const DiscState& from, const DiscState& to, double time)> has_room;
 };
 
@@ -39,7 +39,7 @@ struct Admission {
 };
 
 /// Each arrival gets the departed disc of the lowest id that it may have and no earlier one has
-/// got. It is left out if another disc or an obstacle is where it came. If one is where it has
+/// got. It is left out if another disc or a fixed body is where it came. If one is where it has
 /// flown to, or on the way there, it stays where it came.
 /// **Collective.**
 Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground);

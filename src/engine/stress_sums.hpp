@@ -164,7 +164,7 @@ private:
     [[no_unique_address]] Relative wx_, wy_; ///< relative velocity before the collision
 };
 
-/// The stress of a collision of one disc with a wall or an obstacle. It is constructed before the
+/// The stress of a collision of one disc with a wall or a fixed body. It is constructed before the
 /// collision, and counts as a pair whose other disc does not move.
 template <class Dynamics> class WallStress {
 public:

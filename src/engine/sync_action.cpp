@@ -106,7 +106,7 @@ void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
             if (impulse.side < WallImpulse::n_sides)
                 event.side = static_cast<std::uint8_t>(impulse.side);
             else
-                event.obstacle = static_cast<std::uint32_t>(impulse.side - WallImpulse::n_sides);
+                event.body = static_cast<std::uint32_t>(impulse.side - WallImpulse::n_sides);
             event.ix = impulse.ix * micro_steps_;
             event.iy = impulse.iy * micro_steps_;
             event.torque = impulse.torque * micro_steps_;

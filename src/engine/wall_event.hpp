@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision of a disc with a side of the box, or with an obstacle, and what the disc gained by
+// A collision of a disc with a side of the box, or with a fixed body, and what the disc gained by
 // it. Engines record it only if a measurement follows walls. Lasting contacts give such events at
-// syncs, one for all discs that press a side or an obstacle.
+// syncs, one for all discs that press a side or a body.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 #include "core/disc_state.hpp"
 #include "core/frame.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "engine/followers.hpp"
 
 namespace carrom {
@@ -23,25 +23,25 @@ struct WallEvent {
     double energy = 0; ///< kinetic energy of the disc's motion that the side has added
     /// The impulse of a lasting contact until the next sync, not of a collision
     bool is_lasting = false;
-    // For an obstacle, which has no side:
-    std::uint32_t obstacle = no_obstacle; ///< its row (rows_of in dynamics/container.hpp)
-    double ix = 0, iy = 0;                ///< impulse on the disc
-    double torque = 0; ///< angular momentum that the obstacle gains, about its centre
+    // For a fixed body, which has no side:
+    std::uint32_t body = no_body; ///< its row (rows_of in dynamics/container.hpp)
+    double ix = 0, iy = 0;        ///< impulse on the disc
+    double torque = 0;            ///< angular momentum that the body gains, about its centre
 
-    static constexpr std::uint32_t no_obstacle = 0xffffffff;
-    bool is_at_side() const { return obstacle == no_obstacle; }
+    static constexpr std::uint32_t no_body = 0xffffffff;
+    bool is_at_side() const { return body == no_body; }
 };
 using WallFollower = EventFollower<WallEvent>;
 
-/// The event of a collision with an obstacle; see `wall_event` for the arguments.
-inline WallEvent obstacle_event(const Frame& frame, const ObstacleTouch& touch, double mass,
-                                const DiscState& after, double dx, double dy, double unit) {
+/// The event of a collision with a fixed body; see `wall_event` for the arguments.
+inline WallEvent body_event(const Frame& frame, const BodyTouch& touch, double mass,
+                            const DiscState& after, double dx, double dy, double unit) {
     const double per_step = frame.slowing * unit, gained_x = dx * per_step,
                  gained_y = dy * per_step,
                  mean_x = after.vx * per_step + frame.vx * unit - gained_x / 2,
                  mean_y = after.vy * per_step + frame.vy * unit - gained_y / 2;
     WallEvent event;
-    event.obstacle = touch.row;
+    event.body = touch.row;
     event.ix = mass * gained_x;
     event.iy = mass * gained_y;
     event.normal = event.ix * touch.nx + event.iy * touch.ny;

@@ -177,7 +177,7 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
-    predict_obstacle(slot);
+    predict_fixed_body(slot);
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
     float radius = 0; // equal discs have theirs in the bounds
     if constexpr (has_sizes) radius = radii[slot];
@@ -190,19 +190,19 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     push(dynamics.wall_time(disc, Axis::y), slot, y_wall);
 }
 
-/// Predicts the first obstacle that the disc meets. At the time of its last collision the obstacle
-/// that it has just left does not count, for the same reason as a pair that has just collided.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std::uint32_t slot) {
-    if constexpr (Dynamics::may_have_obstacles) {
-        if (!dynamics.has_obstacles()) return;
+/// Predicts the first fixed body that the disc meets. At the time of its last collision the fixed
+/// body that it has just left does not count, for the same reason as a pair that has just collided.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_fixed_body(std::uint32_t slot) {
+    if constexpr (Dynamics::may_have_fixed_bodies) {
+        if (!dynamics.has_fixed_bodies()) return;
         const BlockWindow& window = ground.window;
         const std::uint32_t last = past_events_of[slot].partner;
-        const std::uint32_t left = is_obstacle(last) && last != EventHistory::nobody
-                                       ? last - first_obstacle
-                                       : ObstacleContact::no_body;
-        const ObstacleContact contact = dynamics.first_obstacle(
+        const std::uint32_t left = is_fixed_body(last) && last != EventHistory::nobody
+                                       ? last - first_fixed_body
+                                       : BodyContact::no_body;
+        const BodyContact contact = dynamics.first_fixed_body(
             discs[slot], {window.begin, window.end, window.holds_begin, left});
-        if (contact.exists()) push(contact.time, slot, first_obstacle + contact.body);
+        if (contact.exists()) push(contact.time, slot, first_fixed_body + contact.body);
     }
 }
 
@@ -274,9 +274,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
         loss = dynamics.bounce(p, Axis::x, event.time, spin_of(event.p));
     } else if (event.q == y_wall) {
         loss = dynamics.bounce(p, Axis::y, event.time, spin_of(event.p));
-    } else if (Dynamics::may_have_obstacles && is_wall(event.q)) {
-        if constexpr (Dynamics::may_have_obstacles)
-            loss = dynamics.bounce_off(p, event.q - first_obstacle, event.time,
+    } else if (Dynamics::may_have_fixed_bodies && is_wall(event.q)) {
+        if constexpr (Dynamics::may_have_fixed_bodies)
+            loss = dynamics.bounce_off(p, event.q - first_fixed_body, event.time,
                                        since_collision(p, event.time), spin_of(event.p));
     } else {
         if (is_own[event.p] != is_own[event.q] && !is_whole)

@@ -130,11 +130,11 @@ struct LoggedEvent {
     std::uint32_t generation = 0;
     bool is_wall = false;
     DiscId p = 0, q = 0; ///< if `is_wall`, q is 0 for a wall across x, 1 for one across y, and
-                         ///< otherwise an obstacle
+                         ///< otherwise a fixed body
     double impulse = 0;
     double gained_x = 0, gained_y = 0; ///< change of velocity, per micro-step
     double vx = 0, vy = 0;             ///< velocity of the first disc, afterwards
-    ObstacleTouch touch{};             ///< of an obstacle
+    BodyTouch touch{};                 ///< of a fixed body
 };
 
 /// The state of a disc at the end of a window. It leaves out the members that a window does not

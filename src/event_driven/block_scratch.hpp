@@ -175,7 +175,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_pairs_of(std::uint32_t p, std::uint32_t q);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
-    void predict_obstacle(std::uint32_t slot);
+    void predict_fixed_body(std::uint32_t slot);
     void predict_shifted(std::uint32_t a, std::uint32_t b, const Image* image);
     void predict_image(std::uint32_t a, std::uint32_t b, const Image& image);
     void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
@@ -321,10 +321,10 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                                 at_wall ? event.q - x_wall : discs[event.q].id,
                                 std::sqrt(wx * wx + wy * wy), wx, wy, discs[event.p].vx,
                                 discs[event.p].vy});
-        if constexpr (Dynamics::may_have_obstacles)
-            if (is_obstacle(event.q))
-                outcome->log.back().touch = dynamics.touch(discs[event.p], event.q - first_obstacle,
-                                                           event.time);
+        if constexpr (Dynamics::may_have_fixed_bodies)
+            if (is_fixed_body(event.q))
+                outcome->log.back().touch = dynamics.touch(discs[event.p],
+                                                           event.q - first_fixed_body, event.time);
     }
 
     Dynamics dynamics;

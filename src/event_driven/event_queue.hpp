@@ -19,13 +19,13 @@
 
 namespace carrom {
 
-/// Values of `q` for a fixed body in the place of a second disc: first the obstacles by their
+/// Values of `q` for what may stand in the place of a second disc: first the fixed bodies by their
 /// numbers, then the walls across x and across y.
-inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe,
+inline constexpr std::uint32_t first_fixed_body = 0x80000000, x_wall = 0xfffffffe,
                                y_wall = 0xffffffff;
-inline bool is_wall(std::uint32_t partner) { return partner >= first_obstacle; }
-inline bool is_obstacle(std::uint32_t partner) {
-    return partner >= first_obstacle && partner < x_wall;
+inline bool is_wall(std::uint32_t partner) { return partner >= first_fixed_body; }
+inline bool is_fixed_body(std::uint32_t partner) {
+    return partner >= first_fixed_body && partner < x_wall;
 }
 
 struct Event {

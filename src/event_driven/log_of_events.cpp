@@ -18,9 +18,9 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
             this->wall_followers_.note() = event.q <= 1 ? wall_event(frame, event.q, mass, after,
                                                                      event.gained_x, event.gained_y,
                                                                      per_step, false)
-                                                        : obstacle_event(frame, event.touch, mass,
-                                                                         after, event.gained_x,
-                                                                         event.gained_y, per_step);
+                                                        : body_event(frame, event.touch, mass,
+                                                                     after, event.gained_x,
+                                                                     event.gained_y, per_step);
         }
         if (this->log_)
             this->log_->push_back(

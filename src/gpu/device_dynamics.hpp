@@ -20,12 +20,12 @@ template <class OfMotion> class DeviceDynamics : public OfMotion {
 public:
     using Motion = OfMotion;
     using typename Motion::Arithmetic;
-    static constexpr bool may_lose_discs = false, may_have_obstacles = false;
+    static constexpr bool may_lose_discs = false, may_have_fixed_bodies = false;
 
     explicit DeviceDynamics(const Motion& motion)
         : Motion(motion), sides_(this->box_, this->radius_, {}) {}
 
-    CARROM_DEVICE static constexpr bool has_obstacles() { return false; }
+    CARROM_DEVICE static constexpr bool has_fixed_bodies() { return false; }
     CARROM_DEVICE const MirrorSides<Arithmetic>& sides() const { return sides_; }
     /// Returns false only if the disc meets no wall in a micro-step that ends by `time`. A disc
     /// that ends a micro-step within the band of a wall at rest meets it, too.

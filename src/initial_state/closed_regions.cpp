@@ -35,15 +35,15 @@ public:
         n_rows_ = static_cast<std::int64_t>(std::ceil(box_.y / width));
         region_of_.assign(static_cast<std::size_t>(n_columns_ * n_rows_), unknown);
         const double clear = smallest_radius(scene) - width;
-        for (const FixedDisc& disc : scene.effects.obstacles.discs)
+        for (const FixedDisc& disc : scene.effects.fixed_bodies.discs)
             block({disc.x, disc.y, disc.x, disc.y}, disc.radius + clear);
-        for (const Segment& segment : all_segments(scene.effects.obstacles, box_))
+        for (const Segment& segment : all_segments(scene.effects.fixed_bodies, box_))
             block(segment, clear);
-        for (const Arc& arc : all_arcs(scene.effects.obstacles, box_))
+        for (const Arc& arc : all_arcs(scene.effects.fixed_bodies, box_))
             for (const Segment& chord : chords_of(arc, width / 4)) block(chord, clear);
         for (const Segment& line : lines_across_narrow_gaps(scene, smallest_radius(scene)))
             block(line, clear);
-        block_outside(Container(scene.effects.obstacles.shape, box_));
+        block_outside(Container(scene.effects.fixed_bodies.shape, box_));
         for (std::size_t k = 0; k < region_of_.size(); ++k)
             if (region_of_[k] == unknown) sizes_.push_back(fill(k));
         largest_ = static_cast<std::int32_t>(std::ranges::max_element(sizes_) - sizes_.begin());
@@ -180,7 +180,7 @@ private:
 ShutInDiscs find_shut_in(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator) {
     ShutInDiscs found;
-    if (!scene.effects.obstacles.are_any()) return found;
+    if (!scene.effects.fixed_bodies.are_any()) return found;
     const Regions regions(scene);
     if (!regions.are_several()) return found;
     std::vector<std::uint64_t> n_discs(regions.n());

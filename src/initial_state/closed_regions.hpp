@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds discs that random insertion has placed in regions that obstacles separate from the other
+// Finds discs that random insertion has placed in regions that fixed bodies separate from the other
 // discs, such as the inside of a polygon of segments. The density there differs from that of the
 // rest, which the author of a scene may not expect.
 //
 // The box is covered with points that are two thirds of the smallest radius apart. A point is
-// blocked if the smallest disc there would overlap an obstacle by more than this distance, or if it
-// is near a line across a gap that is too narrow (narrow_gaps.hpp). A flood fill finds the
+// blocked if the smallest disc there would overlap a fixed body by more than this distance, or if
+// it is near a line across a gap that is too narrow (narrow_gaps.hpp). A flood fill finds the
 // connected regions of the other points. So two regions are connected if the smallest disc fits
 // through the gap between them. A region at an open side counts as open. Cost: four bytes and a few
 // nanoseconds a point on each rank.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns discs of the initial state into obstacles, and removes them from the moving discs.
+// Turns discs of the initial state into fixed bodies, and removes them from the moving discs.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 namespace carrom {
 
 /// Discs whose centres lie in a region of `discs.freeze`, edges included, or that belong to a
-/// frozen group, become obstacles of the scene (set_frozen). The remaining discs get the ids 0 to n
-/// - 1 in the order of their old ids. Throws InputError on every rank if no disc freezes, or all
-/// do. **Collective.**
+/// frozen group, become fixed bodies of the scene (set_frozen). The remaining discs get new ids
+/// from 0 on in the order of their old ids. Throws InputError on every rank if no disc freezes, or
+/// all do. **Collective.**
 void freeze_discs(SceneParameters& scene, std::vector<InputDisc>& discs, const Communicator& ranks);
 
 } // namespace carrom

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/useful_threads.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "initial_state/lattice_around.hpp"
 #include "initial_state/legacy_discs.hpp"
 #include "initial_state/listed_discs.hpp"
@@ -46,7 +46,8 @@ std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
 
 std::vector<InputDisc> lattice_discs(const SceneParameters& scene,
                                      const Communicator& communicator) {
-    if (scene.effects.obstacles.are_any()) return lattice_around_obstacles(scene, communicator);
+    if (scene.effects.fixed_bodies.are_any())
+        return lattice_around_fixed_bodies(scene, communicator);
     const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
     ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
     return discs_on_sites(scene, communicator, [&](std::uint64_t site) {
@@ -102,11 +103,11 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
     return insert_at_random(scene, communicator, useful_threads(n_threads, own));
 }
 
-void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDisc>& discs,
-                         const Communicator& communicator) {
+void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<InputDisc>& discs,
+                            const Communicator& communicator) {
     const std::size_t most_named = scene.groups.empty() ? 5 : 1; // a group is moved as a whole
-    if (!scene.effects.obstacles.are_any()) return;
-    const Obstacles obstacles(scene.box, scene.radius, scene.effects);
+    const FixedBodies fixed_bodies(scene.box, scene.radius, scene.effects);
+    if (!fixed_bodies.are_any()) return;
     const SpeciesTable species_table(scene.effects.species, scene.radius);
     const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box.longest());
     const char* const remedy =
@@ -115,13 +116,14 @@ void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDi
                                "of their group, or take generator = \"random\"";
     std::vector<Problem> problems;
     for (const InputDisc& disc : discs) {
-        const auto overlap = obstacles.deepest_overlap(disc.x, disc.y,
-                                                       species_table.of(disc.id).radius, least);
-        if (overlap.body == ObstacleContact::no_body || problems.size() == most_named) continue;
-        problems.push_back({scene.name, 0,
-                            fmt::format("disc {} at {} overlaps {} by {:.3g}; {}", disc.id,
-                                        shown_place(scene, disc.x, disc.y),
-                                        obstacles.name_of(overlap.body), overlap.depth, remedy)});
+        const auto overlap = fixed_bodies.deepest_overlap(disc.x, disc.y,
+                                                          species_table.of(disc.id).radius, least);
+        if (overlap.body == BodyContact::no_body || problems.size() == most_named) continue;
+        problems.push_back(
+            {scene.name, 0,
+             fmt::format("disc {} at {} overlaps {} by {:.3g}; {}", disc.id,
+                         shown_place(scene, disc.x, disc.y), fixed_bodies.name_of(overlap.body),
+                         overlap.depth, remedy)});
     }
     agree_on_problems(communicator, problems);
 }
@@ -133,7 +135,7 @@ std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream
                                             ? read_listed_discs(scene, lines, communicator,
                                                                 n_threads)
                                             : listed_discs(scene, communicator);
-        refuse_in_obstacles(scene, listed, communicator);
+        refuse_in_fixed_bodies(scene, listed, communicator);
         return listed;
     }
     ensure(scene.generator != Generator::compressed && scene.groups.empty(),

@@ -24,9 +24,10 @@ std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream
 void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
                            const Communicator& communicator, int n_threads);
 
-/// Throws InputError if discs overlap obstacles; the message names the first few. **Collective.**
-void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDisc>& discs,
-                         const Communicator& communicator);
+/// Throws InputError if discs overlap fixed bodies; the message names the first few.
+/// **Collective.**
+void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<InputDisc>& discs,
+                            const Communicator& communicator);
 
 /// Returns every disc of the scene exactly once, on any rank. No rank holds more than its share and
 /// a bounded chunk. Compressed starts and groups are made elsewhere, because they need engines

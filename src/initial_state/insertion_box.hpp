@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <tuple>
 
 #include "core/axis.hpp"
 #include "core/random_numbers.hpp"
 #include "core/raw_vector.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "dynamics/species.hpp"
 #include "initial_state/point_grid.hpp"
 #include "lattices/lattice.hpp"
@@ -47,10 +46,8 @@ public:
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
           species_(scene.effects.species, scene.radius), axis_(longer_axis(scene.box)),
           box_(scene.box.longest(), scene.box.shortest()),
-          periods_(lying(scene.effects.periods(scene.box))), has_regions_(has_regions(scene)) {
-        if (scene.effects.obstacles.are_any())
-            obstacles_.emplace(scene.box, scene.radius, scene.effects);
-    }
+          periods_(lying(scene.effects.periods(scene.box))), has_regions_(has_regions(scene)),
+          fixed_bodies_(scene.box, scene.radius, scene.effects) {}
 
     double diameter() const { return diameter_; } ///< of the largest disc
     std::uint64_t n_discs() const { return scene_.n_discs; }
@@ -120,11 +117,10 @@ public:
         return rank == static_cast<std::size_t>(communicator_.rank());
     }
 
-    bool overlaps_obstacle(const Notice& notice) const {
-        if (!obstacles_) return false;
+    bool overlaps_fixed_body(const Notice& notice) const {
+        if (!fixed_bodies_.are_any()) return false;
         const auto [x, y] = turned(axis_, notice.x, notice.y);
-        return obstacles_->deepest_overlap(x, y, radius_of(notice.id), 0).body !=
-               ObstacleContact::no_body;
+        return fixed_bodies_.do_overlap(x, y, radius_of(notice.id));
     }
 
     /// Whether the disc's position is found by insertion.
@@ -193,13 +189,13 @@ private:
     const SceneParameters& scene_;
     const Communicator& communicator_;
     std::uint64_t start_;
-    std::optional<Obstacles> obstacles_;
     double diameter_;
     SpeciesTable species_;
     Axis axis_;
     Box box_;
     Periods periods_;
     bool has_regions_;
+    FixedBodies fixed_bodies_;
 };
 
 } // namespace carrom

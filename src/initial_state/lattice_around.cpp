@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "lattices/lattice.hpp"
 #include "parallel/slabs.hpp"
 
@@ -31,7 +31,7 @@ public:
           width_(box_.x / static_cast<double>(columns_)),
           // Rounding of places is far below the 2^-30 that is left between the circles.
           clearance_(height_ / (2 * per_row) * (1 - 0x1p-30)),
-          obstacles_(box_, clearance_, scene.effects),
+          fixed_bodies_(box_, clearance_, scene.effects),
           own_(slab_of_rank(ranks.rank(), n_rows, ranks.size())), free_in_rows_(n_rows) {
         for (std::uint64_t row = own_.begin; row < own_.end; ++row)
             for (std::uint64_t column = 0; column < columns_; ++column)
@@ -70,8 +70,7 @@ private:
         };
         return (is_periodic_x_ || is_inside(site.x, box_.x)) &&
                (is_periodic_y_ || is_inside(site.y, box_.y)) &&
-               obstacles_.deepest_overlap(site.x, site.y, clearance_, 0).body ==
-                   ObstacleContact::no_body;
+               !fixed_bodies_.do_overlap(site.x, site.y, clearance_);
     }
 
     Box box_;
@@ -80,7 +79,7 @@ private:
     double height_, y0_; ///< of a row, and the place of the first
     std::uint64_t columns_;
     double width_, clearance_;
-    Obstacles obstacles_;
+    FixedBodies fixed_bodies_;
     Slab own_;
     std::vector<std::uint64_t> free_in_rows_;
 };
@@ -107,7 +106,7 @@ public:
     }
 
 private:
-    /// Rows over two, as if the obstacles took no room.
+    /// Rows over two, as if the fixed bodies took no room.
     std::uint64_t first_guess() const {
         const double area = scene_.area() / static_cast<double>(scene_.n_discs),
                      height = std::sqrt(area * per_row);
@@ -134,8 +133,8 @@ private:
 
 } // namespace
 
-std::vector<InputDisc> lattice_around_obstacles(const SceneParameters& scene,
-                                                const Communicator& communicator) {
+std::vector<InputDisc> lattice_around_fixed_bodies(const SceneParameters& scene,
+                                                   const Communicator& communicator) {
     const FreeSites sites = RowSearch(scene, communicator).run();
     const std::uint64_t n = scene.n_discs, n_sites = sites.number(),
                         stride = scene.effects.species.empty() ? 1 : mixing_stride(n);

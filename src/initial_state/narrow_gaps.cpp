@@ -46,7 +46,7 @@ Segment shortest(const Segment& a, const Segment& b) {
     return best;
 }
 
-/// Obstacles, and the images of obstacles that can narrow a gap in the box.
+/// Fixed bodies, and the images of fixed bodies that can narrow a gap in the box.
 std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
     const Box& box = scene.box;
     const bool is_x = scene.effects.is_periodic_x(), is_y = scene.effects.is_periodic_y();
@@ -62,15 +62,15 @@ std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
                     bodies.push_back(body);
             }
     };
-    for (const FixedDisc& disc : scene.effects.obstacles.discs)
+    for (const FixedDisc& disc : scene.effects.fixed_bodies.discs)
         add({disc.x, disc.y, disc.x, disc.y}, disc.radius);
-    for (const Segment& segment : all_segments(scene.effects.obstacles, box)) add(segment, 0);
-    for (const Arc& arc : all_arcs(scene.effects.obstacles, box))
+    for (const Segment& segment : all_segments(scene.effects.fixed_bodies, box)) add(segment, 0);
+    for (const Arc& arc : all_arcs(scene.effects.fixed_bodies, box))
         for (const Segment& chord : chords_of(arc, width)) add(chord, 0);
     return bodies;
 }
 
-/// Adds lines from ends of obstacles to walls that are closer than `width`.
+/// Adds lines from ends of fixed bodies to walls that are closer than `width`.
 void add_walls(const SceneParameters& scene, const std::vector<Body>& bodies, double width,
                std::vector<Segment>& lines) {
     const Box& box = scene.box;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the gaps between obstacles that are too narrow for a disc, and draws a line across each.
+// Finds the gaps between fixed bodies that are too narrow for a disc, and draws a line across each.
 //
-// If two obstacles are closer than the disc's diameter, every point of the line between their
+// If two fixed bodies are closer than the disc's diameter, every point of the line between their
 // nearest points is within a radius of one of them, so no disc's centre crosses it. So the lines
-// and the obstacles together divide the box into the regions that a disc cannot leave. A sweep
-// along x finds the pairs: their number is about that of obstacles times those in a strip.
+// and the fixed bodies together divide the box into the regions that a disc cannot leave. A sweep
+// along x finds the pairs: their number is about that of fixed bodies times those in a strip.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@
 
 namespace carrom {
 
-/// Lines across the gaps between obstacles, and between them and walls at rest, through which no
-/// disc of this radius fits. Images of obstacles beyond periodic sides are included.
+/// Lines across the gaps between fixed bodies, and between them and walls at rest, through which no
+/// disc of this radius fits. Images of fixed bodies beyond periodic sides are included.
 std::vector<Segment> lines_across_narrow_gaps(const SceneParameters& scene, double radius);
 
 } // namespace carrom

@@ -39,10 +39,10 @@ public:
     /// Drops the map, because smaller discs fit where it rejects. Call it before they are placed.
     void forget_map() { refused_places_.reset(); }
 
-    /// Whether the disc of a proposal would overlap one of these discs, or an obstacle.
+    /// Whether the disc of a proposal would overlap one of these discs, or a fixed body.
     bool overlaps(const Notice& notice) const {
         if (refused_places_ && refused_places_->holds({notice.x, notice.y})) return true;
-        if (box_.overlaps_obstacle(notice)) return true;
+        if (box_.overlaps_fixed_body(notice)) return true;
         return box_.for_images(notice, [&](Point at) {
             return grid_->any_near(
                 at, [&](std::uint32_t k) { return box_.overlaps(notice.id, at, discs_[k]); });

@@ -221,7 +221,7 @@ std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
     for (std::uint64_t start = 0; start < most_starts; ++start)
         if (auto discs = Insertion(scene, communicator, start, n_threads, given).run())
             return std::move(*discs);
-    const std::string remedy = scene.effects.obstacles.are_any()
+    const std::string remedy = scene.effects.fixed_bodies.are_any()
                                    ? "leave more room beside the obstacles"
                                : !scene.groups.empty()
                                    ? "leave more room in the regions of groups of random discs"

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "engine/engine.hpp"
 #include "library/live_part.hpp"
 #include "library/simulation_state.hpp"
@@ -35,7 +35,7 @@ public:
           size_(run.system().engine().size() *
                 scene_.effects.size_at(static_cast<double>(run.step()))),
           rounding_(32 * 0x1p-53 * scene_.box.longest()),
-          obstacles_(scene_.box, scene_.radius * size_, scene_.effects) {}
+          fixed_bodies_(scene_.box, scene_.radius * size_, scene_.effects) {}
 
     /// Why a disc cannot be there; empty if it can.
     std::string problem(const Disc& disc) const {
@@ -52,11 +52,10 @@ public:
                                scene_.effects.is_periodic_x() ? ')' : ']', extent_.y_low - origin.y,
                                extent_.y_high - origin.y,
                                scene_.effects.is_periodic_y() ? ')' : ']');
-        if (!scene_.effects.obstacles.are_any()) return {};
-        const auto overlap = obstacles_.deepest_overlap(x, y, radius,
-                                                        2 * std::max(2e-12 * radius, rounding_));
-        if (overlap.body == ObstacleContact::no_body) return {};
-        return fmt::format("overlaps {} by {:.3g}", obstacles_.name_of(overlap.body),
+        const auto overlap = fixed_bodies_.deepest_overlap(x, y, radius,
+                                                           2 * std::max(2e-12 * radius, rounding_));
+        if (overlap.body == BodyContact::no_body) return {};
+        return fmt::format("overlaps {} by {:.3g}", fixed_bodies_.name_of(overlap.body),
                            overlap.depth);
     }
 
@@ -70,7 +69,7 @@ private:
     SpeciesTable species_;
     Extent extent_;
     double size_, rounding_;
-    Obstacles obstacles_;
+    FixedBodies fixed_bodies_;
 };
 
 struct Change {

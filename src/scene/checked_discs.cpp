@@ -265,12 +265,12 @@ void check_generator(const SceneDraft& draft) {
             fmt::format("random insertion stalls above a packing fraction of {}; the {} discs "
                         "(packing fraction {:.4g}) start from a shaken lattice{}",
                         largest_random_packing, scene.n_discs, scene.packing(),
-                        scene.effects.obstacles.are_any()
+                        scene.effects.fixed_bodies.are_any()
                             ? ""
                             : "; discs.generator = \"compressed\" makes a random start"));
     }
     if (scene.generator == Generator::triangular) check_triangular(draft);
-    if (scene.generator == Generator::lattice && !scene.effects.obstacles.are_any() &&
+    if (scene.generator == Generator::lattice && !scene.effects.fixed_bodies.are_any() &&
         !widest_lattice(scene.n_discs, scene.box, scene.radius))
         draft.refuse_first(
             size_keys,

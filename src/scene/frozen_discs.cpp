@@ -56,7 +56,7 @@ void apply(SceneParameters& scene, bool has_others_alone) {
     for (std::vector<NumberRun>& runs : scene.first_numbers.values) shorten(runs, frozen);
     if (!species.empty()) scene.radius = std::ranges::max(species, {}, &Species::radius).radius;
     for (const FrozenDisc& disc : frozen)
-        scene.effects.obstacles.discs.push_back({disc.x, disc.y, disc.radius});
+        scene.effects.fixed_bodies.discs.push_back({disc.x, disc.y, disc.radius});
 }
 
 const Need freezing{"without 'discs.freeze' or a group with freeze = true",

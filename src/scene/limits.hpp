@@ -32,7 +32,7 @@ inline constexpr double longest_drag = 4; ///< rate of drag times the time betwe
 inline constexpr double most_crossings =
     0x1p40; ///< crossings in a micro-step; beyond this all collisions have the same time
 
-/// The largest sum of the radii of an obstacle and a disc, relative to a periodic box, so that a
+/// The largest sum of the radii of a fixed body and a disc, relative to a periodic box, so that a
 /// disc touches only the nearest images of a body.
 inline constexpr double largest_in_period = 0.99;
 

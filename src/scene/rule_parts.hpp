@@ -18,8 +18,8 @@ inline bool has_moving(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::moving);
 }
 /// Also true if discs will freeze and become obstacles.
-inline bool has_obstacles(const SceneParameters& s) {
-    return s.effects.obstacles.are_any() || s.freezes();
+inline bool has_fixed_bodies(const SceneParameters& s) {
+    return s.effects.fixed_bodies.are_any() || s.freezes();
 }
 inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
 /// Text that follows "has no meaning".

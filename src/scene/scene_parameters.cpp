@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-double SceneParameters::area() const { return area_of(effects.obstacles, box); }
+double SceneParameters::area() const { return area_of(effects.fixed_bodies, box); }
 
 double radius_of_packing(const SceneParameters& scene, double packing) {
     return std::sqrt(scene.area()) *
@@ -20,7 +20,7 @@ double radius_of_packing(const SceneParameters& scene, double packing) {
 }
 
 double SceneParameters::packing() const {
-    const double share = effects.obstacles.has_shape() ? area() / box.area() : 1;
+    const double share = effects.fixed_bodies.has_shape() ? area() / box.area() : 1;
     if (!effects.species.empty()) {
         double sum = 0;
         for (const Species& one : effects.species)

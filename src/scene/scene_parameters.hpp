@@ -114,7 +114,7 @@ struct DiscGroup {
 
     friend bool operator==(const DiscGroup&, const DiscGroup&) = default;
 };
-/// A disc of the initial state that became an obstacle, with its former id.
+/// A disc of the initial state that became a fixed body, with its former id.
 struct FrozenDisc {
     double id = 0, x = 0, y = 0, radius = 0;
 
@@ -225,9 +225,9 @@ struct SceneParameters {
     bool has_shares = false; ///< shares are given in `discs.species`
     /// By species, in the order of ids; covers all discs, or is empty
     std::vector<DiscGroup> groups;
-    /// Discs that are generated in these regions become obstacles
+    /// Discs that are generated in these regions become fixed bodies
     std::vector<StartRegion> freeze;
-    /// By ids; when they are known, they are obstacles of the scene, and its numbers are without
+    /// By ids; when they are known, they are fixed bodies of the scene, and its numbers are without
     /// them
     std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
@@ -244,7 +244,7 @@ struct SceneParameters {
     std::optional<double> accuracy;
     bool gpu = false; ///< a GPU runs the steps
     StopConditions stop;
-    /// Whether discs of the initial state become obstacles.
+    /// Whether discs of the initial state become fixed bodies.
     bool freezes() const {
         return !freeze.empty() || std::ranges::any_of(groups, &DiscGroup::is_frozen);
     }
@@ -268,7 +268,7 @@ struct SceneParameters {
     /// power of two
     std::vector<std::string> warnings;
 
-    /// The area in which discs move; obstacles in it are not subtracted.
+    /// The area in which discs move; fixed bodies in it are not subtracted.
     double area() const;
     /// The share of that area that the discs cover at the start.
     double packing() const;

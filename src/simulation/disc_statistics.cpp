@@ -7,21 +7,13 @@
 
 namespace carrom {
 
-namespace {
-
-double area_of(const Extent& box) { return (box.x_high - box.x_low) * (box.y_high - box.y_low); }
-
-} // namespace
-
 MotionSample motion_sample(const DiscSystem& system) {
     MotionSample sample = sample_motion(system.in_flow(), system.species_if_mixed(),
                                         system.heaviest(), system.n_discs(), system.n_threads(),
                                         system.ranks());
     const Extent box = system.box();
-    const ObstacleList& obstacles = system.effects().obstacles;
-    sample.area = obstacles.has_shape()
-                      ? area_of(obstacles, {box.x_high - box.x_low, box.y_high - box.y_low})
-                      : area_of(box);
+    sample.area = area_of(system.effects().fixed_bodies,
+                          {box.x_high - box.x_low, box.y_high - box.y_low});
     return sample;
 }
 

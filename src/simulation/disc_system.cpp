@@ -101,8 +101,8 @@ double heaviest_of(const SceneParameters& scene) {
 bool keep_energy_of_motion(Effects effects) {
     effects.species.clear();
     if (effects.contact.kind == ContactKind::none) effects.contact = {};
-    if (effects.obstacles.restitution == 1 && !effects.obstacles.surface.rubs())
-        effects.obstacles = {};
+    if (effects.fixed_bodies.restitution == 1 && !effects.fixed_bodies.surface.rubs())
+        effects.fixed_bodies = {};
     for (Boundary& side : effects.boundaries)
         if (side.kind == BoundaryKind::periodic) side = {};
     return !effects.are_any();

@@ -71,7 +71,7 @@ std::vector<InputDisc> places_of_groups(const SceneParameters& scene,
         first += group.count;
         number += 1;
     }
-    refuse_in_obstacles(scene, given, communicator);
+    refuse_in_fixed_bodies(scene, given, communicator);
     return insert_at_random(scene, communicator, tuning.threads, given);
 }
 

@@ -4,7 +4,7 @@
 //
 // Groups are placed one after the other. Lattices and compressed discs fill their regions, each
 // like a box of its own, and random discs are then placed in the gaps. Velocities are given last,
-// when discs that the scene freezes have become obstacles.
+// when discs that the scene freezes have become fixed bodies.
 #pragma once
 
 #include <istream>
@@ -22,7 +22,7 @@ namespace carrom {
 std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 
-/// Like first_discs. Discs that the scene freezes become its obstacles (frozen_discs.hpp).
+/// Like first_discs. Discs that the scene freezes become its fixed bodies (frozen_discs.hpp).
 /// **Collective.**
 std::vector<InputDisc> first_discs_and_frozen(SceneParameters& scene, std::istream* following,
                                               const Communicator& communicator,

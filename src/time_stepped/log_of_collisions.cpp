@@ -32,9 +32,9 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
         if (this->wall_followers_.are_any() && c.is_wall()) {
             const StepWalls walls(dynamics_);
             const auto met = walls.met(unhit_[i], m, c.time);
-            const std::uint32_t body = walls.met_obstacle(unhit_[i], m, c.time);
-            if (body != ObstacleContact::no_body)
-                this->wall_followers_.note() = obstacle_event(
+            const std::uint32_t body = walls.met_fixed_body(unhit_[i], m, c.time);
+            if (body != BodyContact::no_body)
+                this->wall_followers_.note() = body_event(
                     dynamics_.frame_at(m + c.time), dynamics_.touch(unhit_[i], body, m + c.time),
                     mass, results[c.p], results[c.p].vx - unhit_[i].vx,
                     results[c.p].vy - unhit_[i].vy, k);

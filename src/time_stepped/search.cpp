@@ -193,7 +193,7 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
         });
     const SlotRange own = grid.run(column, 0, grid.geometry().n_rows - 1);
     for (LocalIndex index = own.begin; index < own.end; ++index) {
-        const bool meets = bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles();
+        const bool meets = bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_fixed_bodies();
         if (meets && !is_large(population.discs[index]))
             predict_wall(population, window, window.first_micro, index, lists);
     }
@@ -288,7 +288,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
                 });
             for (const LocalIndex index : batch) {
                 if (index < population.n_own &&
-                    (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles() ||
+                    (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_fixed_bodies() ||
                      is_large(population.discs[index])))
                     predict_wall(population, window, from, index, lists);
             }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collisions with walls, open sides and obstacles within a micro-step m of the time-stepped method
-// (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
+// Collisions with walls, open sides and fixed bodies within a micro-step m of the time-stepped
+// method (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
 //
 // A disc takes part in one collision of a micro-step. So a disc that would leave the box, or run
-// into an obstacle, before the micro-step ends stops there and bounces in the next one. Walls are
+// into a fixed body, before the micro-step ends stops there and bounces in the next one. Walls are
 // at rest in this method; the sides decide what a bounce does (dynamics/boundaries.hpp).
 #pragma once
 
@@ -31,15 +31,15 @@ public:
     /// The time of the disc's first bounce in m, or `never`.
     CARROM_DEVICE double time(const DiscState& disc, double m) const {
         const double at_side = side_time(disc, m);
-        if (!has_obstacles()) return at_side;
-        return std::min(at_side, obstacle(disc, m).time - m);
+        if (!has_fixed_bodies()) return at_side;
+        return std::min(at_side, fixed_body(disc, m).time - m);
     }
 
     /// Carries out the bounce at t = time(disc, m). A corner reverses both velocities and counts
     /// once. `spin` is null where discs do not turn.
     CARROM_DEVICE void bounce(DiscState& disc, double m, double t, double* spin) const {
-        if (has_obstacles() && t != side_time(disc, m))
-            return bounce_off_obstacle(disc, m, t, spin);
+        if (has_fixed_bodies() && t != side_time(disc, m))
+            return bounce_off_fixed_body(disc, m, t, spin);
         const double x_time = side_time(disc, Axis::x, m), y_time = side_time(disc, Axis::y, m);
         advance(disc, m, t);
         if (x_time == t && is_open(disc, Axis::x)) return depart(disc, Axis::x, m + t, spin);
@@ -54,30 +54,29 @@ public:
         stop(disc, m, t);
     }
 
-    /// The walls that the disc bounces off at t; none if it bounces off an obstacle.
+    /// The walls that the disc bounces off at t; none if it bounces off a fixed body.
     CARROM_DEVICE MetWalls met(const DiscState& before, double m, double t) const {
-        if (has_obstacles() && t != side_time(before, m)) return {};
+        if (has_fixed_bodies() && t != side_time(before, m)) return {};
         DiscState disc = before;
         const double x_time = wall_time(disc, Axis::x, m), y_time = wall_time(disc, Axis::y, m);
         advance(disc, m, t);
         return {x_time == t || touches(disc, Axis::x), y_time == t || touches(disc, Axis::y)};
     }
 
-    /// The obstacle that the disc bounces off at t, or no_body.
-    std::uint32_t met_obstacle(const DiscState& before, double m, double t) const {
-        if (!dynamics_.has_obstacles() || t == side_time(before, m))
-            return ObstacleContact::no_body;
-        return obstacle(before, m).body;
+    /// The fixed body that the disc bounces off at t, or no_body.
+    std::uint32_t met_fixed_body(const DiscState& before, double m, double t) const {
+        if (!dynamics_.has_fixed_bodies() || t == side_time(before, m)) return BodyContact::no_body;
+        return fixed_body(before, m).body;
     }
 
-    /// Stops a disc that has just collided at t, if it would meet a wall or an obstacle before the
-    /// micro-step ends. `left` is the obstacle that it has just left.
+    /// Stops a disc that has just collided at t, if it would meet a wall or a fixed body before the
+    /// micro-step ends. `left` is the fixed body that it has just left.
     [[gnu::always_inline]] CARROM_DEVICE void stop(
-        DiscState& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
+        DiscState& disc, double m, double t, std::uint32_t left = BodyContact::no_body) const {
         const Real rest = 1 - static_cast<Real>(t);
         const Real at_side = std::min(side_stop(disc, Axis::x, rest),
                                       side_stop(disc, Axis::y, rest));
-        if (has_obstacles() && stops_at_obstacle(disc, m, at_side, left)) return;
+        if (has_fixed_bodies() && stops_at_fixed_body(disc, m, at_side, left)) return;
         if (at_side == RestingWalls<Real>::never) return;
         const State d(disc);
         const Real x = d.x + d.vx * at_side, y = d.y + d.vy * at_side;
@@ -87,8 +86,8 @@ public:
     }
 
 private:
-    CARROM_DEVICE bool has_obstacles() const {
-        return Dynamics::may_have_obstacles && dynamics_.has_obstacles();
+    CARROM_DEVICE bool has_fixed_bodies() const {
+        return Dynamics::may_have_fixed_bodies && dynamics_.has_fixed_bodies();
     }
     CARROM_DEVICE static void advance(DiscState& disc, double m, double t) {
         Dynamics::advance(disc, static_cast<Real>(m) + static_cast<Real>(t));
@@ -152,26 +151,26 @@ private:
         return dynamics_.resting_walls(axis, disc)
             .stop(along(axis, d.x, d.y), along(axis, d.vx, d.vy), rest);
     }
-    CARROM_DEVICE ObstacleContact obstacle(const DiscState& disc, double m) const {
-        if constexpr (Dynamics::may_have_obstacles)
-            return dynamics_.first_obstacle(disc, {m, m + 1});
+    CARROM_DEVICE BodyContact fixed_body(const DiscState& disc, double m) const {
+        if constexpr (Dynamics::may_have_fixed_bodies)
+            return dynamics_.first_fixed_body(disc, {m, m + 1});
         else
             return {};
     }
-    CARROM_DEVICE void bounce_off_obstacle(DiscState& disc, double m, double t,
-                                           double* spin) const {
-        if constexpr (Dynamics::may_have_obstacles) {
-            const ObstacleContact contact = obstacle(disc, m);
+    CARROM_DEVICE void bounce_off_fixed_body(DiscState& disc, double m, double t,
+                                             double* spin) const {
+        if constexpr (Dynamics::may_have_fixed_bodies) {
+            const BodyContact contact = fixed_body(disc, m);
             dynamics_.bounce_off(disc, contact.body, contact.time, never, spin);
             stop(disc, m, t, contact.body);
         }
     }
     /// Returns false if a side stops the disc before.
-    CARROM_DEVICE bool stops_at_obstacle(DiscState& disc, double m, double at_side,
-                                         std::uint32_t left) const {
-        if constexpr (Dynamics::may_have_obstacles) {
-            const ObstacleContact contact = dynamics_.first_obstacle(disc,
-                                                                     {disc.tau, m + 1, true, left});
+    CARROM_DEVICE bool stops_at_fixed_body(DiscState& disc, double m, double at_side,
+                                           std::uint32_t left) const {
+        if constexpr (Dynamics::may_have_fixed_bodies) {
+            const BodyContact contact = dynamics_.first_fixed_body(disc,
+                                                                   {disc.tau, m + 1, true, left});
             if (!(contact.time < m + 1 && contact.time - disc.tau < at_side)) return false;
             Dynamics::advance(disc, contact.time);
             disc.tau = m + 1;

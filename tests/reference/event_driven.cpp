@@ -44,7 +44,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
 
 bool EventDrivenReference::comes_later(const Prediction& a, const Prediction& b) {
     const auto key = [](const Event& e) {
-        return std::make_tuple(e.time, e.generation, e.p, e.is_pair, !e.is_obstacle, e.q);
+        return std::make_tuple(e.time, e.generation, e.p, e.is_pair, !e.is_fixed_body, e.q);
     };
     return key(a.event) > key(b.event);
 }
@@ -76,10 +76,10 @@ void EventDrivenReference::predict_walls(DiscId p) {
     if (has_left(disc)) return;
     for (const DiscId axis : {Event::wall_x, Event::wall_y})
         push({meeting(disc, axis).time, 0, p, false, axis, 0});
-    predict_obstacle(p);
+    predict_fixed_body(p);
 }
 
-void EventDrivenReference::predict_obstacle(DiscId p) {
+void EventDrivenReference::predict_fixed_body(DiscId p) {
     if (species_->are_none()) return;
     const EventHistory& past_events = history_of_[p];
     const bool has_just_left = past_events.time == discs_[p].tau;
@@ -88,7 +88,7 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
         {0, has_just_left ? past_events.body : FixedBodies::none, past_events.copy});
     if (first.body == FixedBodies::none) return;
     Event event{first.time, 0, p, false, first.body, 0};
-    event.is_obstacle = true;
+    event.is_fixed_body = true;
     event.copy = first.copy;
     push(event);
 }
@@ -288,7 +288,7 @@ void EventDrivenReference::happen(const Event& event) {
     if (log_.size() >= most_events_)
         throw std::runtime_error("more collisions than a test should have");
     const DiscState& first = discs_[event.p];
-    const bool is_corner = !event.is_pair && !event.is_obstacle && event.q == Event::wall_x &&
+    const bool is_corner = !event.is_pair && !event.is_fixed_body && event.q == Event::wall_x &&
                            meeting(first, Event::wall_y).time == event.time;
     const double vy_before = first.vy;
     carry_out(event);
@@ -311,7 +311,7 @@ void EventDrivenReference::carry_out(const Event& event) {
     const double since = std::min(time_since_collision(event.p, event.time),
                                   event.is_pair ? time_since_collision(event.q, event.time)
                                                 : std::numeric_limits<double>::infinity());
-    const bool is_high = !event.is_pair && !event.is_obstacle && meeting(p, event.q).is_high;
+    const bool is_high = !event.is_pair && !event.is_fixed_body && meeting(p, event.q).is_high;
     advance(p, event.time);
     if (event.is_pair) {
         DiscState& q = discs_[event.q];
@@ -332,7 +332,7 @@ void EventDrivenReference::carry_out(const Event& event) {
         pair_collisions_ += 1;
         note(event.q, event.p, event);
     } else {
-        if (event.is_obstacle) {
+        if (event.is_fixed_body) {
             species_->reflect(p, {event.time, event.q, event.copy}, event.time, since);
         } else if (setting_.effects.boundaries[2 * event.q + (is_high ? 1 : 0)].kind ==
                    BoundaryKind::open) {
@@ -345,7 +345,7 @@ void EventDrivenReference::carry_out(const Event& event) {
         wall_collisions_ += 1;
     }
     note(event.p, event.is_pair ? event.q : EventHistory::no_partner, event);
-    if (event.is_obstacle) {
+    if (event.is_fixed_body) {
         history_of_[event.p].body = event.q;
         history_of_[event.p].copy = event.copy;
     }

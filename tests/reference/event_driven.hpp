@@ -37,8 +37,8 @@ struct Event {
     bool is_pair = false;
     DiscId q = wall_x;
     std::int64_t sync = 0;
-    bool is_obstacle = false; ///< comes before walls
-    Copy copy{};              ///< which image of q it is, be that a disc or an obstacle
+    bool is_fixed_body = false; ///< comes before walls
+    Copy copy{};                ///< which image of q it is, be that a disc or an obstacle
 
     friend bool operator==(const Event&, const Event&) = default;
 };
@@ -87,7 +87,7 @@ private:
     void run_until(double time);
     void predict_all();
     void predict_walls(DiscId p);
-    void predict_obstacle(DiscId p);
+    void predict_fixed_body(DiscId p);
     Wall wall_at(DiscId disc, DiscId axis, bool is_high, double time) const;
     bool oscillates(std::size_t side) const {
         return setting_.effects.boundaries[side].amplitude > 0;

@@ -18,9 +18,9 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
     const double k = static_cast<double>(setting.micro_steps);
     gx_ = setting.effects.gravity.x / (k * k);
     gy_ = setting.effects.gravity.y / (k * k);
-    for (const FixedDisc& disc : setting.effects.obstacles.discs)
+    for (const FixedDisc& disc : setting.effects.fixed_bodies.discs)
         species_.push_back({disc.x, disc.y, disc.radius});
-    for (const Segment& s : setting.effects.obstacles.segments) {
+    for (const Segment& s : setting.effects.fixed_bodies.segments) {
         const double x = s.x1 - s.x0, y = s.y1 - s.y0, length = std::sqrt(x * x + y * y);
         species_.push_back({s.x0, s.y0, 0, x / length, y / length, length});
         species_.push_back({s.x0, s.y0, 0});
@@ -119,7 +119,7 @@ void FixedBodies::reflect(DiscState& disc, const BodyMeeting& at, double time, d
     const double normal = nx * (disc.vx + gx_ * time) + ny * (disc.vy + gy_ * time);
     const double radius = setting_.radius_of(disc.id);
     const bool is_touched = setting_.is_in_contact(since, std::fabs(normal), radius, 1e-4);
-    const double restitution = is_touched ? 1 : setting_.effects.obstacles.restitution;
+    const double restitution = is_touched ? 1 : setting_.effects.fixed_bodies.restitution;
     double away = restitution * std::fabs(normal);
     const double pull_back = -(nx * gx_ + ny * gy_);
     if (pull_back > 0) away = std::max(away, setting_.least_departure(pull_back, radius));

@@ -78,7 +78,7 @@ inline double distance_to(const Segment& segment, Point p, const Room& room) {
 
 inline bool is_clear_of_obstacles(const TestScene& scene, Point p, double radius) {
     const Room room(scene);
-    const ObstacleList& list = scene.setting.effects.obstacles;
+    const FixedBodyList& list = scene.setting.effects.fixed_bodies;
     return std::all_of(list.discs.begin(), list.discs.end(),
                        [&](const FixedDisc& fixed) {
                            return room.are_apart(p - Point{fixed.x, fixed.y},
@@ -162,7 +162,7 @@ protected:
                    p.y <= scene_.setting.box_size;
         };
         if (is_inside(from) && is_inside(to))
-            effects().obstacles.segments.push_back({from.x, from.y, to.x, to.y});
+            effects().fixed_bodies.segments.push_back({from.x, from.y, to.x, to.y});
     }
     void draw_obstacles() {
         if (one_in(3)) return;
@@ -172,7 +172,7 @@ protected:
             switch (random_.index(5)) {
             case 0:
             case 1:
-                effects().obstacles.discs.push_back(
+                effects().fixed_bodies.discs.push_back(
                     {at.x, at.y, largest_ * of({0, 0, 1e-3, 0.5, 1, 2})});
                 break;
             case 2: add_segment(at, at + reach * direction()); break;
@@ -183,13 +183,14 @@ protected:
                                      largest_ * of({1, 2, 2 * (1 + 0x1p-50), 2 * (1 - 1e-9), 3});
                 const Point other = at + apart * direction();
                 if (Room(scene_).holds(other, 0))
-                    effects().obstacles.discs.insert(
-                        effects().obstacles.discs.end(),
+                    effects().fixed_bodies.discs.insert(
+                        effects().fixed_bodies.discs.end(),
                         {{at.x, at.y, radius}, {other.x, other.y, radius}});
             }
             }
         }
-        if (effects().obstacles.are_any()) effects().obstacles.restitution = of({1, 1, 1, 0.5, 0});
+        if (effects().fixed_bodies.are_any())
+            effects().fixed_bodies.restitution = of({1, 1, 1, 0.5, 0});
     }
     /// Two segments from one point, up or down.
     void draw_wedge(Point apex, double reach) {
@@ -234,7 +235,7 @@ protected:
                 effects().gravity.x = of({-1, 1}) * std::min(largest_ * 0.1, most);
         }
         if (is_all_ && !is_rough && one_in(4) &&
-            !(effects().gravity.is_on() && effects().obstacles.are_any()))
+            !(effects().gravity.is_on() && effects().fixed_bodies.are_any()))
             effects().drag = std::min(0.2, 1 / interval());
         if (effects().gravity.is_on()) contact.contact_time = of({0.01, 0.05});
         contact.contact_time = std::min(contact.contact_time, interval() / 4);
@@ -270,7 +271,7 @@ protected:
     }
     Boundary drawn_side(std::size_t number, bool has_open) {
         if (has_open && one_in(2)) return {BoundaryKind::open, 1, 0, 0};
-        const bool may_move = is_all_ && !has_open && !effects().obstacles.are_any();
+        const bool may_move = is_all_ && !has_open && !effects().fixed_bodies.are_any();
         switch (random_.index(6)) {
         case 0: return {BoundaryKind::wall, of({0, 0.5, 0.9}), 0, 0};
         case 1:

@@ -160,7 +160,7 @@ bool energy_is_right(const TestScene& scene, const State& end) {
                             (contact.tangential_restitution == 1 && std::isinf(contact.friction));
     const bool are_lossy = contact.restitution < 1 ||
                            (contact.kind == ContactKind::rough && !keeps_slip) ||
-                           effects.drag > 0 || effects.obstacles.restitution < 1;
+                           effects.drag > 0 || effects.fixed_bodies.restitution < 1;
     const bool may_take = are_lossy || has_side([](const Boundary& side) {
                               return side.restitution < 1 || side.kind == BoundaryKind::open;
                           });

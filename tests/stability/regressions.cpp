@@ -63,19 +63,19 @@ bool shrink_effects(TestScene& scene, const Fails& fails) {
         hand_to_reference(trial.setting);
         has_changed |= keep_if_it_fails(scene, fails, [&trial](TestScene& copy) { copy = trial; });
     };
-    const ObstacleList& obstacles = scene.setting.effects.obstacles;
+    const FixedBodyList& obstacles = scene.setting.effects.fixed_bodies;
     const auto nth = [](auto& list, std::size_t i) {
         return list.begin() + static_cast<std::ptrdiff_t>(i);
     };
     for (std::size_t i = obstacles.discs.size(); i-- > 0;)
         without([&](reference::Setting& s) {
-            s.effects.obstacles.discs.erase(nth(s.effects.obstacles.discs, i));
+            s.effects.fixed_bodies.discs.erase(nth(s.effects.fixed_bodies.discs, i));
         });
     for (std::size_t i = obstacles.segments.size(); i-- > 0;)
         without([&](reference::Setting& s) {
-            s.effects.obstacles.segments.erase(nth(s.effects.obstacles.segments, i));
+            s.effects.fixed_bodies.segments.erase(nth(s.effects.fixed_bodies.segments, i));
         });
-    without([](reference::Setting& s) { s.effects.obstacles.restitution = 1; });
+    without([](reference::Setting& s) { s.effects.fixed_bodies.restitution = 1; });
     for (const std::size_t low : {0u, 2u}) {
         without([low](reference::Setting& s) {
             s.effects.boundaries[low] = s.effects.boundaries[low + 1] = {};
@@ -97,7 +97,7 @@ bool shrink_effects(TestScene& scene, const Fails& fails) {
 /// Effects, key by key, and the rule.
 std::string toml_of(const Effects& effects, Method method) {
     std::string text = fmt::format("method = \"{}\"\n", name_of(method));
-    bool is_lossy = effects.gravity.is_on() || effects.obstacles.restitution < 1;
+    bool is_lossy = effects.gravity.is_on() || effects.fixed_bodies.restitution < 1;
     for (std::size_t k = 0; k < boundary_names.size(); ++k) {
         const Boundary& side = effects.boundaries[k];
         is_lossy = is_lossy || side.restitution < 1 || side.kind == BoundaryKind::oscillating ||
@@ -146,14 +146,14 @@ std::string toml_of(const Effects& effects, Method method) {
         effects.boundaries.begin(), effects.boundaries.end(),
         [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
     if (is_thermal) text += fmt::format("[effects.thermal]\nseed = {}\n", effects.thermal_seed);
-    if (!effects.obstacles.are_any()) return text;
+    if (!effects.fixed_bodies.are_any()) return text;
     text += "[effects.obstacles]\ndiscs = [\n";
-    for (const FixedDisc& disc : effects.obstacles.discs)
+    for (const FixedDisc& disc : effects.fixed_bodies.discs)
         text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}],\n", disc.x, disc.y, disc.radius);
     text += "]\nsegments = [\n";
-    for (const Segment& s : effects.obstacles.segments)
+    for (const Segment& s : effects.fixed_bodies.segments)
         text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}],\n", s.x0, s.y0, s.x1, s.y1);
-    return text + fmt::format("]\nrestitution = {:.17g}\n", effects.obstacles.restitution);
+    return text + fmt::format("]\nrestitution = {:.17g}\n", effects.fixed_bodies.restitution);
 }
 
 } // namespace

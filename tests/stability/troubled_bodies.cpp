@@ -25,7 +25,7 @@ public:
         const std::size_t most = 1 + random_.index(12);
         for (int tries = 0; tries < 150 && scene_.discs.size() < most; ++tries) try_disc();
         if (scene_.discs.empty()) {
-            effects().obstacles = {};
+            effects().fixed_bodies = {};
             add({scene_.setting.box_size / 2, scene_.setting.box_size / 2}, {0, largest_},
                 kinds_[0]);
         }
@@ -59,7 +59,7 @@ private:
         double radius;
     };
     Round round_thing() {
-        const ObstacleList& list = effects().obstacles;
+        const FixedBodyList& list = effects().fixed_bodies;
         std::size_t k = random_.index(scene_.discs.size() + list.discs.size() +
                                       list.segments.size());
         if (k < scene_.discs.size()) {
@@ -73,7 +73,7 @@ private:
         return one_in(2) ? Round{{segment.x0, segment.y0}, {}, 0}
                          : Round{{segment.x1, segment.y1}, {}, 0};
     }
-    bool has_round_things() { return !scene_.discs.empty() || effects().obstacles.are_any(); }
+    bool has_round_things() { return !scene_.discs.empty() || effects().fixed_bodies.are_any(); }
 
     void try_disc() {
         const Species kind = !species_list_.empty() && one_in(2)
@@ -129,7 +129,7 @@ private:
                  (of({-1, 1}) * std::sqrt(square) / apart) * Point{-d.y, d.x};
     }
     void on_segment(double radius, Point& at) {
-        const auto& segments = effects().obstacles.segments;
+        const auto& segments = effects().fixed_bodies.segments;
         if (segments.empty()) return;
         const Segment& s = segments[random_.index(segments.size())];
         const Point along{s.x1 - s.x0, s.y1 - s.y0};

@@ -67,8 +67,8 @@ TestScene transposed(const TestScene& scene) {
     std::swap(effects.boundaries[0], effects.boundaries[2]);
     std::swap(effects.boundaries[1], effects.boundaries[3]);
     std::swap(effects.gravity.x, effects.gravity.y);
-    for (FixedDisc& body : effects.obstacles.discs) std::swap(body.x, body.y);
-    for (Segment& body : effects.obstacles.segments) {
+    for (FixedDisc& body : effects.fixed_bodies.discs) std::swap(body.x, body.y);
+    for (Segment& body : effects.fixed_bodies.segments) {
         std::swap(body.x0, body.y0);
         std::swap(body.x1, body.y1);
     }

@@ -22,7 +22,7 @@ constexpr std::array<const char*, n_force_parts> force_words{"fx", "fy", "torque
 class ObstacleForces : public Measurement, public WallFollower {
 public:
     explicit ObstacleForces(MeasuredRun& run)
-        : Measurement(run), rows_(rows_of(run.scene.effects.obstacles, run.scene.box)) {}
+        : Measurement(run), rows_(rows_of(run.scene.effects.fixed_bodies, run.scene.box)) {}
     ~ObstacleForces() override { followers().forget(*this); }
 
     void begin() override {
@@ -33,7 +33,7 @@ public:
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) {
             if (event.is_at_side()) continue;
-            ExactSum* const sums = &since_last_[n_force_parts * event.obstacle];
+            ExactSum* const sums = &since_last_[n_force_parts * event.body];
             sums[0].add(-event.ix);
             sums[1].add(-event.iy);
             sums[2].add(event.torque);
@@ -102,7 +102,7 @@ private:
                 for (std::size_t part = 0; part < n_force_parts; ++part)
                     over_time.back().push_back(rate_of(k, row, part));
             }
-            const ObstacleRow& one = rows_[row];
+            const BodyRow& one = rows_[row];
             table.rows.push_back({static_cast<double>(row + 1), one.x - run_.scene.origin.x,
                                   one.y - run_.scene.origin.y, one.length});
             for (const MeanAndError& mean : means_over_time(over_time))
@@ -159,7 +159,7 @@ private:
         return text;
     }
 
-    std::vector<ObstacleRow> rows_;
+    std::vector<BodyRow> rows_;
     double speed_scale_ = 0;           ///< typical speed, from which units of sums follow
     std::vector<ExactSum> since_last_; ///< numbers of each obstacle, on this rank
     std::vector<double> given_;        ///< sums over all ranks, for each interval
@@ -179,7 +179,7 @@ MeasuredQuantity obstacle_forces_quantity() {
                         .keys = {quantities_key},
                         .is_broken =
                             [](const SceneParameters& s) {
-                                return measures_forces(s) && !s.effects.obstacles.are_any();
+                                return measures_forces(s) && !s.effects.fixed_bodies.are_any();
                             }},
                        {.one = "\"obstacle_forces\"",
                         .other = "more than 10,000 obstacles",
@@ -187,7 +187,7 @@ MeasuredQuantity obstacle_forces_quantity() {
                         .keys = {quantities_key},
                         .is_broken =
                             [](const SceneParameters& s) {
-                                const ObstacleList& o = s.effects.obstacles;
+                                const FixedBodyList& o = s.effects.fixed_bodies;
                                 return measures_forces(s) && o.discs.size() + o.segments.size() +
                                                                      o.polygons.size() +
                                                                      o.arcs.size() >

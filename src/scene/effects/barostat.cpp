@@ -166,7 +166,7 @@ std::vector<Rule> rules_of_barostat() {
         rule(constant, "forces, drag or obstacles",
              "discs need straight flights in an empty box, which can change as a whole", keys,
              [](const SceneParameters& s) {
-                 return has_barostat(s) && (!s.effects.are_flights_free() || has_obstacles(s) ||
+                 return has_barostat(s) && (!s.effects.are_flights_free() || has_fixed_bodies(s) ||
                                             s.effects.field.is_on());
              }),
         rule(constant, "sides that are not all periodic, or sheared",

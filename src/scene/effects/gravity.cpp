@@ -68,8 +68,8 @@ bool are_stopped(const SceneParameters& s, std::size_t low) {
     };
     const bool is_energy_taken = are_pairs_lossy(e) || kind == ThermostatKind::rescale ||
                                  any(takes_energy) ||
-                                 (has_obstacles(s) && takes_energy(e.obstacles));
-    const bool is_momentum_taken = has_obstacles(s) ||
+                                 (has_fixed_bodies(s) && takes_energy(e.fixed_bodies));
+    const bool is_momentum_taken = has_fixed_bodies(s) ||
                                    any([](const Boundary& side) { return side.surface.rubs(); });
     return are_thermal || (is_energy_taken && is_momentum_taken);
 }
@@ -103,11 +103,12 @@ std::vector<Rule> rules_of_gravity() {
              [](const SceneParameters& s) {
                  return s.effects.gravity.sways() && s.effects.drag != 0;
              }),
-        rule(
-            "gravity that changes", "obstacles",
-            "contacts with bodies are found on straight lines and parabolas",
-            {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
-            [](const SceneParameters& s) { return s.effects.gravity.sways() && has_obstacles(s); }),
+        rule("gravity that changes", "obstacles",
+             "contacts with bodies are found on straight lines and parabolas",
+             {"effects.gravity.amplitude_x", "effects.gravity.amplitude_y"},
+             [](const SceneParameters& s) {
+                 return s.effects.gravity.sways() && has_fixed_bodies(s);
+             }),
         rule("gravity that changes", "contacts that last",
              "these are pressed by one force from sync to sync", {"effects.lasting_contacts.speed"},
              [](const SceneParameters& s) {

@@ -38,7 +38,8 @@ std::vector<Rule> rules_of_growth() {
              "growing discs need straight flights in an empty box, on which contacts are found",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growing_discs(s) && (!s.effects.are_flights_free() || has_obstacles(s));
+                 return has_growing_discs(s) &&
+                        (!s.effects.are_flights_free() || has_fixed_bodies(s));
              }),
         rule("growing discs", "sides that are no smooth walls at rest, and not periodic",
              "growing discs need sides that stay where they are, do not rub and let nothing out",

@@ -17,7 +17,7 @@ namespace carrom {
 
 namespace {
 
-const Need some_obstacles{no_obstacles, has_obstacles};
+const Need some_obstacles{no_obstacles, has_fixed_bodies};
 
 /// The largest coordinate and radius of an arc, relative to the box's longer edge. Centres farther
 /// away would lose digits.
@@ -32,7 +32,7 @@ Key arcs_key() {
                   .with_rows({{"", "[x, y, radius] or [x, y, radius, from, to]", 3, 5}});
     key.get = [](const SceneParameters& s) {
         Values rows;
-        for (const Arc& arc : s.effects.obstacles.arcs) {
+        for (const Arc& arc : s.effects.fixed_bodies.arcs) {
             Numbers row{arc.x, arc.y, arc.radius};
             if (arc.from != 0 || arc.to != 360) row.insert(row.end(), {arc.from, arc.to});
             rows.push_back({std::move(row)});
@@ -40,12 +40,12 @@ Key arcs_key() {
         return Value{std::move(rows)};
     };
     key.set = [](SceneParameters& s, const Value& value) {
-        s.effects.obstacles.arcs.clear();
+        s.effects.fixed_bodies.arcs.clear();
         for (const Value& row : std::get<Values>(value.data))
             if (const auto* n = std::get_if<Numbers>(&row.data)) {
                 Arc arc{(*n)[0], (*n)[1], (*n)[2]};
                 if (n->size() == 5) arc.from = (*n)[3], arc.to = (*n)[4];
-                s.effects.obstacles.arcs.push_back(arc);
+                s.effects.fixed_bodies.arcs.push_back(arc);
             }
     };
     return key;
@@ -59,14 +59,14 @@ Key polygons_key() {
                   .with_rows({{"", "[x0, y0, x1, y1, x2, y2, ...]", 6, 2000}});
     key.get = [](const SceneParameters& s) {
         Values rows;
-        for (const Polygon& polygon : s.effects.obstacles.polygons) rows.push_back({polygon});
+        for (const Polygon& polygon : s.effects.fixed_bodies.polygons) rows.push_back({polygon});
         return Value{std::move(rows)};
     };
     key.set = [](SceneParameters& s, const Value& value) {
-        s.effects.obstacles.polygons.clear();
+        s.effects.fixed_bodies.polygons.clear();
         for (const Value& row : std::get<Values>(value.data))
             if (const auto* n = std::get_if<Numbers>(&row.data))
-                s.effects.obstacles.polygons.push_back(*n);
+                s.effects.fixed_bodies.polygons.push_back(*n);
     };
     return key;
 }
@@ -77,19 +77,19 @@ std::vector<Key> keys_of_obstacles() {
             "What discs move in: the box, the largest circle in it, or two half circles joined by "
             "straight walls along the longer edge. Packing and pressure refer to its area, "
             "and keys of 'effects.obstacles' to its wall.",
-            [](auto& s) -> auto& { return s.effects.obstacles.shape; }),
+            [](auto& s) -> auto& { return s.effects.fixed_bodies.shape; }),
         key("effects.obstacles.discs", "length", "Fixed discs; a radius of 0 is a point.",
-            [](auto& s) -> auto& { return s.effects.obstacles.discs; })
+            [](auto& s) -> auto& { return s.effects.fixed_bodies.discs; })
             .with_rows({{"", "[x, y, radius]", 3, 3}}),
         key("effects.obstacles.segments", "length",
             "Straight walls without thickness; discs meet both faces and both ends.",
-            [](auto& s) -> auto& { return s.effects.obstacles.segments; })
+            [](auto& s) -> auto& { return s.effects.fixed_bodies.segments; })
             .with_rows({{"", "[x0, y0, x1, y1]", 4, 4}}),
         arcs_key(),
         polygons_key(),
         key("effects.obstacles.restitution", "1",
             "Share of the normal velocity that is left, of all obstacles.",
-            [](auto& s) -> auto& { return s.effects.obstacles.restitution; })
+            [](auto& s) -> auto& { return s.effects.fixed_bodies.restitution; })
             .within(Range{0, 1})
             .needs(some_obstacles),
     };
@@ -101,26 +101,27 @@ std::vector<Rule> rules_of_obstacles() {
              "contacts with bodies are found on straight lines and parabolas",
              {"effects.drag.rate"},
              [](const SceneParameters& s) {
-                 return has_obstacles(s) && s.effects.drag > 0 && s.effects.acceleration().is_on();
+                 return has_fixed_bodies(s) && s.effects.drag > 0 &&
+                        s.effects.acceleration().is_on();
              }),
         rule("obstacles", "walls that move",
              "obstacles need walls at rest: a disc between the two would have no way out",
              {"effects.obstacles.discs", "effects.obstacles.segments", "effects.obstacles.arcs",
               "effects.obstacles.polygons"},
              [](const SceneParameters& s) {
-                 return has_obstacles(s) && !are_walls_at_rest(s.effects);
+                 return has_fixed_bodies(s) && !are_walls_at_rest(s.effects);
              }),
         rule("box.shape = \"round\" or \"stadium\"", "sides that are not plain walls",
              "discs never meet the sides there; 'effects.obstacles' has the keys of the wall",
              {"box.shape"},
              [](const SceneParameters& s) {
-                 return s.effects.obstacles.has_shape() && !s.effects.have_plain_boundaries();
+                 return s.effects.fixed_bodies.has_shape() && !s.effects.have_plain_boundaries();
              }),
         rule("box.shape = \"round\" or \"stadium\"",
              "\"radial_distribution\", \"wall_pressure\" or \"wall_exchange\"",
              "these quantities need a rectangle and its sides", {"box.shape"},
              [](const SceneParameters& s) {
-                 return s.effects.obstacles.has_shape() && s.measurements &&
+                 return s.effects.fixed_bodies.has_shape() && s.measurements &&
                         (s.measurements->measures("radial_distribution") ||
                          s.measurements->measures("wall_pressure") ||
                          s.measurements->measures("wall_exchange"));
@@ -130,7 +131,7 @@ std::vector<Rule> rules_of_obstacles() {
              "lattice, list them, or freeze some of them (discs.freeze)",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
              [](const SceneParameters& s) {
-                 return s.effects.obstacles.are_any() &&
+                 return s.effects.fixed_bodies.are_any() &&
                         (s.generator == Generator::triangular ||
                          s.generator == Generator::compressed || s.generator == Generator::legacy);
              }),
@@ -167,7 +168,7 @@ void check_arcs(const SceneDraft& draft) {
 
 void check_shape(const SceneDraft& draft) {
     const Box& box = draft.scene.box;
-    const BoxShape shape = draft.scene.effects.obstacles.shape;
+    const BoxShape shape = draft.scene.effects.fixed_bodies.shape;
     if (shape == BoxShape::round && !box.is_square())
         draft.refuse({"box.shape"}, fmt::format("box.shape = \"round\" needs a square, not a box "
                                                 "of {}; try: \"stadium\"",
@@ -225,7 +226,7 @@ void check_obstacles(const SceneDraft& draft) {
 }
 
 std::string summary_of_obstacles(const Effects& effects) {
-    const ObstacleList& all = effects.obstacles;
+    const FixedBodyList& all = effects.fixed_bodies;
     if (!all.are_any()) return {};
     const auto counted = [](std::size_t n, const char* what) {
         return n == 0 ? std::string() : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
@@ -254,11 +255,11 @@ EffectDeclaration obstacles() {
         .summary = summary_of_obstacles,
         .allowance =
             [](const Effects& e) {
-                return CheckAllowance{.collisions_take_energy = e.obstacles.restitution < 1};
+                return CheckAllowance{.collisions_take_energy = e.fixed_bodies.restitution < 1};
             },
-        .lets_discs_rest = [](const Effects& e) { return e.obstacles.restitution < 1; },
+        .lets_discs_rest = [](const Effects& e) { return e.fixed_bodies.restitution < 1; },
         .common_motion = [](const Effects& e,
-                            Axis) { return CommonMotion{.is_stopped = e.obstacles.are_any()}; }};
+                            Axis) { return CommonMotion{.is_stopped = e.fixed_bodies.are_any()}; }};
 }
 
 } // namespace effects

@@ -57,14 +57,14 @@ std::vector<Key> keys_of_rubbing() {
                      : "Velocity of the surface along +x; the side stays where it is.");
     }
     add_surface(
-        all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.obstacles.surface; },
-        {no_obstacles, has_obstacles},
+        all, "effects.obstacles", [](auto& s) -> auto& { return s.effects.fixed_bodies.surface; },
+        {no_obstacles, has_fixed_bodies},
         {"without effects.obstacles.tangential_restitution above -1",
          [](const SceneParameters& s) {
-             return s.effects.obstacles.surface.tangential_restitution != -1;
+             return s.effects.fixed_bodies.surface.tangential_restitution != -1;
          }},
         {"without effects.obstacles.tangential_restitution above -1",
-         [](const SceneParameters& s) { return s.effects.obstacles.surface.rubs(); }},
+         [](const SceneParameters& s) { return s.effects.fixed_bodies.surface.rubs(); }},
         "Velocity of the surface, counterclockwise around the body, which stays where it is. Arcs "
         "and the wall of a 'box.shape' turn around their centre.");
     return all;
@@ -80,7 +80,7 @@ void check_room_of_rubbing(const SceneDraft& draft) {
     };
     for (std::size_t side = 0; side < boundary_names.size(); ++side)
         hold(std::string("box.") + boundary_names[side], effects.boundaries[side].surface);
-    hold("effects.obstacles", effects.obstacles.surface);
+    hold("effects.obstacles", effects.fixed_bodies.surface);
 }
 
 std::string text_of(const Surface& surface) {
@@ -103,7 +103,7 @@ std::string summary_of_rubbing(const Effects& effects) {
     for (std::size_t side = 0; side < boundary_names.size(); ++side)
         add(fmt::format("{} wall", boundary_names[side]),
             text_of(effects.boundaries[side].surface));
-    if (effects.obstacles.are_any()) add("obstacle", text_of(effects.obstacles.surface));
+    if (effects.fixed_bodies.are_any()) add("obstacle", text_of(effects.fixed_bodies.surface));
     return all;
 }
 
@@ -115,7 +115,7 @@ CheckAllowance allowance_of_rubbing(const Effects& effects) {
         allowance.walls_give_energy |= surface.velocity != 0;
     };
     for (const Boundary& side : effects.boundaries) add(side.surface);
-    if (effects.obstacles.are_any()) add(effects.obstacles.surface);
+    if (effects.fixed_bodies.are_any()) add(effects.fixed_bodies.surface);
     return allowance;
 }
 
@@ -128,12 +128,13 @@ CommonMotion common_motion_by_surfaces(const Effects& effects, Axis axis) {
         motion.is_stopped |= slides(one);
         motion.is_driven |= slides(one) && one.surface.velocity != 0;
     }
-    motion.is_driven |= effects.obstacles.are_any() && effects.obstacles.surface.velocity != 0;
+    motion.is_driven |= effects.fixed_bodies.are_any() &&
+                        effects.fixed_bodies.surface.velocity != 0;
     return motion;
 }
 
 double usual_speed_of_surfaces(const SceneParameters& scene) {
-    double speed = std::fabs(scene.effects.obstacles.surface.velocity);
+    double speed = std::fabs(scene.effects.fixed_bodies.surface.velocity);
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.surface.velocity));
     return speed;

@@ -56,7 +56,7 @@ std::vector<Rule> rules_of_shear() {
              {"effects.drag.rate", "effects.obstacles.discs", "effects.obstacles.segments",
               "effects.obstacles.arcs", "effects.obstacles.polygons", "box.shape"},
              [](const SceneParameters& s) {
-                 return s.effects.are_sheared() && (s.effects.drag != 0 || has_obstacles(s));
+                 return s.effects.are_sheared() && (s.effects.drag != 0 || has_fixed_bodies(s));
              }),
         rule("sheared sides", "\"image\"", "images move: whole numbers do not say where they are",
              {"output.trajectory.fields"},

@@ -9,7 +9,7 @@
 //      Each number is in one pair at most. A disc in a pair may have the larger radius of the two
 //      afterwards: call that its room. A disc without a proposal has its radius as its room.
 //   2. A pair is accepted if both discs fit: each is as far from every neighbour, except from each
-//      other, as the room of both together, and from walls and obstacles as its room.
+//      other, as the room of both together, and from walls and fixed bodies as its room.
 //   3. The discs of accepted pairs exchange their numbers, all at once.
 // No overlap can follow, because no radius exceeds its disc's room. Detailed balance: the rooms are
 // the same before and after, whichever pairs are accepted, because a pair of numbers has the same
@@ -32,7 +32,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "scene/boundaries/boundary.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/effects/sync_times.hpp"
@@ -111,28 +111,25 @@ private:
 /// Rooms and distances of discs that touch must not differ by rounding.
 constexpr double with_rounding = 1 + 0x1p-40;
 
-/// Walls and obstacles at rest. Discs that are frozen are obstacles.
+/// Walls and fixed bodies at rest.
 class BodiesAtRest {
 public:
     explicit BodiesAtRest(const SceneParameters& scene)
         : box_(scene.box), has_walls_x_(!scene.effects.is_periodic_x()),
-          has_walls_y_(!scene.effects.is_periodic_y()) {
-        if (scene.effects.obstacles.are_any())
-            obstacles_.emplace(scene.box, scene.radius, scene.effects);
-    }
+          has_walls_y_(!scene.effects.is_periodic_y()),
+          fixed_bodies_(scene.box, scene.radius, scene.effects) {}
 
     bool leave_room(const DiscState& disc, double room) const {
         room *= with_rounding;
         if (has_walls_x_ && !(disc.x >= room && box_.x - disc.x >= room)) return false;
         if (has_walls_y_ && !(disc.y >= room && box_.y - disc.y >= room)) return false;
-        return !obstacles_ || obstacles_->deepest_overlap(disc.x, disc.y, room, 0).body ==
-                                  ObstacleContact::no_body;
+        return !fixed_bodies_.do_overlap(disc.x, disc.y, room);
     }
 
 private:
     Box box_;
     bool has_walls_x_, has_walls_y_;
-    std::optional<Obstacles> obstacles_;
+    FixedBodies fixed_bodies_;
 };
 
 class SwapMoves final : public SyncEffect {

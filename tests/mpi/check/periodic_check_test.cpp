@@ -89,7 +89,7 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
                 test.setting.effects.contact = {ContactKind::restitution, 0.95, 0.001};
                 if (method == Method::event_driven) test.setting.effects.gravity = {0, -0.01};
             }
-            test.setting.effects.obstacles = {
+            test.setting.effects.fixed_bodies = {
                 {{0, 0, 1}, {test.setting.box_size, 9, 0.5}}, {{0, 15, 5, 18}}, 1};
             std::erase_if(test.discs, [&](const InputDisc& disc) { // those that are in the way
                 const auto far = [&](double x, double y, double reach) {
@@ -138,7 +138,7 @@ TEST_CASE("check: an overlap across a seam is found, of discs that are as large 
 TEST_CASE("check: a disc in an obstacle is found, across a seam too") {
     TestScene test = empty_scene("into a body", 40, 1, 10);
     test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
-    test.setting.effects.obstacles = {{{20, 20, 1}, {39, 10, 2}}, {}, 1};
+    test.setting.effects.fixed_bodies = {{{20, 20, 1}, {39, 10, 2}}, {}, 1};
     add_disc(test, 4, 10, -2, 0); // 3 from its centre then
     add_disc(test, 10, 30, 1, 0);
     CHECK_FALSE(failure_of_flight(test, Communicator::world()));

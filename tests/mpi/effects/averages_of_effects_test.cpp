@@ -78,9 +78,9 @@ TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obst
 
     TestScene lorentz = swarm(0.5, 160);
     const double size = lorentz.setting.box_size;
-    lorentz.setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.1 * size}},
-                                         {{0.5 * size, 0.8 * size, 0.8 * size, 0.6 * size}},
-                                         1};
+    lorentz.setting.effects.fixed_bodies = {{{0.3 * size, 0.4 * size, 0.1 * size}},
+                                            {{0.5 * size, 0.8 * size, 0.8 * size, 0.6 * size}},
+                                            1};
     make_room_for_obstacles(lorentz);
     const Averages among_obstacles = averages_of(lorentz);
     CHECK(among_obstacles.mean_speed.value == Approx(0.5).epsilon(1e-12));

@@ -107,7 +107,7 @@ void split_into_species(Plan& plan) {
 void put_obstacles(Plan& plan) {
     reference::Setting& setting = plan.scene.setting;
     const double size = setting.box_size;
-    setting.effects.obstacles = {
+    setting.effects.fixed_bodies = {
         {{0.3 * size, 0.4 * size, 0.05 * size}, {0.7 * size, 0.6 * size, 0}},
         {{0, 0.3 * size, 0.25 * size, 0.2 * size},
          {0.55 * size, 0.8 * size, 0.7 * size, 0.75 * size}},

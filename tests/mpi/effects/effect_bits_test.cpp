@@ -27,7 +27,7 @@ std::vector<TestScene> obstructed_scenes() {
         scene.setting.sync_every = 5;
         scene.setting.micro_steps = 2;
         const double size = scene.setting.box_size;
-        ObstacleList& list = scene.setting.effects.obstacles;
+        FixedBodyList& list = scene.setting.effects.fixed_bodies;
         Random random(513);
         for (int k = 0; k < 12; ++k)
             list.discs.push_back({random.uniform(0, size), random.uniform(0, size),
@@ -100,7 +100,7 @@ TEST_CASE("effects: obstacles have the references' bits, with restitution, gravi
         Effects& effects = scene.setting.effects;
         for (const Method method : {Method::time_stepped, Method::event_driven})
             check_bits(scene, method);
-        effects.obstacles.restitution = 0.7;
+        effects.fixed_bodies.restitution = 0.7;
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
         for (const Method method : {Method::time_stepped, Method::event_driven})
             check_bits(scene, method);

@@ -8,7 +8,7 @@
 
 #include "dynamics/drag.hpp"
 #include "dynamics/falling_frame.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 
 namespace carrom::test {
 
@@ -67,10 +67,10 @@ void check_shared_run(const TestScene& scene, Method method, const Communicator&
 
 void make_room_for_obstacles(TestScene& scene) {
     const reference::Setting& setting = scene.setting;
-    const Obstacles obstacles(setting.box(), setting.radius, setting.effects);
+    const FixedBodies obstacles(setting.box(), setting.radius, setting.effects);
     for (const InputDisc& disc : std::exchange(scene.discs, {}))
         if (obstacles.deepest_overlap(disc.x, disc.y, setting.radius, 0).body ==
-            ObstacleContact::no_body)
+            BodyContact::no_body)
             add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
 }
 

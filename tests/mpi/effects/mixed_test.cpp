@@ -45,7 +45,7 @@ std::vector<TestScene> mixtures() {
 void put_bodies_between(TestScene& scene, std::size_t n, std::uint64_t seed) {
     Random random(seed);
     const double size = scene.setting.box_size;
-    ObstacleList& list = scene.setting.effects.obstacles;
+    FixedBodyList& list = scene.setting.effects.fixed_bodies;
     const auto is_clear = [&scene](double x, double y, double ux, double uy, double length) {
         return std::all_of(scene.discs.begin(), scene.discs.end(), [&](const InputDisc& disc) {
             const double along = std::clamp(ux * (disc.x - x) + uy * (disc.y - y), 0.0, length);
@@ -88,7 +88,7 @@ TEST_CASE("effects: mixtures have the references' bits, alone and with other eff
 TEST_CASE("effects: mixtures among obstacles have the references' bits") {
     for (TestScene scene : mixtures()) {
         put_bodies_between(scene, 5, 711);
-        scene.setting.effects.obstacles.restitution = 0.9;
+        scene.setting.effects.fixed_bodies.restitution = 0.9;
         for (InputDisc& disc : scene.discs)
             disc.vx *= 2, disc.vy *= 2; // so that many meet something else in the same micro-step
         for (const Method method : {Method::time_stepped, Method::event_driven})

@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "effect_runs.hpp"
 #include "parallel/exchange.hpp"
 
@@ -24,7 +24,7 @@ constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
     TestScene scene = empty_scene("Lorentz gas", 10 * static_cast<double>(n), 0.25, 1);
     Random random(701);
-    ObstacleList& list = scene.setting.effects.obstacles;
+    FixedBodyList& list = scene.setting.effects.fixed_bodies;
     if (is_periodic) scene.setting.effects.boundaries.fill(periodic);
     const auto place = [&](std::size_t k) {
         return std::fmod(10 * static_cast<double>(k) + random.uniform(3.5, 6.5) +
@@ -36,13 +36,13 @@ TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
         list.discs.push_back({x, place(k / n), 2});
     }
     scene.setting.effects.contact.kind = ContactKind::none;
-    const Obstacles obstacles(scene.setting.box_size, scene.setting.radius, scene.setting.effects);
+    const FixedBodies obstacles(scene.setting.box_size, scene.setting.radius,
+                                scene.setting.effects);
     while (scene.discs.size() < n_discs) {
         const double x = random.uniform(0.25, scene.setting.box_size - 0.25),
                      y = random.uniform(0.25, scene.setting.box_size - 0.25);
         const auto [vx, vy] = random.direction();
-        if (obstacles.deepest_overlap(x, y, scene.setting.radius, 0).body ==
-            ObstacleContact::no_body)
+        if (obstacles.deepest_overlap(x, y, scene.setting.radius, 0).body == BodyContact::no_body)
             add_disc(scene, x, y, 0.5 * vx, 0.5 * vy);
     }
     return scene;
@@ -53,8 +53,8 @@ TestScene sinai_billiard(bool is_periodic, double moved) {
     TestScene scene = empty_scene("Sinai's billiard", 20, 0.5, is_periodic ? 96 : 64);
     if (is_periodic) scene.setting.effects.boundaries.fill(periodic);
     const auto at = [moved](double place) { return std::fmod(place + moved, 20); };
-    scene.setting.effects.obstacles.discs = {{at(10), at(10), 3}};
-    scene.setting.effects.obstacles.segments = {{at(2), at(12), at(5), at(17)}};
+    scene.setting.effects.fixed_bodies.discs = {{at(10), at(10), 3}};
+    scene.setting.effects.fixed_bodies.segments = {{at(2), at(12), at(5), at(17)}};
     add_disc(scene, at(3), at(4), 0.6, 0.35);
     add_disc(scene, at(16), at(5), -0.4, 0.3);
     return scene;
@@ -164,7 +164,7 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
     scene.setting.effects.contact.kind = ContactKind::none;
     for (int row = 0; row < 30; ++row)
         for (int k = 0; k < 26; ++k)
-            scene.setting.effects.obstacles.discs.push_back(
+            scene.setting.effects.fixed_bodies.discs.push_back(
                 {(k + 0.5 * (row % 2)) * spacing, row * size / 30, 1 - point});
     Random random(761);
     while (scene.discs.size() < n_discs) {
@@ -209,7 +209,7 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
           "rest on them") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("pins", 60, 0.5, 300);
-    ObstacleList& list = scene.setting.effects.obstacles;
+    FixedBodyList& list = scene.setting.effects.fixed_bodies;
     for (int row = 0; row < 6; ++row)
         for (int k = 0; k < 9; ++k)
             list.discs.push_back({6.0 * k + (row % 2 == 0 ? 3 : 6), 10.0 + 6 * row, 0.5});
@@ -239,7 +239,8 @@ TEST_CASE("effects: discs of several species meet obstacles where their own radi
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("two sizes", 100, 1, 20);
     scene.setting.effects.species = {{2, 1, 3}, {2, 0.3, 0.1}};
-    scene.setting.effects.obstacles = {{{50, 50, 4}}, {{50, 0, 50, 19.25}, {50, 20.75, 50, 45}}, 1};
+    scene.setting.effects.fixed_bodies = {
+        {{50, 50, 4}}, {{50, 0, 50, 19.25}, {50, 20.75, 50, 45}}, 1};
     add_disc(scene, 10, 50, 2, 0);
     add_disc(scene, 20, 20, 2, 0); // to a slit of 1.5
     add_disc(scene, 90, 50, -2, 0);

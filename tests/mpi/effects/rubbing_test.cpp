@@ -137,7 +137,7 @@ TEST_CASE("effects: obstacles that rub act on velocity and spin as mechanics say
                 for (const Method method : {Method::time_stepped, Method::event_driven}) {
                     TestScene scene = empty_scene("to an obstacle", 64, 2, 30);
                     add_disc(scene, 16, 32, 1, 0.125);
-                    ObstacleList& obstacles = scene.setting.effects.obstacles;
+                    FixedBodyList& obstacles = scene.setting.effects.fixed_bodies;
                     obstacles.restitution = 0.75;
                     obstacles.surface = surface;
                     if (is_segment)
@@ -221,8 +221,8 @@ TEST_CASE("effects: walls that rub and slide give the same bits on every shape, 
                 effects.boundaries[0] = effects.boundaries[1] = periodic;
                 if (method == Method::event_driven) effects.gravity = {0.002, -0.001};
             } else {
-                effects.obstacles.segments = {{20, 20, 30, 24}};
-                effects.obstacles.surface = {0, 0.5, 0.1};
+                effects.fixed_bodies.segments = {{20, 20, 30, 24}};
+                effects.fixed_bodies.surface = {0, 0.5, 0.1};
                 make_room_for_obstacles(scene);
             }
             check_shared_run(scene, method, world);

@@ -103,7 +103,7 @@ TEST_CASE("periodic: gravity along periodic sides with bodies has the reference'
         for (const TestScene& base : {base_scenes()[0], base_scenes()[1]}) {
             TestScene scene = among_bodies(base, boundaries);
             scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.002};
-            scene.setting.effects.obstacles.restitution = 0.6;
+            scene.setting.effects.fixed_bodies.restitution = 0.6;
             scene.setting.falling_contact = falling_contact;
             for (const Acceleration& gravity :
                  {Acceleration{0.01, -0.03}, Acceleration{-0.2, 0.3}}) {

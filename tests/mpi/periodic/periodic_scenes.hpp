@@ -110,7 +110,7 @@ inline TestScene between_warm_walls(const TestScene& base) {
 inline TestScene among_bodies(const TestScene& base, const std::array<Boundary, 4>& boundaries) {
     TestScene scene = moved_along(base, boundaries);
     const double size = scene.setting.box_size;
-    scene.setting.effects.obstacles = {
+    scene.setting.effects.fixed_bodies = {
         {{0, 0, 0.08 * size}, {0.99 * size, 0.5 * size, 0.04 * size}, {0.4 * size, size, 0}},
         {{0, 0.3 * size, 0.2 * size, 0.35 * size},
          {0.995 * size, 0.7 * size, 0.995 * size, 0.9 * size},
@@ -127,7 +127,7 @@ inline TestScene sinai(const char* name, double radius, double reach, double spe
     TestScene scene = empty_scene(name, 10, radius, 12);
     scene.setting.sync_every = 5;
     scene.setting.effects.boundaries = both;
-    scene.setting.effects.obstacles.discs = {{0, 0, reach - radius}};
+    scene.setting.effects.fixed_bodies.discs = {{0, 0, reach - radius}};
     add_disc(scene, x, y, 10 * speed * std::cos(angle), 10 * speed * std::sin(angle));
     return scene;
 }
@@ -136,7 +136,7 @@ inline TestScene sinai(const char* name, double radius, double reach, double spe
 /// one at once; flights of many boxes; a disc on a seam that touches a body from the other side.
 inline std::vector<TestScene> scenes_of_one_disc() {
     TestScene touching = sinai("a disc on the seam at a body", 1, 3, 0.3, 0, 5, 0.2);
-    touching.setting.effects.obstacles.discs = {{7, 5, 2}};
+    touching.setting.effects.fixed_bodies.discs = {{7, 5, 2}};
     return {sinai("a body of nearly half the box", 0.5, 4.9, 0.7, 5, 5, 0.3),
             sinai("a trap", 1, 6, 0.5, 5, 5, 0.4),
             sinai("a trap, along its axis", 1, 6, 0.5, 5, 5, std::acos(0.0)),

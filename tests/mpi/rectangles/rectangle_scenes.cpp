@@ -19,7 +19,7 @@ void add(std::vector<Case>& all, const TestScene& base, const char* what, const 
     if (is_for_both) all.push_back({scene, Method::time_stepped});
 }
 
-ObstacleList bodies_in(const Box& box) {
+FixedBodyList bodies_in(const Box& box) {
     return {{{0.3 * box.x, 0.4 * box.y, 2}, {0.8 * box.x, 0.9 * box.y, 1.5}, {0, 0.2 * box.y, 1}},
             {{0.5 * box.x, 0.1 * box.y, 0.6 * box.x, 0.8 * box.y},
              {0.1 * box.x, 0.9 * box.y, 0.2 * box.x, 0.6 * box.y}},
@@ -71,7 +71,7 @@ void add_bodies(std::vector<Case>& all, const TestScene& base) {
          {std::pair(std::array<Boundary, 4>{}, "bodies"), {all_round, "bodies, periodic"}}) {
         TestScene scene = base;
         scene.setting.effects.boundaries = boundaries;
-        scene.setting.effects.obstacles = bodies_in(scene.setting.box());
+        scene.setting.effects.fixed_bodies = bodies_in(scene.setting.box());
         make_room_for_obstacles(scene);
         add(all, scene, name, scene.setting.effects);
     }

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 
 #include "dynamics/container.hpp"
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 #include "flying_discs.hpp"
 
 using namespace carrom;
@@ -19,21 +19,20 @@ namespace {
 
 Effects one_arc(const Arc& arc) {
     Effects effects;
-    effects.obstacles.arcs = {arc};
+    effects.fixed_bodies.arcs = {arc};
     return effects;
 }
 
 Effects shaped(BoxShape shape) {
     Effects effects;
-    effects.obstacles.shape = shape;
+    effects.fixed_bodies.shape = shape;
     return effects;
 }
 
 /// Reflects `disc` at the first obstacle it comes to, without the one that it has just left.
-ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radius,
-                        std::uint32_t left = ObstacleContact::no_body) {
-    const ObstacleContact contact = obstacles.first_contact(disc, radius,
-                                                            {disc.tau, 1e9, true, left});
+BodyContact reflect(const FixedBodies& obstacles, DiscState& disc, double radius,
+                    std::uint32_t left = BodyContact::no_body) {
+    const BodyContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e9, true, left});
     if (!contact.exists()) return contact;
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
     obstacles.rebound(disc, contact.body, contact.time, never, {nullptr, radius});
@@ -74,14 +73,14 @@ double touch_by_steps(const DiscState& disc, const Acceleration& g, double radiu
 } // namespace
 
 TEST_CASE("arcs: faces are met a radius away from them, from outside and from inside") {
-    const Obstacles circle(100, 1, one_arc({50, 50, 10}));
+    const FixedBodies circle(100, 1, one_arc({50, 50, 10}));
     DiscState outside = flying(20, 50, 2, 0), inside = flying(50, 50, 0, 3);
     CHECK(reflect(circle, outside, 1).time == 9.5);
     CHECK(outside.vx == -2);
     CHECK(reflect(circle, inside, 1).time == 3);
     CHECK(inside.vy == -3);
     // A half circle that is open to the left: nothing stops a disc on the way in.
-    const Obstacles half(100, 1, one_arc({50, 50, 10, -90, 90}));
+    const FixedBodies half(100, 1, one_arc({50, 50, 10, -90, 90}));
     DiscState guest = flying(20, 50, 2, 0);
     CHECK(reflect(half, guest, 1).time == 19.5);
     DiscState past = flying(20, 61.5, 2, 0);
@@ -91,13 +90,13 @@ TEST_CASE("arcs: faces are met a radius away from them, from outside and from in
     CHECK(end.vx == -2);
     // Larger than the arc, a disc comes to its ends alone.
     DiscState large = flying(20, 50, 2, 0);
-    const Obstacles small(100, 20, one_arc({50, 50, 10, -90, 90}));
+    const FixedBodies small(100, 20, one_arc({50, 50, 10, -90, 90}));
     CHECK(reflect(small, large, 20).time == Approx((30 - std::sqrt(400.0 - 100)) / 2));
 }
 
 TEST_CASE("arcs: a disc alone in a round box keeps energy, angular momentum and chord") {
     std::mt19937_64 random(5901);
-    const Obstacles box(100, 2, shaped(BoxShape::round));
+    const FixedBodies box(100, 2, shaped(BoxShape::round));
     for (int k = 0; k < 20; ++k) {
         DiscState disc = flying(uniform(random, 30, 70), uniform(random, 30, 70),
                                 uniform(random, -1, 1), uniform(random, -1, 1));
@@ -105,12 +104,12 @@ TEST_CASE("arcs: a disc alone in a round box keeps energy, angular momentum and 
         const auto momentum = [&] { return (disc.x - 50) * disc.vy - (disc.y - 50) * disc.vx; };
         const double turns = momentum(), reach = 50 * (1 - 0x1p-30) - 2,
                      chord = 2 * std::sqrt(reach * reach - turns * turns / (speed * speed));
-        std::uint32_t left = ObstacleContact::no_body;
+        std::uint32_t left = BodyContact::no_body;
         double last = 0;
         for (int n = 0; n < 1000; ++n) {
             // Times begin anew, as they do at syncs.
             disc.tau = 0;
-            const ObstacleContact contact = reflect(box, disc, 2, left);
+            const BodyContact contact = reflect(box, disc, 2, left);
             REQUIRE(contact.exists());
             if (n > 0) REQUIRE(contact.time * speed == Approx(chord).epsilon(1e-11));
             left = contact.body;
@@ -131,21 +130,20 @@ TEST_CASE("arcs: under gravity the first contact is that of small steps") {
         const Arc arc{0, 0, uniform(random, 3, 8), from, from + uniform(random, 20, 340)};
         Effects effects;
         effects.gravity = g;
-        effects.obstacles.arcs = {{arc.x + 50, arc.y + 50, arc.radius, arc.from, arc.to}};
+        effects.fixed_bodies.arcs = {{arc.x + 50, arc.y + 50, arc.radius, arc.from, arc.to}};
         const double radius = uniform(random, 0.2, 1);
-        const Obstacles obstacles(100, radius, effects);
+        const FixedBodies obstacles(100, radius, effects);
         const double start = k % 2 == 0 ? 1.5 : 20;
         DiscState disc = flying(50 + uniform(random, -start, start),
                                 50 + uniform(random, -start, start), uniform(random, -2, 2),
                                 uniform(random, -2, 2));
-        if (obstacles.deepest_overlap(disc.x, disc.y, radius, -1e-2).body !=
-            ObstacleContact::no_body)
+        if (obstacles.deepest_overlap(disc.x, disc.y, radius, -1e-2).body != BodyContact::no_body)
             continue;
         DiscState from_centre = disc;
         from_centre.x -= 50;
         from_centre.y -= 50;
         const double known = touch_by_steps(from_centre, g, radius, arc, 30);
-        const ObstacleContact found = obstacles.first_contact(disc, radius, {0, 30});
+        const BodyContact found = obstacles.first_contact(disc, radius, {0, 30});
         CHECK(found.exists() == (known < never));
         if (found.exists()) CHECK(found.time == Approx(known).margin(1e-6));
         n_found += found.exists();
@@ -164,15 +162,15 @@ TEST_CASE("arcs: in cells or one by one, the first contact is the same") {
             std::vector<Effects> singles;
             for (int k = 0; k < 100; ++k) {
                 Effects single = effects;
-                single.obstacles = {};
+                single.fixed_bodies = {};
                 const double from = uniform(random, -180, 180);
-                single.obstacles.arcs = {{uniform(random, 0, 100), uniform(random, 0, 100),
-                                          uniform(random, 0.2, 6), from,
-                                          from + uniform(random, 10, 360)}};
-                effects.obstacles.arcs.push_back(single.obstacles.arcs[0]);
+                single.fixed_bodies.arcs = {{uniform(random, 0, 100), uniform(random, 0, 100),
+                                             uniform(random, 0.2, 6), from,
+                                             from + uniform(random, 10, 360)}};
+                effects.fixed_bodies.arcs.push_back(single.fixed_bodies.arcs[0]);
                 singles.push_back(single);
             }
-            const Obstacles all(100, 0.5, effects);
+            const FixedBodies all(100, 0.5, effects);
             int n_found = 0;
             for (int k = 0; k < 200; ++k) {
                 const DiscState disc = flying(uniform(random, 1, 99), uniform(random, 1, 99),
@@ -180,8 +178,9 @@ TEST_CASE("arcs: in cells or one by one, the first contact is the same") {
                 double first = never;
                 for (const Effects& single : singles)
                     first = std::min(
-                        first, Obstacles(100, 0.5, single).first_contact(disc, 0.5, {0, 20}).time);
-                const ObstacleContact found = all.first_contact(disc, 0.5, {0, 20});
+                        first,
+                        FixedBodies(100, 0.5, single).first_contact(disc, 0.5, {0, 20}).time);
+                const BodyContact found = all.first_contact(disc, 0.5, {0, 20});
                 CHECK(found.time == first);
                 n_found += found.exists();
             }
@@ -192,25 +191,25 @@ TEST_CASE("arcs: in cells or one by one, the first contact is the same") {
 
 TEST_CASE("arcs: a drum that turns counterclockwise drags discs along on its inner face") {
     Effects effects = shaped(BoxShape::round);
-    effects.obstacles.surface = {0, std::numeric_limits<double>::infinity(), 0.3};
-    const Obstacles drum(100, 1, effects);
+    effects.fixed_bodies.surface = {0, std::numeric_limits<double>::infinity(), 0.3};
+    const FixedBodies drum(100, 1, effects);
     DiscState disc = flying(50, 60, 0, -1); // to the lowest place, where the wall goes right
     reflect(drum, disc, 1);
     CHECK(disc.vx == Approx(0.3)); // the surface of a smooth disc comes to that of the wall
     CHECK(disc.vy == Approx(1));
-    effects.obstacles = {};
-    effects.obstacles.arcs = {{50, 50, 10}};
-    effects.obstacles.surface = {0, std::numeric_limits<double>::infinity(), 0.3};
+    effects.fixed_bodies = {};
+    effects.fixed_bodies.arcs = {{50, 50, 10}};
+    effects.fixed_bodies.surface = {0, std::numeric_limits<double>::infinity(), 0.3};
     DiscState outside = flying(50, 20, 0, 1), inside = flying(50, 50, 0, -1);
-    const Obstacles ring(100, 1, effects);
+    const FixedBodies ring(100, 1, effects);
     reflect(ring, outside, 1);
     reflect(ring, inside, 1);
     CHECK(outside.vx == Approx(0.3));
     CHECK(inside.vx == Approx(0.3));
     // A stadium turns as a belt does.
-    effects.obstacles.arcs.clear();
-    effects.obstacles.shape = BoxShape::stadium;
-    const Obstacles stadium({200, 100}, 1, effects);
+    effects.fixed_bodies.arcs.clear();
+    effects.fixed_bodies.shape = BoxShape::stadium;
+    const FixedBodies stadium({200, 100}, 1, effects);
     DiscState at_floor = flying(100, 50, 0, -1);
     reflect(stadium, at_floor, 1);
     CHECK(at_floor.vx == Approx(0.3));
@@ -224,17 +223,17 @@ TEST_CASE("arcs: boxes of other shapes know their area, and what is outside") {
     CHECK(Container(BoxShape::stadium, {10, 20}).area() ==
           Approx(100 + 25 * std::numbers::pi).epsilon(1e-8));
     for (const Box box : {Box(20, 10), Box(10, 20)}) {
-        const Obstacles stadium(box, 1, shaped(BoxShape::stadium));
-        CHECK(stadium.deepest_overlap(5, 5, 1, 0).body == ObstacleContact::no_body);
+        const FixedBodies stadium(box, 1, shaped(BoxShape::stadium));
+        CHECK(stadium.deepest_overlap(5, 5, 1, 0).body == BodyContact::no_body);
         const auto corner = stadium.deepest_overlap(0.1, 0.1, 1, 0);
         CHECK(stadium.name_of(corner.body) == "the stadium's wall");
         CHECK(corner.depth == Approx(std::hypot(4.9, 4.9) - 5 + 1));
     }
     Effects effects = one_arc({50, 50, 10, 0, 90});
-    effects.obstacles.polygons = {{10, 10, 20, 10, 15, 20}};
-    const Obstacles several(100, 1, effects);
+    effects.fixed_bodies.polygons = {{10, 10, 20, 10, 15, 20}};
+    const FixedBodies several(100, 1, effects);
     CHECK(several.name_of(several.deepest_overlap(50, 60.5, 1, 0).body) == "arc 1");
-    CHECK(several.deepest_overlap(50, 40.5, 1, 0).body == ObstacleContact::no_body);
+    CHECK(several.deepest_overlap(50, 40.5, 1, 0).body == BodyContact::no_body);
     CHECK(several.name_of(several.deepest_overlap(15, 9.5, 1, 0).body) == "polygon 1");
     CHECK(several.name_of(several.deepest_overlap(12, 14.5, 1, 0).body) == "polygon 1");
 }
@@ -242,18 +241,18 @@ TEST_CASE("arcs: boxes of other shapes know their area, and what is outside") {
 TEST_CASE("arcs: a stadium lets nothing out, whatever the radius") {
     std::mt19937_64 random(5904);
     for (const double radius : {2.0, 100 * 0x1p-30}) {
-        const Obstacles stadium({100, 50}, radius, shaped(BoxShape::stadium));
+        const FixedBodies stadium({100, 50}, radius, shaped(BoxShape::stadium));
         for (int k = 0; k < 20; ++k) {
             DiscState disc = flying(uniform(random, 20, 80), uniform(random, 10, 40),
                                     uniform(random, -1, 1), uniform(random, -1, 1));
-            std::uint32_t left = ObstacleContact::no_body;
+            std::uint32_t left = BodyContact::no_body;
             for (int n = 0; n < 2000; ++n) {
                 disc.tau = 0;
-                const ObstacleContact contact = reflect(stadium, disc, radius, left);
+                const BodyContact contact = reflect(stadium, disc, radius, left);
                 REQUIRE(contact.exists());
                 left = contact.body;
                 REQUIRE(stadium.deepest_overlap(disc.x, disc.y, radius, 1e-12).body ==
-                        ObstacleContact::no_body);
+                        BodyContact::no_body);
             }
         }
     }

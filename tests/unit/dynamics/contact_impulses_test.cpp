@@ -103,10 +103,10 @@ TEST_CASE("lasting contacts: a corner holds a disc with the components of its we
 
 TEST_CASE("lasting contacts: a disc rolls down a slope as mechanics says, and rests between two") {
     Effects effects = under_gravity(0, -g);
-    effects.obstacles.segments = {{10, 90, 50, 50}, {50, 50, 90, 90}};
+    effects.fixed_bodies.segments = {{10, 90, 50, 50}, {50, 50, 90, 90}};
     const double away = std::sqrt(0.5) * r;
     for (const double friction : {0.0, 0.2, 0.9}) {
-        effects.obstacles.surface = {0, friction, 0};
+        effects.fixed_bodies.surface = {0, friction, 0};
         Heap heap{{{0, 30 + away, 70 + away}}, {}, {}};
         heap.run(effects, SpeciesTable({}, r), 30);
         // sin 45 = cos 45. It rolls if friction is a third of the slope's tangent at least.
@@ -179,8 +179,8 @@ TEST_CASE("lasting contacts: cells find the pairs, walls and obstacles that are 
         Effects effects = under_gravity(0, -g);
         if (is_periodic)
             effects.boundaries[0].kind = effects.boundaries[1].kind = BoundaryKind::periodic;
-        effects.obstacles.discs = {{20, 30, 7}, {60, 10, 1}};
-        effects.obstacles.segments = {{5, 80, 90, 20}};
+        effects.fixed_bodies.discs = {{20, 30, 7}, {60, 10, 1}};
+        effects.fixed_bodies.segments = {{5, 80, 90, 20}};
         std::vector<HeapDisc> discs;
         std::vector<double> radii;
         for (DiscId id = 0; id < 2000; ++id) {

@@ -83,7 +83,7 @@ TEST_CASE("a scene without its frozen discs is the one that its settings say") {
         set_frozen(scene, frozen);
         CHECK(scene.n_discs == 34);
         CHECK(scene.radius == 1);
-        CHECK(scene.effects.obstacles.discs.size() == 6);
+        CHECK(scene.effects.fixed_bodies.discs.size() == 6);
         CHECK_FALSE(scene.awaits_frozen());
         std::uint64_t n = 0;
         for (const std::uint64_t count : counts_of(scene)) n += count;

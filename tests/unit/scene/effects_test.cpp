@@ -102,9 +102,9 @@ TEST_CASE("obstacles are read, each wrong one is named") {
                                              {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
                                               "effects.obstacles.segments=[[0, 0, 30, 40]]",
                                               "effects.obstacles.restitution=0.5"});
-    CHECK(scene.effects.obstacles.discs == std::vector<FixedDisc>{{10, 20, 3}, {40, 50, 0}});
-    CHECK(scene.effects.obstacles.segments == std::vector<Segment>{{0, 0, 30, 40}});
-    CHECK(scene.effects.obstacles.restitution == 0.5);
+    CHECK(scene.effects.fixed_bodies.discs == std::vector<FixedDisc>{{10, 20, 3}, {40, 50, 0}});
+    CHECK(scene.effects.fixed_bodies.segments == std::vector<Segment>{{0, 0, 30, 40}});
+    CHECK(scene.effects.fixed_bodies.restitution == 0.5);
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20]]"}),
               "row 1 of 'effects.obstacles.discs' must be numbers, [x, y, radius]"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1], [110, 20, 1]]"}),

@@ -36,9 +36,9 @@ TEST_CASE("effects in micro-steps are those of steps in another unit of time") {
     e.growth = 0.04;
     e.shear = 0.05;
     e.lasting_speed = 0.06;
-    e.obstacles.discs = {{1, 2, 3}};
-    e.obstacles.surface = {0.4, 0.5, 0.7};
-    e.obstacles.restitution = 0.6;
+    e.fixed_bodies.discs = {{1, 2, 3}};
+    e.fixed_bodies.surface = {0.4, 0.5, 0.7};
+    e.fixed_bodies.restitution = 0.6;
     e.species = {{3, 0.5, 2}};
     e.thermostat = {ThermostatKind::langevin, 0.07, 0.08, 0.09, 11};
     e.activity = {0.1, 0.2, 0.3, 0.4, 13};
@@ -62,7 +62,7 @@ TEST_CASE("effects in micro-steps are those of steps in another unit of time") {
     expected.growth = 0.04 / 5;
     expected.shear = 0.05 / 5;
     expected.lasting_speed = 0.06 / 5;
-    expected.obstacles.surface.velocity = 0.7 / 5;
+    expected.fixed_bodies.surface.velocity = 0.7 / 5;
     expected.thermostat.strength = 0.07 / 125;
     expected.thermostat.rate = 0.08 / 5;
     expected.thermostat.temperature = 0.09 / 25;

@@ -71,10 +71,10 @@ TEST_CASE("Places are taken from the corner, whatever the order of keys") {
     CHECK(scene.origin == Origin{10, 5});
     REQUIRE(scene.listed_discs.size() == 1);
     CHECK(scene.listed_discs[0] == InputDisc{0, 1, 9, 0.5, -1});
-    CHECK(scene.effects.obstacles.discs[0].x == 11);
-    CHECK(scene.effects.obstacles.discs[0].y == 3);
-    CHECK(scene.effects.obstacles.discs[0].radius == 0.5);
-    CHECK(scene.effects.obstacles.polygons[0] == Polygon{10, 5, 11, 5, 11, 6});
+    CHECK(scene.effects.fixed_bodies.discs[0].x == 11);
+    CHECK(scene.effects.fixed_bodies.discs[0].y == 3);
+    CHECK(scene.effects.fixed_bodies.discs[0].radius == 0.5);
+    CHECK(scene.effects.fixed_bodies.polygons[0] == Polygon{10, 5, 11, 5, 11, 6});
     const SceneParameters later = read_scene(
         equal + "list = [[-9, 4, 0.5, -1]]\n[box]\norigin = \"centre\"\nsize = [20, 10]\n",
         "s.toml");

@@ -31,7 +31,7 @@ TEST_CASE("walls that rub and slide are read, and keys without a meaning named")
          "effects.obstacles.discs=[[10, 20, 3]]", "effects.obstacles.tangential_restitution=1"});
     CHECK(scene.effects.boundaries[3].surface == Surface{0.5, 0.2, 0.1});
     CHECK(scene.effects.boundaries[0].surface.velocity == -0.3);
-    CHECK(scene.effects.obstacles.surface.rubs());
+    CHECK(scene.effects.fixed_bodies.surface.rubs());
     CHECK(
         summary_of(scene.effects).find("top wall rubs with 0.5, friction 0.2 and slides at 0.1") !=
         std::string::npos);

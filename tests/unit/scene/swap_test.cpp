@@ -40,7 +40,7 @@ public:
         scene_.n_discs = places.size();
         scene_.box = {size, size};
         if (!around.has_walls) scene_.effects.boundaries.fill({BoundaryKind::periodic, 1, 0, 0});
-        if (around.disc) scene_.effects.obstacles.discs.push_back(*around.disc);
+        if (around.disc) scene_.effects.fixed_bodies.discs.push_back(*around.disc);
         scene_.method = Method::event_driven;
         scene_.effects.swap = {rounds, 0, 5};
         for (const double radius : radii) scene_.effects.species.push_back({1, radius, 1});

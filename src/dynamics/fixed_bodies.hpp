@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fixed bodies in a box: discs, straight segments, and arcs of circles; segments and arcs have a
-// disc of radius 0 at either end. A disc that meets one is reflected, as by a wall. A box that is
-// not a rectangle has arcs and segments as walls (container.hpp).
+// disc of radius 0 at either end. A disc that meets one is reflected, as by a wall. They are the
+// obstacles of a scene, its frozen discs, and the wall of a box that is no rectangle
+// (container.hpp).
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
 // predicate of pairs; a quartic where discs fall: falling_contact.hpp), a segment if it is r from
@@ -31,11 +32,11 @@
 namespace carrom {
 
 /// A contact with a body, or none.
-struct ObstacleContact {
+struct BodyContact {
     static constexpr std::uint32_t no_body = 0xffffffff;
 
     double time = std::numeric_limits<double>::infinity();
-    /// Number of the body, or of one of its nearest images; see Obstacles::code_of
+    /// Number of the body, or of one of its nearest images; see FixedBodies::code_of
     std::uint32_t body = no_body;
 
     bool exists() const { return body != no_body; }
@@ -44,28 +45,27 @@ struct ObstacleContact {
 /// The range of times in which contacts count, since the last sync.
 struct ContactTimes {
     double from = 0, to = 0;
-    bool hold_from = true; ///< whether a contact at `from` itself counts
-    std::uint32_t except =
-        ObstacleContact::no_body; ///< the body that the disc has just left; contacts with it at
-                                  ///< the disc's own time do not count
+    bool hold_from = true;                       ///< whether a contact at `from` itself counts
+    std::uint32_t except = BodyContact::no_body; ///< the body that the disc has just left; contacts
+                                                 ///< with it at the disc's own time do not count
 };
 
-/// A place where a disc touches an obstacle.
-struct ObstacleTouch {
+/// A place where a disc touches a body.
+struct BodyTouch {
     std::uint32_t row = 0; ///< index in `rows_of` (container.hpp)
     double nx = 0, ny = 0; ///< normal that points away from the body
     double x = 0, y = 0;   ///< position relative to the row's centre
 };
 
-class Obstacles {
+class FixedBodies {
 public:
     /// `effects` have times in micro-steps; no disc is larger than `largest_radius`.
-    Obstacles(const Box& box, double largest_radius, const Effects& effects);
+    FixedBodies(const Box& box, double largest_radius, const Effects& effects);
 
     /// The first body that a disc of that radius meets within these times. If it meets two at once,
     /// the lower number counts.
-    ObstacleContact first_contact(const DiscState& disc, double radius,
-                                  const ContactTimes& times) const;
+    BodyContact first_contact(const DiscState& disc, double radius,
+                              const ContactTimes& times) const;
 
     /// Reflects a disc that has met the body with the contact's number `code` at `time`, which is
     /// the disc's own time now; its last collision was `since` before. Returns the loss for a mass
@@ -74,16 +74,20 @@ public:
                  const Turning& turning) const;
 
     /// Where a disc that has met the body `code` at `time`, its own time now, touches it.
-    ObstacleTouch touch(const DiscState& disc, std::uint32_t code, double time,
-                        double radius) const;
+    BodyTouch touch(const DiscState& disc, std::uint32_t code, double time, double radius) const;
+
+    bool are_any() const { return !bodies_.empty(); }
 
     struct Overlap {
         double depth = 0;
-        std::uint32_t body = ObstacleContact::no_body; ///< the same for all images of a body
+        std::uint32_t body = BodyContact::no_body; ///< the same for all images of a body
     };
     /// The body that a disc of that radius at (x, y) in the box overlaps most deeply, by more than
-    /// `least`; otherwise `no_body`.
+    /// `least`; otherwise, or without bodies, `no_body`.
     Overlap deepest_overlap(double x, double y, double radius, double least) const;
+    bool do_overlap(double x, double y, double radius) const {
+        return are_any() && deepest_overlap(x, y, radius, 0).body != BodyContact::no_body;
+    }
     /// Name for messages, such as "fixed disc 3", "segment 1" (by rows of the scene's lists) or
     /// "the round wall".
     std::string name_of(std::uint32_t body) const;
@@ -121,7 +125,7 @@ private:
 
     void add_line(const Segment& segment, double slides);
     void add_arc(const Arc& arc, bool is_of_box);
-    void add_bodies(const ObstacleList& obstacles);
+    void add_bodies(const FixedBodyList& fixed_bodies);
     void begin_row() { first_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size())); }
     std::size_t row_of(std::uint32_t body) const;
     double overlap_of(const Body& body, double x, double y, double radius) const;
@@ -158,7 +162,7 @@ private:
     /// Fixed discs, then for each segment, edge and arc its line and its two ends
     std::vector<Body> bodies_;
     std::vector<std::uint32_t> first_bodies_; ///< first body of each row behind the fixed discs
-    std::vector<ObstacleRow> rows_of_bodies_;
+    std::vector<BodyRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;
     std::vector<std::uint32_t> cell_starts_;

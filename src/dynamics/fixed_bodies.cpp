@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/obstacles.hpp"
+#include "dynamics/fixed_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,14 +37,14 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 
 } // namespace
 
-Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effects)
-    : restitution_(effects.obstacles.restitution), guard_(effects, largest_radius),
-      rubbing_(effects.obstacles.surface, effects.contact),
+FixedBodies::FixedBodies(const Box& box, double largest_radius, const Effects& effects)
+    : restitution_(effects.fixed_bodies.restitution), guard_(effects, largest_radius),
+      rubbing_(effects.fixed_bodies.surface, effects.contact),
       pull_{effects.acceleration().x, effects.acceleration().y},
-      n_fixed_discs_(effects.obstacles.discs.size()), container_(effects.obstacles.shape, box),
-      periods_(effects.periods(box)), largest_radius_(largest_radius),
-      rows_of_bodies_(rows_of(effects.obstacles, box)) {
-    add_bodies(effects.obstacles);
+      n_fixed_discs_(effects.fixed_bodies.discs.size()),
+      container_(effects.fixed_bodies.shape, box), periods_(effects.periods(box)),
+      largest_radius_(largest_radius), rows_of_bodies_(rows_of(effects.fixed_bodies, box)) {
+    add_bodies(effects.fixed_bodies);
     const auto n = static_cast<double>(bodies_.size());
     // Nearly square cells, as many as in a square box, with more of them along the longer side.
     const double stretch = std::sqrt(box.x / box.y);
@@ -60,7 +60,7 @@ Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effec
     sort_into_cells();
 }
 
-void Obstacles::add_line(const Segment& segment, double slides) {
+void FixedBodies::add_line(const Segment& segment, double slides) {
     const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0,
                  length = std::sqrt(dx * dx + dy * dy);
     bodies_.push_back({segment.x0, segment.y0, 0, dx / length, dy / length, length, slides});
@@ -69,7 +69,7 @@ void Obstacles::add_line(const Segment& segment, double slides) {
 }
 
 /// Free ends do not slide, because arcs turn around centres. Discs meet ends in walls from inside.
-void Obstacles::add_arc(const Arc& arc, bool is_of_box) {
+void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
     face.span = span_of(arc);
@@ -82,44 +82,45 @@ void Obstacles::add_arc(const Arc& arc, bool is_of_box) {
     }
 }
 
-void Obstacles::add_bodies(const ObstacleList& obstacles) {
-    for (const FixedDisc& disc : obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius});
-    for (const Segment& segment : obstacles.segments) {
+void FixedBodies::add_bodies(const FixedBodyList& fixed_bodies) {
+    for (const FixedDisc& disc : fixed_bodies.discs)
+        bodies_.push_back({disc.x, disc.y, disc.radius});
+    for (const Segment& segment : fixed_bodies.segments) {
         begin_row();
         add_line(segment, 1);
     }
-    for (const Polygon& polygon : obstacles.polygons) {
+    for (const Polygon& polygon : fixed_bodies.polygons) {
         begin_row();
         for (const Segment& edge : edges_of(polygon)) add_line(edge, 1);
     }
-    for (const Arc& arc : obstacles.arcs) {
+    for (const Arc& arc : fixed_bodies.arcs) {
         begin_row();
         add_arc(arc, false);
     }
-    if (!obstacles.has_shape()) return;
+    if (!fixed_bodies.has_shape()) return;
     begin_row();
     for (const Segment& segment : container_.segments()) add_line(segment, -1);
     for (const Arc& arc : container_.arcs()) add_arc(arc, true);
 }
 
-std::int64_t Obstacles::CellAxis::cell_of(double place) const {
+std::int64_t FixedBodies::CellAxis::cell_of(double place) const {
     const double cell = place / width;
     return static_cast<std::int64_t>(
         period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n - 1)));
 }
 
-std::int64_t Obstacles::CellAxis::box_of(std::int64_t cell) const {
+std::int64_t FixedBodies::CellAxis::box_of(std::int64_t cell) const {
     if (period == 0 || (cell >= 0 && cell < n)) return 0;
     return cell >= 0 ? cell / n : -((n - 1 - cell) / n);
 }
 
-Obstacles::Cells Obstacles::cells_of(const Extent& extent) const {
+FixedBodies::Cells FixedBodies::cells_of(const Extent& extent) const {
     return {columns_.cell_of(extent.x_low - margin_), columns_.cell_of(extent.x_high + margin_),
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
 /// The positions of centres of discs that touch the body's image.
-Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const {
+Extent FixedBodies::extent_of(const Body& body, double radius, Shift shift) const {
     const double reach = body.radius + radius, x = body.x + shift.x, y = body.y + shift.y;
     const double x_end = x + body.length * body.ux, y_end = y + body.length * body.uy;
     return {std::min(x, x_end) - reach, std::max(x, x_end) + reach, std::min(y, y_end) - reach,
@@ -128,7 +129,7 @@ Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const 
 
 /// Returns false for cells that an oblique line or an arc's circle does not touch. Cells at the
 /// border also contain the positions beyond.
-bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
+bool FixedBodies::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
     if (!(body.is_line() || body.is_arc) || is_at_border) return true;
@@ -139,7 +140,7 @@ bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row
     return std::fabs(distance) <= largest_radius_ + std::max(columns_.width, rows_.width) + margin_;
 }
 
-void Obstacles::sort_into_cells() {
+void FixedBodies::sort_into_cells() {
     cell_starts_.assign(static_cast<std::size_t>(columns_.n * rows_.n + 1), 0);
     const auto visit = [this](const auto& what) {
         for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -164,7 +165,7 @@ void Obstacles::sort_into_cells() {
 }
 
 /// Calls what(image) for the images in the cells, perhaps several times for each.
-template <class What> void Obstacles::visit_cells(const Cells& cells, const What& what) const {
+template <class What> void FixedBodies::visit_cells(const Cells& cells, const What& what) const {
     for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column) {
         const std::int64_t x = columns_.box_of(column);
         const std::uint32_t* const starts = cell_starts_.data() +
@@ -186,7 +187,7 @@ template <class What> void Obstacles::visit_cells(const Cells& cells, const What
 /// The body's number; in a periodic box a number for each of nine images. The image follows from
 /// the box that contains the centre (x, y) of the touching disc, with the path that it has fallen,
 /// so the number is a function of the disc's state, in whichever box that is stored.
-std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
+std::uint32_t FixedBodies::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
     const int dy = periods_.y == 0 ? 0 : image.y - static_cast<int>(std::floor(y / periods_.y));
@@ -194,7 +195,7 @@ std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
 }
 
 /// The image that belongs to a code, for a disc whose centre is at (x, y) now.
-Obstacles::Entry Obstacles::image_of(std::uint32_t code, double x, double y) const {
+FixedBodies::Entry FixedBodies::image_of(std::uint32_t code, double x, double y) const {
     if (!periods_.are_any()) return {code, 0, 0};
     const auto image = static_cast<int>(code % n_images);
     const int boxes_x = periods_.x == 0
@@ -208,8 +209,8 @@ Obstacles::Entry Obstacles::image_of(std::uint32_t code, double x, double y) con
 }
 
 /// `dx`, `dy` are relative to the line's beginning; `wx`, `wy` are velocities in the box.
-double Obstacles::line_delay(const Body& line, double radius, double dx, double dy, double wx,
-                             double wy) const {
+double FixedBodies::line_delay(const Body& line, double radius, double dx, double dy, double wx,
+                               double wy) const {
     const auto [gx, gy] = pull_;
     const double place = line.ux * dy - line.uy * dx, rate = line.ux * wy - line.uy * wx,
                  pull = line.ux * gy - line.uy * gx;
@@ -226,8 +227,8 @@ double Obstacles::line_delay(const Body& line, double radius, double dx, double 
 }
 
 /// A function of the state only: the first time at which the distance is not positive and falls.
-double Obstacles::contact_time(const DiscState& disc, const Body& body, double radius,
-                               Shift shift) const {
+double FixedBodies::contact_time(const DiscState& disc, const Body& body, double radius,
+                                 Shift shift) const {
     const bool falls = pull_[0] != 0 || pull_[1] != 0;
     const double dx = ((disc.x + fallen(0, disc.tau)) - body.x) - shift.x,
                  dy = ((disc.y + fallen(1, disc.tau)) - body.y) - shift.y;
@@ -247,7 +248,7 @@ double Obstacles::contact_time(const DiscState& disc, const Body& body, double r
 
 /// The part of the box that a flight covers. A parabola deviates from its chord by at most an
 /// eighth of its acceleration times the squared time.
-Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const {
+Extent FixedBodies::path_of(const DiscState& disc, double begin, double end) const {
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
     const double eighth = (end - begin) * (end - begin) / 8;
@@ -257,7 +258,7 @@ Extent Obstacles::path_of(const DiscState& disc, double begin, double end) const
 }
 
 /// The number of parts of a flight in each of which the disc moves by at most about a cell.
-double Obstacles::slices_of(const DiscState& disc, double begin, double end) const {
+double FixedBodies::slices_of(const DiscState& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
         return std::max(std::fabs(v + pull_[axis] * begin), std::fabs(v + pull_[axis] * end));
     };
@@ -265,10 +266,10 @@ double Obstacles::slices_of(const DiscState& disc, double begin, double end) con
     return std::clamp(std::ceil(way / std::min(columns_.width, rows_.width)), 1.0, 1e6);
 }
 
-ObstacleContact Obstacles::first_contact(const DiscState& disc, double radius,
-                                         const ContactTimes& times) const {
+BodyContact FixedBodies::first_contact(const DiscState& disc, double radius,
+                                       const ContactTimes& times) const {
     const double begin = std::max(times.from, disc.tau);
-    ObstacleContact best;
+    BodyContact best;
     if (!(begin <= times.to)) return best;
     const double n_slices = slices_of(disc, begin, times.to);
     double from = begin;
@@ -297,7 +298,7 @@ ObstacleContact Obstacles::first_contact(const DiscState& disc, double radius,
     return best;
 }
 
-Obstacles::Normal Obstacles::normal_of(const Body& body, double dx, double dy) {
+FixedBodies::Normal FixedBodies::normal_of(const Body& body, double dx, double dy) {
     if (body.is_line()) {
         const double side = body.ux * dy - body.uy * dx < 0 ? -1 : 1;
         return {-side * body.uy, side * body.ux, false};
@@ -307,8 +308,8 @@ Obstacles::Normal Obstacles::normal_of(const Body& body, double dx, double dy) {
     return {dx / distance, dy / distance, false};
 }
 
-ObstacleTouch Obstacles::touch(const DiscState& disc, std::uint32_t code, double time,
-                               double radius) const {
+BodyTouch FixedBodies::touch(const DiscState& disc, std::uint32_t code, double time,
+                             double radius) const {
     const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
     const Entry image = image_of(code, x, y);
     const Body& at = bodies_[image.body];
@@ -320,8 +321,8 @@ ObstacleTouch Obstacles::touch(const DiscState& disc, std::uint32_t code, double
             (y - radius * normal.y) - shift.y - rows_of_bodies_[row].y};
 }
 
-Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double since,
-                        const Turning& turning) const {
+Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, double since,
+                          const Turning& turning) const {
     const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
     const Entry image = image_of(code, x, y);
     const Body& at = bodies_[image.body];
@@ -358,7 +359,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
 }
 
 /// Negative infinity if an arc is in another direction, because its ends are bodies of their own.
-double Obstacles::overlap_of(const Body& body, double x, double y, double radius) const {
+double FixedBodies::overlap_of(const Body& body, double x, double y, double radius) const {
     if (body.is_arc) {
         const double dx = x - body.x, dy = y - body.y, distance = std::sqrt(dx * dx + dy * dy);
         return body.span.holds(dx, dy, distance) ? radius - std::fabs(distance - body.radius)
@@ -370,9 +371,10 @@ double Obstacles::overlap_of(const Body& body, double x, double y, double radius
     return (body.radius + radius) - std::sqrt(dx * dx + dy * dy);
 }
 
-Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
-                                              double least) const {
+FixedBodies::Overlap FixedBodies::deepest_overlap(double x, double y, double radius,
+                                                  double least) const {
     Overlap deepest;
+    if (!are_any()) return deepest;
     double most = least;
     visit_cells(cells_of({x, x, y, y}), [&](const Entry& image) {
         const Shift shift = shift_of(image);
@@ -387,13 +389,13 @@ Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
     return overlap > most ? Overlap{overlap, first_bodies_.back()} : deepest;
 }
 
-std::size_t Obstacles::row_of(std::uint32_t body) const {
+std::size_t FixedBodies::row_of(std::uint32_t body) const {
     if (body < n_fixed_discs_) return body;
     const auto next = std::ranges::upper_bound(first_bodies_, body);
     return n_fixed_discs_ + static_cast<std::size_t>(next - first_bodies_.begin()) - 1;
 }
 
-std::string Obstacles::name_of(std::uint32_t body) const {
+std::string FixedBodies::name_of(std::uint32_t body) const {
     return rows_of_bodies_[row_of(body)].name();
 }
 
