@@ -77,9 +77,10 @@ struct Shifts {
     }
 };
 
-DiscState as_image(DiscState disc, Image image) {
-    set_image(disc, image);
-    return disc;
+DiscState as_image(const DiscState& disc, Image image) {
+    DiscState shifted = disc;
+    set_image(shifted, image);
+    return shifted;
 }
 
 std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks) {
