@@ -83,8 +83,7 @@ void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
 }
 
 void FixedBodies::add_bodies(const FixedBodyList& fixed_bodies) {
-    for (const FixedDisc& disc : fixed_bodies.discs)
-        bodies_.push_back({disc.x, disc.y, disc.radius});
+    for (const FixedDisc& one : fixed_bodies.discs) bodies_.push_back({one.x, one.y, one.radius});
     for (const Segment& segment : fixed_bodies.segments) {
         begin_row();
         add_line(segment, 1);
@@ -374,7 +373,6 @@ double FixedBodies::overlap_of(const Body& body, double x, double y, double radi
 FixedBodies::Overlap FixedBodies::deepest_overlap(double x, double y, double radius,
                                                   double least) const {
     Overlap deepest;
-    if (!are_any()) return deepest;
     double most = least;
     visit_cells(cells_of({x, x, y, y}), [&](const Entry& image) {
         const Shift shift = shift_of(image);

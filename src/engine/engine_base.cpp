@@ -134,7 +134,8 @@ Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) c
     return part.size().area() < small * seen.size().area() ? part : seen;
 }
 
-template <class Dynamics> void EngineBase<Dynamics>::refuse_long_flights(double speed) const {
+template <class Dynamics>
+void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) const {
     if constexpr (Dynamics::is_periodic) {
         constexpr double most = 15000; // core/image.hpp counts to 16000
         const std::int64_t left = last_micro_step_ - last_sync();
@@ -151,8 +152,6 @@ template <class Dynamics> void EngineBase<Dynamics>::refuse_long_flights(double 
             "discs become less fast",
             (static_cast<double>(last_sync()) + time_) / static_cast<double>(micro_steps_), lengths,
             most));
-    } else {
-        static_cast<void>(speed);
     }
 }
 
@@ -346,8 +345,7 @@ template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {
     return energy;
 }
 
-/// Replaces a state that a sync has rewritten by its image in the box. Threads call it
-/// for different discs at once.
+/// Brings a state into the box that a sync has rewritten. Threads call it for different discs.
 template <class Dynamics> void EngineBase<Dynamics>::wrap(DiscState& disc) {
     if constexpr (Dynamics::is_periodic) {
         const double x = disc.x, y = disc.y;
