@@ -165,7 +165,7 @@ Key count_key() {
 }
 
 Key compression_rate_key() {
-    return key("discs.compression_rate", "1",
+    return key("discs.growth_rate", "1",
                "How fast the largest diameter grows, over the root mean square speed. Slow growth "
                "jams later.",
                [](auto& s) -> auto& { return s.compression_rate; })
