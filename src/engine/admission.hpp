@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets discs into the box at a sync that have departed before. All ranks agree on which ones come
-// in, and where, so the bits do not depend on where a disc waits.
+// Lets departed discs come back into the box at a sync. All ranks agree on which ones come in, and
+// where, so the bits do not depend on the rank that holds a departed disc.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,14 @@
 
 namespace carrom {
 
-/// Where discs come in. All states are those of a sync, in the box's own coordinates.
+/// The box, the discs and the obstacles that decide where a disc can come in. All states are those
+/// of a sync, in the box's own coordinates.
 struct AdmissionGround {
     const Communicator& communicator;
     const Box& box;
     const SpeciesTable& species;
     double largest_radius;
-    bool have_pairs; ///< otherwise discs pass through each other, and are in nobody's way
+    bool have_pairs; ///< if false, discs pass through each other and block no place
     std::span<const DiscState> own, departed; ///< of this rank
     const SideColumns& departed_columns;      ///< along `departed`
     /// Whether obstacles leave room for a disc that has flown from the first state straight to the
@@ -38,10 +39,10 @@ struct Admission {
     ArrivalCounts counts;
 };
 
-/// Each arrival gets the departed disc of the lowest id that it may have and no earlier one has
-/// got. It is left out if another disc or an obstacle is where it came. If one is where it has
-/// flown to, or on the way there, it stays where it came.
-/// **Collective.**
+/// Each arrival gets the departed disc with the lowest id that it may have and that no earlier
+/// arrival has got. The disc is left out if another disc or an obstacle blocks its place of entry.
+/// If only the place that it has reached since, or the way there, is blocked, it is put at its
+/// place of entry. **Collective.**
 Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground);
 
 } // namespace carrom

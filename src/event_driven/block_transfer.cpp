@@ -178,7 +178,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     }
 }
 
-/// In a run of the whole box: the rank's cells say which of its discs are the block's.
+/// Finds the block's discs in a run of the whole box, by the cells of the rank.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock& own) {
     is_own.resize(indices.size());
     for (std::uint32_t slot = 0; slot < indices.size(); ++slot) {
@@ -194,7 +194,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(cons
     }
 }
 
-/// Reports an own disc or one of the ring.
+/// Reports a disc that is an own disc of the block or in its ring.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_disc(
     std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,

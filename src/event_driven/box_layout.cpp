@@ -10,7 +10,7 @@ namespace carrom {
 
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {
     const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a thin tube one cell holds its whole height.
+    // In a thin tube a cell is as high as the tube.
     const double spacing = std::max(std::sqrt(height * length / n_cells), length / n_cells);
     const double per_reach = std::round(reach / std::max(2 * spacing, reach / 4));
     return std::max(reach / std::clamp(per_reach, 1.0, 4.0), 0.7 * spacing);
@@ -122,7 +122,7 @@ void BoxLayout::sort(std::span<const DiscState> discs, std::span<const LocalInde
         sorted_[--box_starts_[cell_of_[k]]] = static_cast<std::uint32_t>(k);
 }
 
-/// The lines of cells along an axis, those beyond the sides included.
+/// The columns or rows of cells along an axis, including those beyond the sides.
 std::vector<BoxLayout::Line> BoxLayout::lines(int n_cells, int n_beyond) {
     std::vector<Line> lines;
     for (int cell = -n_beyond; cell < n_cells + n_beyond; ++cell) {

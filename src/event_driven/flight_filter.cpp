@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-using std::isnan; // Highway 1.0 calls it so where it has no vectors
+using std::isnan; // Highway 1.0 calls isnan without hn:: where it has no vectors
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "event_driven/flight_filter.cpp"
@@ -34,11 +34,10 @@ struct SpreadFlight {
           touching(hold(Lanes(), touching_squared)) {}
 };
 
-/// Tells which of the discs at x and y with velocities vx and vy might touch the flight in the rest
-/// of the window. These are the discs that are near already, and those that approach, do not pass
-/// by and arrive in time. Each condition is a number that is negative if the condition holds, so
-/// that one comparison decides on all of them.
-/// `touching` is a squared distance.
+/// Returns which of the discs at x and y with velocities vx and vy might touch the flight in the
+/// rest of the window. These are the discs that are near already, and those that approach, do not
+/// pass by and arrive in time. Each condition is a number that is negative if the condition holds,
+/// so that one comparison decides on all of them. `touching` is a squared distance.
 HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy, Vector touching,
                                        const SpreadFlight& p) {
     const Lanes d;
@@ -111,7 +110,7 @@ HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector no
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
-/// Tells which of a vector of slots, the first of which is `slot`, might touch the flight.
+/// Returns which discs of a vector of slots might touch the flight; `slot` is the first slot.
 template <class SomeLanes>
 HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t slot,
                                           const SpreadFlight& p, Vector now) {
@@ -165,7 +164,8 @@ PartnerCounts filter_two_runs(const SomeLanes& all_lanes, std::span<const SlotRa
             const auto slots = hn::Add(steps, spread_slot(slot));
             const auto is_one_of_them = hn::Or(hn::Eq(slots, p_slot), hn::Eq(slots, q_slot));
             const auto inside = hn::AndNot(is_one_of_them, hn::Lt(slots, end));
-            // Both masks come before the first store, so that each number is loaded once.
+            // Both masks are computed before the first store, so that each slot's data is loaded
+            // once.
             const auto p_touch = touching_slots(lanes, slot, p_spread, now),
                        q_touch = touching_slots(lanes, slot, q_spread, now);
             p_next = append(slots, hn::And(p_touch, inside), p_next);
@@ -175,7 +175,8 @@ PartnerCounts filter_two_runs(const SomeLanes& all_lanes, std::span<const SlotRa
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-/// The `touching` of a slot's flight: for discs of several sizes its radius and the margin.
+/// The `touching` of the flight in a slot. For discs of several sizes it is the radius and the
+/// margin.
 HWY_INLINE float touching_in(const FlightLanes&, std::uint32_t, float touching_squared) {
     return touching_squared;
 }

@@ -31,7 +31,7 @@ public:
     };
     enum class Sign { none, no_room_left, ever_more_frequent };
 
-    /// Without growth nothing is watched.
+    /// Without growth the watch does nothing.
     explicit JamWatch(const Growth& growth);
 
     bool is_on() const { return growth_.rate > 0; }

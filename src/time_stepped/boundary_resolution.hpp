@@ -36,8 +36,8 @@ public:
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
                           Candidates& undecided, Candidates& kept);
 
-    /// Decides all of this rank's `undecided` candidates, and appends those that happen to `kept`.
-    /// `n_conflicts` is their number over all ranks. **Collective.**
+    /// Decides all `undecided` candidates of this rank, and appends those that happen to `kept`.
+    /// `n_conflicts` is the number of undecided candidates on all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
                 Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
