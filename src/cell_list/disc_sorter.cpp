@@ -65,7 +65,7 @@ void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit&
         return sorter.first_cell <= cell && cell < sorter.end_cell;
     };
     for (std::size_t cell = begin;
-         // Up to the cell where another sorter begins or ends; most cells have one sorter
+         // Stops at the cell where another sorter begins or ends. Most cells have one sorter
          cell < end;) {
         std::size_t stretch_end = end;
         const Sorter* one = nullptr;

@@ -64,8 +64,8 @@ public:
     /// Gives each thread the travellers among its places. Returns false if there are many: then the
     /// discs are not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
-    /// Brings discs to their places, ascending. Calls placed(i) when the disc of place i is there;
-    /// the order up to i is not needed any more.
+    /// Brings discs to their places, in ascending order. Calls placed(i) when the disc of place i
+    /// is there. From then on the order up to i is not needed.
     template <class Placed>
     void carry(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
         set_travellers_aside(discs, memory);

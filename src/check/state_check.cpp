@@ -358,8 +358,8 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Asks the ranks that have the records of the two discs, one after the other, when each disc last
-/// collided.
+/// Finds out from the ranks that keep the records of the two discs when each disc last collided,
+/// and drops the pairs that the method explains.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc's stored state: where it was at its own time `tau`, and how often it has collided.
+// A disc's stored state: its position at its own time `tau`, and how often it has collided.
 //
-// The state is rewritten by the disc's own collisions and stops and by the common sync, and by
-// nothing else (docs/understanding/method.md, section 2). It fills one cache line: the engine
-// reaches states at random, one disc at a time.
+// Only the disc's own collisions and stops and the common sync rewrite the state
+// (docs/understanding/method.md, section 2). It fills one cache line, because the engine reads the
+// states of single discs at random places.
 #pragma once
 
 #include <cstdint>

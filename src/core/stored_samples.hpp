@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// Where a disc was when sampling, or a window of it, began.
+/// The position of a disc when sampling, or one of its windows, began.
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
@@ -39,8 +39,8 @@ struct StoredSamples {
     bool have_lengths = false;      ///< equal on all ranks
     bool have_velocities = false;   ///< equal on all ranks
     bool have_images = false;       ///< equal on all ranks; for the images of a trajectory
-    /// A run of ids without gaps. To be written, these are the discs of this rank's
-    /// pieces (pieces.hpp); as read, those of its slab (slabs.hpp).
+    /// Discs with consecutive ids. For writing, they are the discs of this rank's pieces
+    /// (pieces.hpp). After reading, they are those of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;
 };
 

@@ -125,8 +125,8 @@ Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis, const 
     return {disc.tau + to_high, low + 1};
 }
 
-/// Assumes a straight flight, and an acceleration only if it is towards the wall. Ignoring one away
-/// from the wall is safe.
+/// Assumes a straight flight. An acceleration counts only if it is towards the wall; ignoring the
+/// others is safe.
 bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
                           const Body& body) const {
     if (disc.has_departed()) return false;

@@ -3,20 +3,21 @@
 //
 // Discs that lose energy would come to infinitely many collisions in a finite time (inelastic
 // collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). So dissipation takes time, as in the
-// TC model of Luding and McNamara, Granular Matter 1, 113 (1998): a disc that has collided a
-// contact time before collides elastically. By default a contact is a length, not a time: the
-// collision is elastic if the two have closed in by less than a millionth of the sum of their radii
-// since the last collision of either. So the guard is the same in all units, and follows discs as
-// they cool. At walls and obstacles the share is a hundred times larger: they do not give way, so
-// whatever presses a disc to one or into the wedge between two brings it back without end. A scene
-// may name a time instead, which costs fewer collisions where discs lie at rest.
+// TC model of Luding and McNamara, Granular Matter 1, 113 (1998): a disc that has collided within
+// the last contact time collides elastically. By default a contact is a length, not a time: the
+// collision is elastic if the two discs have approached each other by less than a millionth of the
+// sum of their radii since the last collision of either. So the guard is the same in all units, and
+// follows discs as they cool. At walls and obstacles the share is a hundred times larger, because
+// they do not give way: a force that presses a disc to one, or into the wedge between two, brings
+// it back again and again. A scene may give a time instead, which costs fewer collisions where
+// discs lie at rest.
 //
-// Where discs are pulled to a wall, a contact at rest is a series of small bounces without loss.
-// What these spare is no error, so losses leave them out. Where contacts last, slow ones lose their
-// energy at syncs, so losses leave them out too.
+// If discs are pulled to a wall, a contact at rest is a series of small bounces without loss. The
+// energy that they keep is no error, so it does not count as lost by the guard. Slow contacts that
+// last lose their energy at syncs, so they do not count either.
 //
-// Only collisions count as contacts, syncs and starts do not. A disc does not remember its last
-// collision over a sync, so its first collision after that is never guarded by itself.
+// Only collisions count as contacts, syncs and starts do not. A disc's last collision is forgotten
+// at a sync, so its first collision after the sync is guarded only through its partner.
 #pragma once
 
 #include <algorithm>
@@ -80,14 +81,15 @@ public:
     }
 
 private:
-    /// Neighbours of a contact at rest disturb it by some departures.
+    /// A contact at rest is disturbed by its neighbours, so this many times the speed of departure
+    /// counts as rest.
     static constexpr double rest_factor = 10;
 
     CARROM_DEVICE bool holds(double since, double closing, double share) const {
         return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
     }
 
-    double contact_time_; ///< 0: by the share
+    double contact_time_; ///< 0: a length is used instead
     double rest_speed_;   ///< slower contacts are at rest
 };
 

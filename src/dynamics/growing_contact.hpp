@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`,
-/// not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
+/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`;
+/// `growth` is not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
 template <class Real>
 [[gnu::always_inline]] CARROM_DEVICE inline Real growing_contact_delay(Real dx, Real dy, Real wx,
                                                                        Real wy, Real sigma,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pairs, and the discs at walls and obstacles, that are so close at a sync that they may press
-// each other until the next one. They are found with cells as wide as the largest contact.
+// The pairs of discs, and the discs at walls and obstacles, that are so close at a sync that they
+// may press each other until the next one. They are found with cells as wide as the largest
+// contact.
 //
-// A contact that is left out costs time but causes no error, because its discs collide as others
-// do.
+// A contact that is left out costs time but causes no error, because its discs collide instead.
 #pragma once
 
 #include <cstdint>

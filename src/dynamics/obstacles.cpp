@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// A disc in the box may touch this many images of a body: the body itself and eight around it.
+/// A disc in the box may touch the body or one of the eight images around it.
 constexpr std::uint32_t n_images = 9;
 
 /// The least slope at which a disc leaves the inner face of an arc, because along the face it would
@@ -183,9 +183,9 @@ template <class What> void Obstacles::visit_cells(const Cells& cells, const What
     }
 }
 
-/// The body's number; in a periodic box a number for each of nine images. The image follows from
-/// the box that contains the centre (x, y) of the touching disc, with the path that it has fallen,
-/// so the number is a function of the disc's state, in whichever box that is stored.
+/// The number of a body, or of one of its nine nearest images in a periodic box. The image is
+/// counted from the box that contains the centre (x, y) of the touching disc, including its fall.
+/// So the number is a function of the disc's state, whichever box the stored position is in.
 std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));

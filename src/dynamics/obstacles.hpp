@@ -73,7 +73,8 @@ public:
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since,
                  const Turning& turning) const;
 
-    /// Where a disc that has met the body `code` at `time`, its own time now, touches it.
+    /// Where a disc touches the body with the contact's number `code`, which it has met at `time`,
+    /// its own time now.
     ObstacleTouch touch(const DiscState& disc, std::uint32_t code, double time,
                         double radius) const;
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An effect that acts at syncs: between them discs fly and collide as without it.
+// An effect that acts at syncs. Between syncs discs fly and collide as without it.
 //
-// At a sync all states are at one time and in the box's own coordinates. What an effect does to a
-// disc may depend on that disc's state, on exact sums over all discs, and on random numbers of
-// `at_sync`, which are functions of the seed, the disc and the count of syncs. Then every machine
-// shape gets the same bits, and a restart needs nothing but the count and what an effect says that
-// it keeps.
+// At a sync all states are at one time and in the box's own coordinates. The effect on a disc may
+// depend on that disc's state, on exact sums over all discs, and on random numbers of `at_sync`,
+// which are functions of the seed, the disc and the count of syncs. So every machine shape gets the
+// same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
 //
-// The engine calls the list of effects once a sync, never for a pair. The list is
-// empty in scenes without such an effect.
+// The engine calls the list of effects once a sync, never for a pair. The list is empty in scenes
+// without such an effect.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +29,7 @@ namespace carrom {
 struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
-    std::size_t side = 0;              ///< numbers from `n_sides` on are rows of obstacles
+    std::size_t side = 0; ///< the side; numbers from `n_sides` on are rows of obstacles
     double normal = 0;                 ///< impulse away from the side
     double along = 0;                  ///< impulse along the side, in the direction of its axis
     double energy = 0;                 ///< change of the discs' kinetic energy
@@ -41,7 +40,7 @@ struct WallImpulse {
 struct PairImpulse {
     DiscId p = 0, q = 0;       ///< p is the lower id
     double x = 0, y = 0;       ///< centre of p
-    double dx = 0, dy = 0;     ///< vector from there to the centre of q
+    double dx = 0, dy = 0;     ///< vector from the centre of p to the centre of q
     double ix = 0, iy = 0;     ///< impulse that p gets; q gets the opposite
     double p_vx = 0, p_vy = 0; ///< means of the velocities before and after the sync
     double q_vx = 0, q_vy = 0;
@@ -105,8 +104,8 @@ public:
     virtual double size() const = 0;
     /// The largest factor to which this sync can change it.
     virtual double largest_at(std::int64_t n_syncs) const = 0;
-    /// Changes the factor. `room` is the largest one at which no two discs overlap, or exceeds
-    /// `largest_at`.
+    /// Changes the factor. `room` is the largest factor at which no two discs overlap; it may
+    /// exceed `largest_at`.
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
@@ -114,18 +113,18 @@ public:
 /// discs depart.
 struct Arrival {
     std::size_t side = 0;
-    DiscId first = 0, end = 0; ///< the ids that the disc may have
-    double flown = 0;          ///< how long ago that was
-    double across = 0;         ///< its place now along the side, from 0 to 1 of the room there
+    DiscId first = 0, end = 0; ///< range of ids that the disc may have
+    double flown = 0;          ///< time since it came in
+    double across = 0;         ///< its place along the side, from 0 to 1 of the free length
     bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
     double inwards = 0, along = 0;                  ///< its velocity, for a mass of 1
 };
 
-/// What has become of arrivals.
+/// How many arrivals came in, and how many did not.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
-    std::uint64_t without_place = 0; ///< because another disc or an obstacle is there
-    std::uint64_t without_disc = 0;  ///< because no disc had departed
+    std::uint64_t without_place = 0; ///< left out because another disc or an obstacle is there
+    std::uint64_t without_disc = 0;  ///< left out because no disc had departed
 };
 
 /// Lets departed discs come back into the box. All functions give the same on all ranks.
@@ -155,13 +154,13 @@ public:
     /// The change of radii, for an effect that has one; null for all others. At most one effect has
     /// it.
     virtual SizeChange* sizes() { return nullptr; }
-    /// Of an effect that lets discs in; null for all others. At most one effect has it.
+    /// The source of an effect that lets discs in; null for all others. At most one effect has it.
     virtual DiscSource* source() { return nullptr; }
 
     /// Whether `begin` does anything.
     virtual bool begins() const { return false; }
-    /// Like `act`, immediately before the flights that follow a sync or the scene's start. What
-    /// outputs show at a sync is the state between `act` and `begin`. **Collective.**
+    /// Like `act`, immediately before the flights that follow a sync or the scene's start. Outputs
+    /// at a sync contain the state between `act` and `begin`. **Collective.**
     virtual void begin(const SyncDiscs& /*at*/) {}
 
     /// The numbers that the effect needs at the next sync besides the states of discs, equal on all

@@ -14,12 +14,13 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A correct program may have roundings larger by this factor than the runs by which their growth
-/// is measured.
+/// The roundings of a correct program may be larger by this factor than those of the runs that
+/// measure how roundings grow.
 constexpr double growth_margin = 1000;
 /// The same factor for a single step from known numbers.
 constexpr double step_margin = 20;
-/// The first ones vary the last digits of the output's numbers, the others vary the last bits
+/// Of the runs from the student's own lines this many vary the last digits of the numbers; the
+/// others vary the last bits.
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
@@ -108,7 +109,7 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     }
     finest_ = unlimited;
     for (const StudentLine& line : lines()) finest_ = std::min(finest_, line.finest_digit);
-    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show the rounding
+    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show how they were rounded
     finest_ = std::max(finest_, unit_of_float_);
     n_steps_ += 1;
     if (!can_grade(step)) {
@@ -121,7 +122,7 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
     const bool is_right = hold(aim, step);
     if (!is_right && !(counts_points_ && are_possible(step))) return false;
-    if (!is_right) has_left_runs_ = true; // the program's own run differs from here on
+    if (!is_right) has_left_runs_ = true; // the program's own run cannot be compared any more
     go_on_from_lines(step, aim.discs);
     return true;
 }
@@ -138,8 +139,8 @@ void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& c
     written_before_ = step;
 }
 
-/// A step can be computed from the student's lines only if they are of the step before, and precise
-/// enough.
+/// A step can be computed from the student's lines only if these are the lines of the step before
+/// and precise enough.
 bool Grader::can_grade(std::int64_t step) const {
     if (!has_left_runs_) return true;
     return own_before_ && step - written_before_ == 1 &&
@@ -233,8 +234,8 @@ void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     }
 }
 
-/// One step of the rule from the student's own step before. The other runs begin from states within
-/// the rounding of the student's last digits.
+/// One step of the rule from the student's lines of the step before. The other runs begin from
+/// states within the rounding of the student's last digits.
 Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
@@ -285,8 +286,9 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// If roundings decide, a disc may be at any position that a rounding can produce. Equal times are
-/// not roundings: if a wrong choice between them produces the line, that is the mistake.
+/// Whether roundings explain the difference: if they decide which discs collide, a disc may be at
+/// any position that a rounding can produce. Equal times are no rounding, so a wrong choice between
+/// them is reported as a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -306,7 +308,8 @@ bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// The last step may come too early or too late.
+/// Compares the counters. The step that the student's output ends with may be too early or too
+/// late.
 bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
     if (!steps_.has_counters() || (step < scene_.steps && steps_.next_line())) return true;
     points_.are_counters_right = false;

@@ -41,7 +41,7 @@ enum class Mistake {
     overlap_leaves,
     overlap_at_end,
     corner_on_one_axis,
-    one_disc_only, ///< for this one and the next two, the collision of the disc `subject`
+    one_disc_only, ///< this one and the next two concern one collision of the disc `subject`
     pair_missed,
     wall_missed,
 };

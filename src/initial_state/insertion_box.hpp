@@ -67,7 +67,7 @@ public:
         return box_.x / communicator_.size() * (communicator_.rank() + 1) + margin();
     }
 
-    /// A grid for points of the strip and of the margin around it.
+    /// Makes a grid that covers the strip and the margin around it.
     PointGrid grid(double n_points) const {
         return {strip_low(), strip_high(), box_.y, diameter_, n_points};
     }
@@ -143,8 +143,8 @@ public:
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
-    /// Calls `visit(place)` for the position of a notice and for those of its images that are near
-    /// discs across a seam, until it returns true. A grid puts positions beyond its ends into its
+    /// Calls `visit(place)` for the position of a notice and for each of its images near the seam
+    /// of a periodic box, until it returns true. A grid puts positions beyond its ends into its
     /// last cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;

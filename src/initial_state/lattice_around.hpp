@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A triangular lattice around obstacles, and in boxes that are no rectangles.
+// A triangular lattice around obstacles, and in boxes that are not rectangles.
 //
-// Rows lie along x. Of m rows the spacing a follows, and along x it is stretched so that whole
-// numbers of sites fill the box. A site counts if it is at least a / 2 from walls and obstacles, so
-// that each disc may be moved by a / 2 less its radius in any direction: no overlap, none outside.
-// The least m with enough sites is taken. Sites in excess stay empty, spread evenly.
+// Rows lie along x. The number of rows m determines the spacing a. Along x the lattice is stretched
+// so that a whole number of sites fits the box. A site is free if it is at least a / 2 from all
+// walls and obstacles. So a disc there can be moved by a / 2 less its radius in any direction,
+// without overlaps and without leaving the box. The smallest m with enough free sites is used.
+// Sites in excess stay empty, spread evenly.
 //
-// Sites are counted some 20 times, each rank its share of the rows; memory is that of the discs.
+// Sites are counted for some 20 values of m, each rank counting its share of the rows. Memory is
+// that of the discs.
 #pragma once
 
 #include <vector>
@@ -16,8 +18,8 @@
 
 namespace carrom {
 
-/// The scene's discs, shaken, in any distribution over the ranks. InputError on each rank if there
-/// are not enough sites. **Collective.**
+/// Returns the scene's discs, each moved by a random distance from its site, in any distribution
+/// over the ranks. Throws InputError on every rank if there are not enough sites. **Collective.**
 std::vector<InputDisc> lattice_around_obstacles(const SceneParameters& scene,
                                                 const Communicator& communicator);
 

@@ -2,9 +2,10 @@
 // Finds the gaps between obstacles that are too narrow for a disc, and draws a line across each.
 //
 // If two obstacles are closer than the disc's diameter, every point of the line between their
-// nearest points is within a radius of one of them, so no disc's centre crosses it. So the lines
-// and the obstacles together divide the box into the regions that a disc cannot leave. A sweep
-// along x finds the pairs: their number is about that of obstacles times those in a strip.
+// nearest points is within a radius of one of them, so the centre of a disc cannot cross it. So the
+// lines and the obstacles together divide the box into the regions that a disc cannot leave. A
+// sweep along x finds the pairs of near obstacles. Its cost is the number of obstacles times the
+// number of those in a strip.
 #pragma once
 
 #include <vector>

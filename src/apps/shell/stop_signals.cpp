@@ -15,7 +15,7 @@ namespace carrom {
 namespace {
 
 // Any thread of the process may run the handler, so `volatile` would not be enough.
-std::atomic<int> signal_that_has_come = 0; // only for the answer
+std::atomic<int> signal_that_has_come = 0; // used only for the message
 std::atomic<bool> is_answer_due = false;
 
 /// A signal handler: calls only functions that are allowed there.

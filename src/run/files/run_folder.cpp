@@ -107,7 +107,8 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
     std::erase_if(overrides,
-                  [](const std::string& one) { return is_of_frozen(one); }); // found anew
+                  // frozen discs are found again from the scene
+                  [](const std::string& one) { return is_of_frozen(one); });
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
     if (!scene.discs_from.empty())

@@ -14,14 +14,14 @@ namespace carrom {
 
 namespace {
 
-constexpr double approach = 10;         ///< collisions of a disc before a trial measures
+constexpr double approach = 10; ///< collisions of a disc before the measurement of a trial begins
 constexpr double certainty = 2;         ///< standard errors that are added to a measured error
-constexpr double most_collisions = 4e6; ///< of pairs, in a trial
+constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
 constexpr double least_accuracy = 4 * certainty /
                                   2000; ///< four times the error that 4e6 collisions resolve
 /// Collisions of a disc in a trial, at least, because errors in dense gases show late
 constexpr double per_disc = 100;
-constexpr double fewest_collisions = 2e4; ///< of pairs; shorter trials cannot be timed ...
+constexpr double fewest_collisions = 2e4; ///< pair collisions; shorter trials cannot be timed ...
 constexpr double long_enough =
     2e4; ///< ... unless the trial has at least this many disc-steps or steps
 constexpr double long_enough_steps = 1e3;
