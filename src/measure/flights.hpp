@@ -22,7 +22,7 @@ public:
 
     /// Call it before the first step, or at a restart. **Collective.**
     void follow();
-    /// The discs at positions that no periodic side has changed since the last sync.
+    /// The discs at positions that have not been brought back into the box since the last sync.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Starts all displacements here. **Collective.**
     void begin(std::span<const DiscState> flown);

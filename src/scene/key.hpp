@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one declaration of each scene key. The reader of scenes and its checks, `--set`, the
-// comparison at a restart, the writer of scenes and the reference page all work from this table.
+// comparison at a restart, the writer of scenes and the reference page all use this table.
 //
 // To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
 // side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule there, or a
@@ -23,7 +23,7 @@ namespace carrom {
 enum class Kind {
     number,
     lengths, ///< a number, or an array of two, [Lx, Ly]
-    point,   ///< a word of the key, or [x, y]
+    point,   ///< two coordinates [x, y], or a word of the key
     integer,
     flag,
     text,

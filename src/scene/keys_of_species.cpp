@@ -85,7 +85,7 @@ public:
         }
         while (row_ != scene_.effects.contact.rows.end() && row_->end <= first) ++row_;
         if (row_ != scene_.effects.contact.rows.end()) end = std::min(end, row_->end);
-        if (!scene_.groups.empty()) return row; // because groups have the counts and regions
+        if (!scene_.groups.empty()) return row; // groups have the counts and regions
         while (region_ != scene_.regions.end() && region_->end <= first) ++region_;
         if (region_ != scene_.regions.end()) {
             end = std::min(end, region_->end);

@@ -21,7 +21,7 @@ struct Quantity {
     bool has_history = false;        ///< whether its tables grow with each sample
     bool follows_collisions = false; ///< whether it needs each collision; a GPU does not list them
     std::vector<Rule> rules = {};    ///< features with which it cannot be combined
-    void (*check)(const SceneDraft&) = {}; ///< called for a valid box and valid discs; a check that
+    void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; a check that
                                            ///< quantities share runs once
     void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One checked description of a run. Every reader ends in `SceneParameters`; after that nothing
-// reads the input's text again.
+// One checked description of a run. Every reader of inputs makes a `SceneParameters`, and nothing
+// reads the text of the input afterwards.
 //
 // Velocities and times are the scene's (per step). The engine divides velocities by `micro_steps`
 // when it takes the discs.
@@ -26,13 +26,13 @@ namespace carrom {
 enum class Method { time_stepped, event_driven };
 /// The precision of stored states and of computation.
 enum class Precision { double_, single };
-/// The formula for contacts: the predicate, or the one of the course program.
+/// The formula for contacts: that of the predicate, or that of the course program.
 enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind {
     maxwell,
     uniform,
-    reversed ///< given velocities with the opposite sign
+    reversed ///< the listed velocities with the opposite sign
 };
 
 /// The lines on standard output: none, steps 0 and S, or every step (the course
@@ -55,7 +55,7 @@ struct NumberRun {
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// In the order of ids; a column whose numbers all start at 0 is empty.
+/// First numbers in the order of ids. A column whose numbers all start at 0 is empty.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
 /// The columns that a line of `discs_file` may have. The columns beside the states come last.
@@ -71,11 +71,11 @@ constexpr SideColumn side_column_of(DiscColumn column) {
                                    static_cast<std::size_t>(DiscColumn::first_side));
 }
 
-/// The point of the box, from its lower left corner, that has the coordinates (0, 0) in what users
-/// write and read. All that computes counts from the corner (scene/places.hpp).
+/// The point of the box, relative to its lower left corner, that has the coordinates (0, 0) for
+/// users. All computations begin at the corner (scene/places.hpp).
 struct Origin {
     double x = 0, y = 0;
-    bool is_centre = false; ///< follows the box; x and y are set once that is known
+    bool is_centre = false; ///< the centre of the box; x and y are set when the box is known
 
     bool is_on() const { return x != 0 || y != 0; }
     friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
@@ -198,7 +198,7 @@ struct SceneParameters {
     Box box;                 ///< lengths of the edges; 0 if they are not known
     Origin origin;           ///< of places in texts, messages and tables only
     double radius = 0;       ///< radius of the largest disc
-    bool are_points = false; ///< the scene's radius is 0; `radius` is then point_radius(box)
+    bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
     std::optional<SizeDistribution> sizes; ///< distribution of the radii, which have become species
     std::uint64_t n_discs = 0;
 

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double widest_deviations = 3; ///< from the middle to the default limits
+constexpr double widest_deviations = 3; ///< default limits, in standard deviations from the middle
 /// If limits are further away than this, the cells of the range would be too coarse for the
 /// density. So the range is cut where the density vanishes.
 constexpr double widest_range = 64, end_of_density = 12;
@@ -89,7 +89,7 @@ double share_within_limits(const SizeDistribution& sizes) {
     };
     const double low = score(sizes.smallest, -reach), high = score(sizes.largest, reach);
     if (measure.is_flat) return (std::min(high, reach) - std::max(low, -reach)) / (2 * reach);
-    // The smaller of the two tails are subtracted, because they have more digits.
+    // Subtracts tails on the side where both are small, because small numbers have more digits.
     const auto tail = [](double z) { return std::erfc(z / std::numbers::sqrt2) / 2; };
     return low > 0 ? tail(low) - tail(high) : tail(-high) - tail(-low);
 }

@@ -58,7 +58,7 @@ MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* s
 
 /// Adds the integrals in `mine`, summed over all ranks, to `sample`. **Collective.**
 void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample);
-/// Adds the integrals over flights since the last sync, seen in `frame`.
+/// Adds the integrals over flights since the last sync in the coordinates of `frame`.
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample);
 
 /// Constants of the scene that averages need.

@@ -159,7 +159,7 @@ private:
     std::vector<double> psi6_;
     std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< as in HexaticSums
     std::vector<double> products_;                           ///< as in HexaticSums
-    VectorBlocks blocks_;                                    ///< of g6, for its errors
+    VectorBlocks blocks_;                                    ///< samples of g6, for its errors
 };
 
 } // namespace

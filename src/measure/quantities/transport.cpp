@@ -100,7 +100,7 @@ public:
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
-        change[trace] -= usual_trace_; // because otherwise the mean would dominate the fluctuations
+        change[trace] -= usual_trace_; // otherwise the mean would dominate the fluctuations
         temperature_ += pressure_->pressures()[3];
         pressure_->forget_pressures();
         for (std::size_t k = 0; k < n_components; ++k) change[k] += moments_[k];
