@@ -37,7 +37,7 @@ struct Totals {
     // Energy that restitution has taken in the event-driven method since stepping began here.
     // Collisions within the contact time took nothing and are counted in `guarded_collisions`.
     double energy_taken = 0;
-    std::uint64_t guarded_collisions = 0; ///< without contacts at rest
+    std::uint64_t guarded_collisions = 0; ///< number of such collisions, without contacts at rest
     double energy_spared = 0;             ///< the energy that guarded collisions would have taken
     std::uint64_t overlapping_pairs = 0;  ///< pairs that now overlap by more than the tolerance
     /// Depth of the deepest overlap; 2 r if two discs are in one place

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs in the memory of a device, which steps them. Engines use devices only through this header,
-// so that a compiler for GPUs gets as little of the program as possible.
+// Discs in the memory of a device, which carries out their steps. Engines use devices only through
+// this header, so that a compiler for GPUs gets as little of the program as possible.
 #pragma once
 
 #include <cstdint>

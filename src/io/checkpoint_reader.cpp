@@ -144,7 +144,7 @@ Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
     } catch (const MachineError&) {
-        throw; // because the file may be undamaged
+        throw; // the file may be undamaged
     } catch (const FileError& error) {
         const std::string text = error.what();
         throw FileError(text.starts_with("is ") ? text : "is damaged: " + text);

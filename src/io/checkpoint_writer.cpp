@@ -102,8 +102,8 @@ public:
         }
     }
 
-    /// Writes all ranks' batches together. A rank that fails leaves HDF5's collective write
-    /// before the others, which then wait in vain; `agree` ends the run. **Collective.**
+    /// Writes all ranks' batches together. A rank that fails leaves HDF5's collective write before
+    /// the others, which then wait for it without end, until `agree` ends the run. **Collective.**
     void write_together(const Batch& batch) {
         for (std::size_t k = 0; k < targets_.size(); ++k)
             on_all_ranks([&] {
@@ -210,7 +210,8 @@ void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPie
     std::vector<std::jthread> threads; // joined at the end
     try {
         for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
-    } catch (const std::system_error&) { // if no more threads can start, those at work do all of it
+    // no more threads can start, so the running ones do all work
+    } catch (const std::system_error&) {
     }
     first_of_all();
     pack_blocks();

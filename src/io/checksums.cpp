@@ -38,7 +38,7 @@ std::string line(const StateHash& hash, std::string_view name) {
     return fmt::format("{}{}{}\n", to_string(hash), blanks, name);
 }
 
-/// Accepts only the text that would be written, so that the same sums have one text.
+/// Accepts only the text that would be written, so that each set of sums has exactly one text.
 Checksums parsed(const std::string& text) {
     Checksums sums;
     std::istringstream lines(text);

@@ -32,7 +32,7 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// The child must not act for the program, so it gets no signal handlers and no core file.
+/// The child must not act in place of the program, so it gets no signal handlers and no core file.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);
@@ -73,7 +73,7 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that inspects it");
     const pid_t child = ::fork();
     if (child == 0) {
-        ::close(ends[0]); // so that a file can be opened even if the limit is low
+        ::close(ends[0]); // frees a file handle, because the limit may be low
         inspect_and_exit(inspect, ends[1]);
     }
     ::close(ends[1]);

@@ -103,7 +103,7 @@ private:
     Index index_;
     std::uint64_t n_rows_ = 0;
     bool is_cut_ = false;                ///< whether rows were cut off since the last commit
-    ColumnHashers hashers_;              ///< of the last segment
+    ColumnHashers hashers_;              ///< hashes of the last segment's columns
     std::vector<std::uint64_t> written_; ///< for each column: bytes since the last `add`
     /// The last segment. It stays open, so that no other file that takes its name is written to.
     std::unique_ptr<Descriptor> open_;

@@ -206,7 +206,7 @@ private:
     std::span<const DiscState> discs_;
     SideSpans columns_;
     std::span<const BondOrder> orders_;
-    std::span<const DiscImage> images_; ///< those with larger ids
+    std::span<const DiscImage> images_; ///< images of the ids that follow
     double clock_;
     const TrajectoryLayout& layout_;
     const CollectedWords& collected_;

@@ -125,7 +125,7 @@ void Communicator::sum(ExactSum& value) const {
 std::uint64_t Communicator::sum_before(std::uint64_t value) const {
     ++handle_->traffic.collectives;
     if (handle_->is_alone()) return 0;
-    std::uint64_t result = 0; // MPI does not set it on rank 0
+    std::uint64_t result = 0; // on rank 0 MPI does not set the result
     MPI_Exscan(&value, &result, 1, MPI_UINT64_T, MPI_SUM, handle_->comm);
     return rank() == 0 ? 0 : result;
 }

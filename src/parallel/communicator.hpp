@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ranks of a run and what all of them do together: reductions, broadcasts, gathers. Only this
-// module calls MPI.
+// The ranks of a run and their common operations: reductions, broadcasts, gathers. Only this module
+// calls MPI.
 //
 // Values are sent as bytes, so they must be trivially copyable; all ranks run the same program.
 // Data of any size is split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator
-// share one MPI communicator, which is a duplicate of the world's: its messages never mix with
+// share one MPI communicator. It is a duplicate of the world's, so its messages never mix with
 // those of another owner. Every reduction gives all ranks the same bits for any number of ranks,
 // because floating-point sums are exact.
 #pragma once

@@ -28,10 +28,9 @@ namespace {
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
 constexpr std::size_t most_species = 8; ///< species with tables of their own
-/// Longest wave in radii divided by the reach of a scattering function: over shorter waves discs
-/// only fly freely.
+/// Largest number of waves in a radius. Over shorter waves discs only fly freely.
 constexpr double shortest_waves = 1000;
-/// discs in a run of ids, each of which is on one rank
+/// The number of ids in a run; each run is on one rank
 constexpr std::uint64_t ids_of_run = Pieces::least_rows;
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
