@@ -82,8 +82,8 @@ public:
         std::string name = "scene.toml";
         std::string text = "# made by a program; its settings are all\n"; ///< never empty
         std::int64_t lines_before_discs = 0; ///< lines of legacy text before its discs
-        bool discs_follow = false;         ///< the text is a legacy header, which discs follow
-        std::vector<std::string> settings; ///< "key=value", in the order they were set
+        bool discs_follow = false;           ///< the text is a legacy header, which discs follow
+        std::vector<std::string> settings;   ///< "key=value", in the order they were set
     };
     const Source& source() const { return source_; }
 

@@ -30,9 +30,9 @@ struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
     std::size_t side = 0; ///< the side; numbers from `n_sides` on are rows of obstacles
-    double normal = 0;                 ///< impulse away from the side
-    double along = 0;                  ///< impulse along the side, in the direction of its axis
-    double energy = 0;                 ///< change of the discs' kinetic energy
+    double normal = 0;    ///< impulse away from the side
+    double along = 0;     ///< impulse along the side, in the direction of its axis
+    double energy = 0;    ///< change of the discs' kinetic energy
     double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; for obstacles
 };
 

@@ -74,7 +74,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
 }
 
 /// Micro-steps between two additions of flights to the sums of stress. Flights are added at every
-/// sync if syncs change velocities, if the sides are sheared, or if discs move in their own frame.
+/// sync if syncs change velocities, if images move, or if discs move in their own frame.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
@@ -262,8 +262,7 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     return largest_speed_of_all_states();
 }
 
-/// Effects begin once for all flights to the next sync, also if a run stops here and a restart goes
-/// on.
+/// Effects begin once for all flights to the next sync, also if a restart continues from here.
 template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
     discs_.forget_halo(); // its velocities are those before the effects

@@ -379,8 +379,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
                         8 * 0x1p-53 * dynamics.box().longest();
     const double speed = std::sqrt(dynamics.squared_speed(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
-    // A disc that is only slightly too fast might not be tested again at its next collision, so it
-    // is an error now.
+    // A disc that is hardly too fast might not be tested at its next collision, so it is an error.
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
         away + speed * (window.end - time) <= window.speed_bound * duration)

@@ -19,8 +19,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double growth_margin = 1000;
 /// The same factor for a single step from known numbers.
 constexpr double step_margin = 20;
-/// Of the runs from the student's own lines this many vary the last digits of the numbers; the
-/// others vary the last bits.
+/// This many runs vary the last digits of the output's numbers, the others vary the last bits.
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
@@ -286,9 +285,8 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// Whether roundings explain the difference: if they decide which discs collide, a disc may be at
-/// any position that a rounding can produce. Equal times are no rounding, so a wrong choice between
-/// them is reported as a mistake.
+/// If roundings decide which discs collide, a disc may be at any position that a rounding can
+/// produce. Equal times are no rounding, so a wrong choice between them is reported as a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -308,8 +306,7 @@ bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// Compares the counters. The step that the student's output ends with may be too early or too
-/// late.
+/// Compares the counters, also if the last step comes too early or too late.
 bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
     if (!steps_.has_counters() || (step < scene_.steps && steps_.next_line())) return true;
     points_.are_counters_right = false;

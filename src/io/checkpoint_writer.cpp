@@ -210,7 +210,7 @@ void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPie
     std::vector<std::jthread> threads; // joined at the end
     try {
         for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
-    // no more threads can start, so the running ones do all work
+        // no more threads can start, so the running ones do all work
     } catch (const std::system_error&) {
     }
     first_of_all();

@@ -86,7 +86,7 @@ void on_mpi_error(MPI_Comm*, int* code,
 
 struct Outcome {
     int code = 0;
-    std::string text; ///< text of an error of all ranks; empty if the body returned
+    std::string text;            ///< text of an error of all ranks; empty if the body returned
     int code_alone = abort_code; ///< the code if other ranks do not reach the same end in time
 };
 

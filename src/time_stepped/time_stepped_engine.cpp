@@ -19,8 +19,7 @@ namespace {
 /// equilibrium, the second after a window that was cut.
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
-/// Reduces the number of threads if there are few discs, because threads with little work cost more
-/// than they save.
+/// Uses fewer threads for few discs, because threads with little work cost more than they save.
 Tuning with_useful_threads(Tuning tuning, const SceneParameters& scene, const Communicator& ranks) {
     const auto per_thread = std::max<std::uint64_t>(1, tuning.discs_per_thread),
                n_ranks = static_cast<std::uint64_t>(ranks.size());
@@ -99,8 +98,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
         this->set_departed_aside();
         survey_images();
         agree_on_speed();
-        // a condition with the same value on all ranks
-        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1))
+        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // the same on all ranks
             spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_, tuning_.threads);
         if (n_windows_ == 0) hits_per_micro_step_ = guess_of_hits(window_needs());
     }
@@ -126,8 +124,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
     Base::add_to(totals);
 }
 
-/// Makes cells for discs up to `usual_reach`. Faster discs will be set apart. The halo gets the
-/// depth `reach`.
+/// Makes cells for `usual_reach`, and sets the reach of halo discs to `reach`. Discs that are too
+/// fast for the cells will be set apart.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
@@ -314,8 +312,7 @@ template <class Dynamics>
     DiscState& q = results[c.q];
     const PairStress<Dynamics> before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
-    // Spins do not affect the search, so they change at once even if the micro-step is divided into
-    // parts.
+    // Spins do not affect the search, so they change at once even in a divided micro-step.
     dynamics_.collide(p, q, m + c.time, Dynamics::never, {spin_of(c.p), spin_of(c.q)});
     StepWalls(dynamics_).stop(p, m, c.time);
     StepWalls(dynamics_).stop(q, m, c.time);
@@ -373,8 +370,7 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m, Dis
     return std::sqrt(fastest);
 }
 
-/// The next migration also needs the largest speed before the sync, because discs were sorted with
-/// it.
+/// The next migration also needs the largest speed before the sync, by which discs were sorted.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double largest_speed) {
     unchanged_until_ -= time_;
     if constexpr (Dynamics::has_moving_images) search_.change_dynamics(dynamics_);

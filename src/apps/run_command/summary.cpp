@@ -48,9 +48,8 @@ std::string phases_text(const RunResult& result) {
 std::string imbalance_text(const RunResult& result) {
     std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest",
                                    result.imbalance);
-    const double enough = 0.1 *
-                          busy_seconds(result.phase_seconds); // short phases are left out: they
-                                                              // are uneven by chance
+    const double enough = 0.1 * busy_seconds(result.phase_seconds); // short phases are left out:
+                                                                    // they are uneven by chance
     double most = 0;
     std::string uneven;
     for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {

@@ -222,8 +222,7 @@ private:
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
         const PairOfCells cell = cell_at(from);
         const std::size_t to_right = static_cast<std::size_t>(cell[0]) - 1,
-                          // a negative index becomes huge
-                          upwards = static_cast<std::size_t>(cell[1]) - 1;
+                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if negative
         const ContactTerms terms = terms_of(event);
         if (are_same(cell, cell_at(to)) && to_right < n_x_ && upwards < n_y_ && n_kinds_ == 1)
             [[likely]]

@@ -15,7 +15,7 @@ namespace carrom {
 namespace {
 
 constexpr double approach = 10; ///< collisions of a disc before the measurement of a trial begins
-constexpr double certainty = 2;         ///< standard errors that are added to a measured error
+constexpr double certainty = 2; ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
 constexpr double least_accuracy = 4 * certainty /
                                   2000; ///< four times the error that 4e6 collisions resolve

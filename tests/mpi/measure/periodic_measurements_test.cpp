@@ -98,7 +98,7 @@ struct ByHand {
     /// pairs of two species, by the column's name
     std::map<std::string, std::vector<double>> pairs_of{};
     double farthest = 0;
-    bool is_mixed = false;   ///< the first 40 discs have mass 2, all others 1
+    bool is_mixed = false; ///< the first 40 discs have mass 2, all others 1
     /// discs give momentum to an obstacle or a wall along the periodic axis
     bool is_stopped = false;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts with arcs, and boxes made of them: against mirrors, polygons of many edges, and what
-// round billiards keep.
+// Contacts with arcs, and boxes made of arcs, compared with mirrors, polygons of many edges, and
+// conserved quantities of round billiards.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -29,7 +29,7 @@ Effects shaped(BoxShape shape) {
     return effects;
 }
 
-/// Reflects `disc` at the first obstacle it comes to, without the one that it has just left.
+/// Reflects `disc` at the first obstacle that it meets, except the one that it has just left.
 ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radius,
                         std::uint32_t left = ObstacleContact::no_body) {
     const ObstacleContact contact = obstacles.first_contact(disc, radius,
@@ -40,7 +40,7 @@ ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radi
     return contact;
 }
 
-/// The least time at which a disc that falls touches a point of the arc, by small steps.
+/// The first time at which a falling disc touches a point of the arc, found with small steps.
 double touch_by_steps(const DiscState& disc, const Acceleration& g, double radius, const Arc& arc,
                       double until) {
     const auto gap = [&](double t) {
@@ -80,16 +80,16 @@ TEST_CASE("arcs: faces are met a radius away from them, from outside and from in
     CHECK(outside.vx == -2);
     CHECK(reflect(circle, inside, 1).time == 3);
     CHECK(inside.vy == -3);
-    // A half circle that is open to the left: nothing stops a disc on the way in.
+    // A half circle that is open to the left, so that a disc can fly in.
     const Obstacles half(100, 1, one_arc({50, 50, 10, -90, 90}));
     DiscState guest = flying(20, 50, 2, 0);
     CHECK(reflect(half, guest, 1).time == 19.5);
     DiscState past = flying(20, 61.5, 2, 0);
     CHECK(!reflect(half, past, 1).exists());
-    DiscState end = flying(20, 60, 2, 0); // head on to the upper end
+    DiscState end = flying(20, 60, 2, 0); // head-on at the upper end
     CHECK(reflect(half, end, 1).time == 14.5);
     CHECK(end.vx == -2);
-    // Larger than the arc, a disc comes to its ends alone.
+    // A disc that is larger than the arc only touches its ends.
     DiscState large = flying(20, 50, 2, 0);
     const Obstacles small(100, 20, one_arc({50, 50, 10, -90, 90}));
     CHECK(reflect(small, large, 20).time == Approx((30 - std::sqrt(400.0 - 100)) / 2));
@@ -108,7 +108,7 @@ TEST_CASE("arcs: a disc alone in a round box keeps energy, angular momentum and 
         std::uint32_t left = ObstacleContact::no_body;
         double last = 0;
         for (int n = 0; n < 1000; ++n) {
-            // Times begin anew, as they do at syncs.
+            // Times begin again, as at a sync.
             disc.tau = 0;
             const ObstacleContact contact = reflect(box, disc, 2, left);
             REQUIRE(contact.exists());
@@ -194,9 +194,10 @@ TEST_CASE("arcs: a drum that turns counterclockwise drags discs along on its inn
     Effects effects = shaped(BoxShape::round);
     effects.obstacles.surface = {0, std::numeric_limits<double>::infinity(), 0.3};
     const Obstacles drum(100, 1, effects);
-    DiscState disc = flying(50, 60, 0, -1); // to the lowest place, where the wall goes right
+    // to the lowest place, where the wall moves to the right
+    DiscState disc = flying(50, 60, 0, -1);
     reflect(drum, disc, 1);
-    CHECK(disc.vx == Approx(0.3)); // the surface of a smooth disc comes to that of the wall
+    CHECK(disc.vx == Approx(0.3)); // the surface of the disc gets part of the wall's velocity
     CHECK(disc.vy == Approx(1));
     effects.obstacles = {};
     effects.obstacles.arcs = {{50, 50, 10}};
@@ -207,7 +208,7 @@ TEST_CASE("arcs: a drum that turns counterclockwise drags discs along on its inn
     reflect(ring, inside, 1);
     CHECK(outside.vx == Approx(0.3));
     CHECK(inside.vx == Approx(0.3));
-    // A stadium turns as a belt does.
+    // The wall of a stadium moves like a belt.
     effects.obstacles.arcs.clear();
     effects.obstacles.shape = BoxShape::stadium;
     const Obstacles stadium({200, 100}, 1, effects);

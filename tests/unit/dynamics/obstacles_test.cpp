@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts with obstacles: where mirrors say, and the same however far the flight has to look.
+// Contacts with obstacles compared with mirrors; they must not depend on how a flight is divided
+// into searches.
 #include <cmath>
 #include <random>
 
@@ -20,7 +21,7 @@ Effects one_disc(double x, double y, double radius) {
     return effects;
 }
 
-/// Reflects `disc` at the first obstacle it comes to.
+/// Reflects `disc` at the first obstacle that it meets.
 ObstacleContact reflect(const Obstacles& obstacles, DiscState& disc, double radius = 1) {
     const ObstacleContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e6});
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
@@ -38,8 +39,8 @@ TEST_CASE("obstacles: a disc is reflected as from a mirror") {
         CHECK(disc.vy == 0);
     }
     SECTION("off centre, by the angle that the impact parameter says") {
-        DiscState disc = flying(10, 53, 2,
-                                0); // 3 off, at a distance of 5: the normal is (-4, 3) / 5
+        // 3 beside the centre at a distance of 5: the normal is (-4, 3) / 5
+        DiscState disc = flying(10, 53, 2, 0);
         reflect(Obstacles(100, 1, one_disc(50, 50, 4)), disc);
         CHECK(disc.x == Approx(46));
         CHECK(disc.vx == Approx(2 - 2 * 2 * 16.0 / 25));
@@ -76,9 +77,9 @@ TEST_CASE("obstacles: a ball bounces from a slope under gravity where Galileo sa
     // States are stored in a frame that falls from time 0 on.
     DiscState level = flying(20, 36, 0.5, 0);
     CHECK(reflect(obstacles, level).time == Approx(10));
-    CHECK(level.vy + effects.gravity.y * 10 == Approx(5)); // in the box
+    CHECK(level.vy + effects.gravity.y * 10 == Approx(5)); // the velocity in the box
     CHECK(level.vx == 0.5);
-    // sqrt(2) above a point of the slope, 16 lower than it starts
+    // sqrt(2) above a point of the slope, 16 below its start
     DiscState slope = flying(75, 75 + std::sqrt(2.0) + 16, 0, 0);
     CHECK(reflect(obstacles, slope).time == Approx(8));
     CHECK(slope.vx == Approx(-4));
@@ -122,7 +123,7 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
             const ObstacleContact found = all.first_contact(disc, 0.5, {tau, to});
             CHECK(found.time == first.time);
             n_found += found.exists();
-            const double half = (tau + to) / 2; // the same in two looks
+            const double half = (tau + to) / 2; // the same in two searches
             const ObstacleContact early = all.first_contact(disc, 0.5, {tau, half}),
                                   late = all.first_contact(disc, 0.5, {half, to, false});
             CHECK((early.exists() ? early.time : late.time) == found.time);
