@@ -143,9 +143,8 @@ public:
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
-    /// Calls `visit(place)` for the position of a notice and for each of its images near the seam
-    /// of a periodic box, until it returns true. A grid puts positions beyond its ends into its
-    /// last cells.
+    /// Calls `visit(place)` for the position of a notice and for each of its images near the seam,
+    /// until it returns true. A grid puts positions beyond its ends into its last cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;
