@@ -33,7 +33,7 @@ bool is_finite(const DiscState& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-/// Returns the stored state unchanged if the box's coordinates are those of the discs.
+/// The disc in the box's coordinates: the stored state itself unless the frame moves.
 DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
                   double micro_steps_since_sync) {
     if (!frame.is_moving) return disc;

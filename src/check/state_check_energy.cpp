@@ -89,7 +89,8 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    if (finding.is_found == 1) finding.rank = -1; // the rank that has the record has found it
+    // the energy is checked by the records of discs, not by the owner of one of them
+    if (finding.is_found == 1) finding.rank = -1;
     return finding;
 }
 

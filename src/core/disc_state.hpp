@@ -35,7 +35,7 @@ struct alignas(64) DiscState {
     std::uint64_t is_departed : 1 = 0; ///< see depart()
     std::int64_t image_x : 16 = 0; ///< the disc's image is this many box lengths away (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Since the last sync; only used if collisions may take energy
+    /// Whether the disc has collided since the last sync; only used if collisions may take energy
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 

@@ -14,10 +14,10 @@ namespace carrom {
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
-    /// Box lengths by which it has been brought back into a periodic box since then
+    /// Box lengths by which the disc has been brought back into a periodic box since then
     double lengths_x = 0, lengths_y = 0;
-    double vx = 0, vy = 0; ///< at that time, per step
-    /// Box lengths by which it had been brought back by then, since the scene's start
+    double vx = 0, vy = 0; ///< velocity per step, when sampling or the window began
+    /// Box lengths by which the disc had been brought back before then, since the scene's start
     double image_x = 0, image_y = 0;
 };
 

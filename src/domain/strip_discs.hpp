@@ -152,7 +152,7 @@ public:
     /// whose domain contains a disc's state owns the disc.
     void take_back(std::span<const ReturningDisc> discs);
     std::span<const DiscState> departed() const { return departed_; }
-    /// along the departed discs
+    /// Numbers of the departed discs, in the order of `departed()`
     const SideColumns& departed_columns() const { return departed_columns_; }
     /// Number of discs on all ranks, departed ones included.
     std::uint64_t n_with_departed() const { return n_with_departed_; }

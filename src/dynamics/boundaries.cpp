@@ -135,7 +135,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_on();
-        // From the wall's highest position, where the wall may be soon
+        // The distance from the wall's highest position, which the wall may reach soon
         if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);

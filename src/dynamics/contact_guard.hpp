@@ -40,7 +40,7 @@ class ContactGuard {
 public:
     /// The share of the distance between centres that two discs close in by during a contact.
     static constexpr double pair_share = 1e-6;
-    /// The same for a disc and its image behind a wall.
+    /// This share for a disc and its image behind a wall.
     static constexpr double wall_share = 1e-4;
 
     /// For discs of at most `radius`.
@@ -67,7 +67,7 @@ public:
         return contact_time_ > 0 ? 0.5 * pull * contact_time_
                                  : std::sqrt(0.5 * wall_share * radius * pull);
     }
-    /// How long such a disc is away.
+    /// The time after which a disc that leaves a wall with `least_departure` is back.
     double rest_time(double pull, double radius) const {
         if (contact_time_ > 0) return contact_time_;
         return pull > 0 ? 2 * least_departure(pull, radius) / pull : 0;

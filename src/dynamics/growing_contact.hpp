@@ -25,7 +25,7 @@ template <class Real>
     const Real clock = contact_delay(dx, dy, vx, vy, wx, wy, sigma, deepest_overlap);
     if (clock < 0) return none;
     const Real rest = std::fma(-growth, clock, Real{1});
-    return rest > 0 ? clock / rest : none; // the clock approaches 1 / g but never reaches it
+    return rest > 0 ? clock / rest : none; // the growing discs' clock never reaches 1 / g
 }
 
 } // namespace carrom

@@ -333,7 +333,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
-    // As at walls, a disc that is pulled back leaves fast enough to stay away for a contact.
+    // A disc that is pulled back leaves fast enough to stay away for a contact time, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);
@@ -357,7 +357,7 @@ Loss Obstacles::rebound(DiscState& disc, std::uint32_t code, double time, double
     return loss;
 }
 
-/// Negative infinity if an arc is in another direction, because its ends are bodies of their own.
+/// -infinity for an arc in another direction, because the ends of arcs are bodies of their own.
 double Obstacles::overlap_of(const Body& body, double x, double y, double radius) const {
     if (body.is_arc) {
         const double dx = x - body.x, dy = y - body.y, distance = std::sqrt(dx * dx + dy * dy);

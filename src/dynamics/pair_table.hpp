@@ -46,7 +46,7 @@ public:
         : ends_(ends), factors_(factors), n_(n) {}
 
     CARROM_DEVICE bool are_any() const { return factors_ != nullptr; }
-    /// The same for (p, q) and (q, p).
+    /// The factors of the pair; (p, q) and (q, p) have the same.
     CARROM_DEVICE const PairFactors& of(DiscId p, DiscId q) const {
         return factors_[row_of(p) * n_ + row_of(q)];
     }

@@ -66,7 +66,8 @@ public:
     /// numbers of its own.
     SpeciesTable(std::span<const Species> species, double radius, bool radii_change = false);
 
-    /// In all copies. Only of a table whose radii change, while nobody else reads it.
+    /// Sets the radius in all copies of the table. Only for a table whose radii change; no other
+    /// thread may read the table meanwhile.
     void set_radius(DiscId id, double radius) { table_->sizes[id].radius = radius; }
 
     const SizeAndMass& of(DiscId id) const { return view_.of(id); }

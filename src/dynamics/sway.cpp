@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// In periods after a sync. The next sync comes before.
+/// The longest time after a sync, in periods; the next sync comes earlier.
 constexpr double longest_arc = 0.125 * (1 + 0x1p-10);
 
 /// For a small angle x: its sine, 1 - cos x and x - sin x, each accurate to a few roundings.

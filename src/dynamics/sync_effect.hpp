@@ -50,7 +50,7 @@ struct PairImpulse {
 /// velocities are relative to the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
     const SpeciesTable& species;       ///< the radius and the mass of each disc
-    std::span<DiscState> discs = {};   ///< some may have departed; effects do not change those
+    std::span<DiscState> discs = {};   ///< includes departed discs, which effects do not change
     std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
     std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
     std::span<double> radii = {};      ///< along the discs; empty unless discs exchange them

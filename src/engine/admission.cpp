@@ -18,16 +18,16 @@ constexpr double least_gap = 1e-9;
 /// An arrival with its disc. A disc is let in if its place of entry is free, even if the place that
 /// it has reached since is not. Otherwise fast discs would be left out more often.
 struct Candidate {
-    ReturningDisc disc; ///< at the place of entry
-    DiscState there;    ///< at the place that it has reached at the sync
+    ReturningDisc disc; ///< the disc at the place of entry
+    DiscState there;    ///< the disc at the place that it has reached by the sync
     double radius = 0;
     bool is_blocked = false, is_blocked_there = false;
 };
 
 bool may_have(const Arrival& arrival, DiscId id) { return id >= arrival.first && id < arrival.end; }
 
-/// The departed discs on this rank that may come in. They are those with the lowest ids; for each
-/// range of ids there are as many of them as arrivals.
+/// The departed discs on this rank that may come in: for each range of ids those with the lowest
+/// ids, as many as there are arrivals of this range.
 std::vector<ReturningDisc> lowest_of_rank(std::span<const Arrival> arrivals,
                                           const AdmissionGround& ground) {
     std::vector<std::size_t> places;

@@ -265,7 +265,7 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
 /// Effects begin once for all flights to the next sync, also if a restart continues from here.
 template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
-    discs_.forget_halo(); // its velocities are those before the effects
+    discs_.forget_halo(); // the halo has the velocities before the effects
     sync_action_.begin(discs_, n_micro_done_ / sync_every_);
     take_speed(largest_speed_of_all_states());
 }

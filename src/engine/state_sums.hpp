@@ -54,7 +54,7 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
 struct Touching {
     double diameter = 0, tolerance = 0;
     const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
-    double size = 1;                             ///< by which the table's radii have grown
+    double size = 1;                             ///< factor by which the table's radii have grown
 
     double diameter_of(const DiscState& p, const DiscState& q) const {
         return species_table

@@ -9,9 +9,9 @@ namespace carrom {
 namespace {
 
 // Costs in instructions, with vectors of eight.
-constexpr double cost_per_level = 80;  ///< for each level that a search visits
-constexpr double cost_per_column = 50; ///< for each column of cells in that level
-constexpr double cost_per_partner = 4; ///< for each disc in these cells
+constexpr double cost_per_level = 80;  ///< cost for each level that a search visits
+constexpr double cost_per_column = 50; ///< cost for each column of cells in that level
+constexpr double cost_per_partner = 4; ///< cost for each disc in these cells
 constexpr int n_octaves = 48;          ///< octaves of radii that can have levels of their own
 
 /// Typical flight of a disc in a window, in mean distances of discs

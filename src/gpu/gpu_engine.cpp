@@ -63,7 +63,7 @@ template <class Dynamics> void GpuEngine<Dynamics>::bring_states() const {
     const PhaseClock::Scope scope(*copying_time_, Phase::exchange);
     is_host_current_ = true;
     on_host_->forget_halo();
-    on_host_->drop_grid(); // it was made for the old order
+    on_host_->drop_grid(); // the grid was made for the old order
     std::vector<DiscId> old_ids;
     bool has_columns = false;
     on_host_->columns().for_each([&](SideColumn) { has_columns = true; });

@@ -49,9 +49,9 @@ private:
 
     DeviceFacts facts_;
     std::unique_ptr<Stepper> stepper_;
-    /// discs_, not const, because functions that only read may copy to it
+    /// `discs_` without const, because const functions copy the device's discs into it
     StripDiscs* on_host_ = nullptr;
-    PhaseClock* copying_time_ = nullptr; ///< phases_, not const, for the same reason
+    PhaseClock* copying_time_ = nullptr; ///< `phases_` without const, for the same reason
     mutable bool is_host_current_ = true;
     double window_speed_ = 0; ///< speed that the window's reach allows for
     /// Bound of speeds in the next window, relative to the largest speed

@@ -17,7 +17,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// The roundings of a correct program may be larger by this factor than those of the runs that
 /// measure how roundings grow.
 constexpr double growth_margin = 1000;
-/// The same factor for a single step from known numbers.
+/// The factor by which roundings may be larger in a single step from known numbers.
 constexpr double step_margin = 20;
 /// This many runs vary the last digits of the output's numbers, the others vary the last bits.
 constexpr std::uint64_t own_runs = 6;

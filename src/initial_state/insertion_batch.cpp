@@ -16,7 +16,7 @@ namespace {
 // The number of proposals of a rank in a batch. With too few the exchange takes most of the time,
 // with many they need much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
-constexpr std::uint64_t most_rounds = 4096; ///< of a batch
+constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
 /// A batch should place at most this share of the discs, because the proposals of a placed disc in
 /// later rounds of the batch are useless.
 constexpr double most_placed_share = 0.25;
@@ -65,7 +65,7 @@ std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& u
 void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced) {
     std::ranges::sort(found, {}, &Notice::id);
     const std::size_t n_marks = std::bit_ceil(64 * found.size());
-    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by the last bits of ids
+    std::vector<std::uint8_t> may_be_found(n_marks, 0); // indexed by the last bits of ids
     for (const Notice& notice : found) may_be_found[notice.id % n_marks] = 1;
     std::erase_if(unplaced, [&](std::uint32_t id) {
         return may_be_found[id % n_marks] != 0 &&

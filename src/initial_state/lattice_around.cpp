@@ -29,7 +29,7 @@ public:
           y0_(is_periodic_y_ ? 0 : height_ / (2 * per_row)),
           columns_(static_cast<std::uint64_t>(box_.x * per_row / height_)),
           width_(box_.x / static_cast<double>(columns_)),
-          // Less than half the spacing by 2^-30, which is far more than the rounding of positions.
+          // Half the spacing, less a share of 2^-30 of it, which exceeds the rounding of positions.
           clearance_(height_ / (2 * per_row) * (1 - 0x1p-30)),
           obstacles_(box_, clearance_, scene.effects),
           own_(slab_of_rank(ranks.rank(), n_rows, ranks.size())), free_in_rows_(n_rows) {

@@ -39,7 +39,7 @@ public:
 /// A file descriptor that closes itself.
 class Descriptor {
 public:
-    /// Throws FileError if it cannot be opened, or is a directory (without
+    /// Opens the file. Throws FileError if this fails, or if the path is a directory (without
     /// O_DIRECTORY), a pipe or a device.
     Descriptor(const std::string& path, int flags);
     ~Descriptor();

@@ -117,7 +117,8 @@ public:
     void append(const DiscWords& words, std::vector<std::uint64_t>& to) const {
         for (const std::size_t place : places_) to.push_back(words[place]);
     }
-    /// The word of a disc at `collected`; 0 if it is not collected.
+    /// The word at `place` of the disc whose collected words begin at `collected`; 0 if words at
+    /// this place are not collected.
     std::uint64_t word(const std::uint64_t* collected, std::size_t place) const {
         return slots_[place] == none ? 0 : collected[slots_[place]];
     }

@@ -57,7 +57,8 @@ public:
 
     /// Adds a frame: the discs at `clock`, in any distribution over the ranks, the layout's columns
     /// along them, and their orders if the layout has psi6 or neighbours. If the layout has images,
-    /// `images` are those of a run of ids, which the next rank's run follows. **Collective.**
+    /// each rank passes the images of consecutive ids, and the next rank those of the ids that
+    /// follow. **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {}, std::span<const BondOrder> orders = {},
                 std::span<const DiscImage> images = {});

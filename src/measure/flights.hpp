@@ -41,7 +41,8 @@ private:
     MeasuredRun& run_;
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
-    std::vector<std::array<double, 2>> first_places_; ///< for this rank's run of ids
+    std::vector<std::array<double, 2>>
+        first_places_; ///< of the consecutive ids that this rank follows
     std::vector<std::array<double, 2>> first_velocities_;
     std::optional<ImageCounts> lengths_; ///< of a periodic box, since the beginning
     DiscStates flown_;

@@ -64,7 +64,7 @@ struct SampledState {
     std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
     Extent box;
     bool is_first = false; ///< the first sample, before which there is no interval
-    /// Whether effects have acted at this step since the end of the interval before it.
+    /// Whether effects have acted at this step after the last interval ended.
     bool follows_effects = false;
 };
 

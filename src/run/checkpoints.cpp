@@ -152,7 +152,7 @@ void Checkpoints::go_over_to(std::int64_t step) {
 }
 
 void Checkpoints::write() {
-    if (removal_.valid()) removal_.get(); // because its space may be needed
+    if (removal_.valid()) removal_.get(); // because the space of the removed file may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
     record_written(path, run_.step());
@@ -164,7 +164,7 @@ void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     std::erase(kept_, path);
     kept_.push_back(path);
     remove_oldest();
-    stretch_watch_.lap(); // so that writing does not count for the stretch
+    stretch_watch_.lap(); // so that the time of writing does not count as time of steps
     seconds_since_written_ = 0;
 }
 

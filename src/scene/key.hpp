@@ -140,7 +140,7 @@ struct Table {
     std::string_view help = "";
     bool (*is_in)(const SceneParameters&) = [](const SceneParameters&) { return true; };
     void (*create)(SceneParameters&) = [](SceneParameters&) {};
-    bool is_like_another = false; ///< the reference describes another table like it
+    bool is_like_another = false; ///< the reference describes only one of several equal tables
 
     /// Whether a scene may leave out the table because its feature is optional.
     bool is_optional() const { return !is_in(SceneParameters{}); }

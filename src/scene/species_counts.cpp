@@ -140,7 +140,7 @@ private:
                                has_count ? ", not both" : ""));
             return 0;
         }
-        // 0 if the given count is invalid
+        // The scene's number of discs is 0 if the given count is invalid
         if (has_count) return static_cast<double>(draft_.scene.n_discs);
         if (packing->is_wrong) return 0;
         double square = 0; // mean of r^2

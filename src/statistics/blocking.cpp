@@ -107,7 +107,8 @@ bool are_eighths_in_order(std::span<const double> terms) {
     constexpr std::size_t n_parts = 8;
     const std::size_t length = terms.size() / n_parts;
     if (length < 2) return false;
-    int rising = 0, falling = 0, pairs = 0; // equal means, as of rare events, count as neither
+    int rising = 0, falling = 0,
+        pairs = 0; // equal means, as of rare events, count as neither rising nor falling
     for (std::size_t last = 1; last < n_parts; ++last) {
         for (std::size_t first = 0; first < last; ++first) {
             ++pairs;

@@ -72,7 +72,7 @@ struct AveragedSystem {
     /// The treatment of the common velocity along each axis
     Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat;
     bool has_flow = false; ///< the kinetic part is relative to a flow, and measured by samples
-    /// The kinetic energy is conserved; otherwise samples are closer in time
+    /// Whether the kinetic energy is conserved; if not, samples are closer in time
     bool keeps_energy = true;
     std::int64_t last_step = 0; ///< the last step that the run certainly reaches
 };

@@ -58,7 +58,8 @@ private:
 
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
-    std::vector<std::uint8_t> is_first_; ///< for each undecided candidate
+    std::vector<std::uint8_t>
+        is_first_; ///< whether each undecided candidate is the first one of all its discs
     DiscSet seen_, taken_;
 };
 

@@ -172,7 +172,7 @@ template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs(
             spread_.largest > 0 ? &spread_ : nullptr};
 }
 
-/// As window_needs, but for the discs for which cells are made.
+/// The needs of a window as in window_needs, for discs up to the size for which cells are made.
 template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::usual_needs() const {
     WindowNeeds needs = window_needs();
     needs.radius = search_.usual_radius() + dynamics_.slack();

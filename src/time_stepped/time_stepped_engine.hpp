@@ -77,7 +77,7 @@ private:
         else
             discs_.grid().update_flight(index, disc);
     }
-    /// Null where discs do not turn.
+    /// The disc's spin; null where discs do not turn.
     double* spin_of(LocalIndex index) {
         return dynamics_.has_spin() ? &discs_.columns()[SideColumn::spin][index] : nullptr;
     }
@@ -91,7 +91,7 @@ private:
     /// The next part of the present micro-step, and the number of parts
     int part_ = 0, n_parts_ = 1;
 
-    double refreshed_speed_ = 0; ///< the largest speed at the last sync, until it is used; then 0
+    double refreshed_speed_ = 0; ///< largest speed at the last sync, and 0 after it was used
     /// Time of the first change of a state since the last migration, or before
     double unchanged_until_ = 0;
 

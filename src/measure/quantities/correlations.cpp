@@ -77,7 +77,7 @@ void check_correlations(const SceneDraft& draft) {
 /// cos(2 pi t) to 1e-15, without a function call, so that loops over discs are vectorised. With
 /// std::cos half of the time of a sample would be spent there.
 inline double cosine_of_turns(double turns) {
-    constexpr double rounds = 0x1.8p52; // adding it rounds to a whole number
+    constexpr double rounds = 0x1.8p52; // adding this number rounds to a whole number
     const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
     double series = 0; // sin z / z, for z up to pi / 4
     for (const double factorial :
@@ -215,7 +215,7 @@ public:
 private:
     using Level = std::vector<FollowedStates>;
     static constexpr std::uint64_t lags_per_run = 32;
-    static constexpr double most_deviations = 4; ///< by chance one of some 300 runs exceeds it
+    static constexpr double most_deviations = 4; ///< exceeded by chance in one of some 300 runs
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {
@@ -346,7 +346,7 @@ private:
     std::uint64_t n_samples_ = 0;
     std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
     std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
-    WaitingTimes waiting_;           ///< the same, by the time before the origin
+    WaitingTimes waiting_;           ///< means by waiting time, the same on all ranks
 };
 
 bool needs_another_box(const SceneParameters& s) {

@@ -235,7 +235,7 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
         SceneParameters there = read_scene(text, overrides), here = scene;
-        there.discs_file = here.discs_file; // it is relative to another folder
+        there.discs_file = here.discs_file; // the path in the copy is relative to another folder
         for (SceneParameters* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
         if (there.awaits_frozen() && !here.frozen.empty())

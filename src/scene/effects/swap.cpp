@@ -248,7 +248,7 @@ private:
         if (!all.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
         std::ranges::sort(all);
         for (std::size_t k = 1; k < all.size(); ++k) {
-            if (all[k] != all[k - 1]) continue; // only one of the two fits
+            if (all[k] != all[k - 1]) continue; // a pair fits if both of its discs fit
             const SizeNumber low = all[k], high = low + proposals.distance;
             const DiscId smaller = holders_[low], larger = holders_[high];
             give(smaller, high);

@@ -46,7 +46,8 @@ std::array<double, 3> values_of(const StressSums& virial) {
     return {virial.xx.value(), virial.xy.value(), virial.yy.value()};
 }
 
-/// Rounded to the nearest unit, as whole numbers with more bits than either sum.
+/// The expected sums: terms rounded to the nearest unit, and added as whole numbers with more bits
+/// than StressSums has.
 std::array<double, 3> expected_of(const std::vector<Impulse>& impulses, double bound) {
     const double unit = std::ldexp(bound, -125);
     std::array<long double, 3> sums{};
