@@ -26,7 +26,7 @@ struct Estimate {
     /// In steps. The shortest correlation time that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
-    bool is_conserved = false; ///< all blocks agree except for rounding
+    bool is_conserved = false; ///< whether all blocks agree except for rounding
     bool is_changing = false;  ///< the halves of the run differ by more than errors allow
     /// Mean of the first block, if the average is changing
     double first = std::numeric_limits<double>::quiet_NaN();
@@ -47,8 +47,8 @@ struct Averages {
     Estimate collision_frequency; ///< collisions with other discs, per disc and step
     /// Mean time between two collisions of a disc with others, in steps; infinite if there are none
     Estimate mean_free_time;
-    Estimate wall_pressure;   ///< from collisions with walls, (13c)
-    Estimate virial_pressure; ///< from collisions with walls and of pairs, (19a)
+    Estimate wall_pressure;   ///< pressure from collisions with walls, (13c)
+    Estimate virial_pressure; ///< pressure from collisions with walls and of pairs, (19a)
     Estimate mean_speed;
     Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
     Estimate temperature;    ///< kT of translation, without a drift along periodic sides

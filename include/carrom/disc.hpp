@@ -12,7 +12,7 @@ struct Disc {
     double x = 0, y = 0;   ///< the centre, at the present step; in the box, see SceneFacts
     double vx = 0, vy = 0; ///< length per step
     double spin = 0;       ///< angle per step, counterclockwise; 0 unless discs are rough
-    std::uint64_t wall_collisions = 0; ///< since the scene's start
+    std::uint64_t wall_collisions = 0; ///< collisions with walls since the scene's start
     std::uint64_t pair_collisions = 0; ///< collisions with other discs since the scene's start
 
     friend bool operator==(const Disc&, const Disc&) = default;
@@ -22,8 +22,8 @@ struct Disc {
 /// scene's start.
 struct DiscKind {
     double radius = 0;        ///< length
-    double mass = 1;          ///< in the scene's unit
-    std::int64_t species = 0; ///< from 0, in the order of ids
+    double mass = 1;          ///< mass in the scene's unit
+    std::int64_t species = 0; ///< number of the species from 0, in the order of ids
 
     friend bool operator==(const DiscKind&, const DiscKind&) = default;
 };

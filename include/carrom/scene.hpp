@@ -28,7 +28,8 @@ struct SceneFacts {
     std::uint64_t n_discs = 0;
     std::int64_t steps = 0;       ///< the last step
     std::int64_t micro_steps = 1; ///< micro-steps per step
-    bool is_event_driven = false; ///< otherwise the method is time-stepped
+    /// Whether the method is event-driven; otherwise it is time-stepped
+    bool is_event_driven = false;
     /// Whether the left and right, and the bottom and top sides are periodic
     bool is_periodic_x = false, is_periodic_y = false;
     bool exchanges_radii = false; ///< Simulation::kinds has the radii of the present step
@@ -80,7 +81,8 @@ public:
 
     struct Source {
         std::string name = "scene.toml";
-        std::string text = "# made by a program; its settings are all\n"; ///< never empty
+        /// The scene's text, which is never empty
+        std::string text = "# made by a program; its settings are all\n";
         std::int64_t lines_before_discs = 0; ///< lines of legacy text before its discs
         bool discs_follow = false;           ///< the text is a legacy header, which discs follow
         std::vector<std::string> settings;   ///< "key=value", in the order they were set

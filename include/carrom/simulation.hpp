@@ -39,7 +39,7 @@ struct CheckpointSchedule {
     std::int64_t every_steps = 0; ///< steps between checkpoints; 0: none by steps
     double every_minutes = 0;     ///< wall time between checkpoints; 0: none by time
     std::int64_t keep = 2; ///< number of checkpoints to keep; older ones of this run are removed
-    bool at_end = true;    ///< also writes one at the step `time.steps`
+    bool at_end = true;    ///< whether to write one at the step `time.steps`, too
 };
 
 class Simulation {

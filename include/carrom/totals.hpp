@@ -46,8 +46,8 @@ struct Totals {
     /// Touching pairs for which only rounding decides whether they approach
     std::uint64_t sliding_pairs = 0;
     std::uint64_t chained_discs = 0; ///< discs that touch at least two others
-    double kinetic_energy = 0;       ///< of translation, without rotation
-    double rotational_energy = 0;    ///< of rough discs
+    double kinetic_energy = 0;       ///< kinetic energy of translation, without rotation
+    double rotational_energy = 0;    ///< energy of rotation, of rough discs
     /// Of positions; under gravity it is 0 at the walls towards which it pulled at the start
     double potential_energy = 0;
     double momentum_x = 0, momentum_y = 0;

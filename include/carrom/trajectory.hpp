@@ -19,9 +19,9 @@ namespace carrom {
 /// The data of each disc in a trajectory. Positions are always there.
 struct TrajectoryFields {
     bool velocities = true;
-    bool spins = false;           ///< only for rough discs
+    bool spins = false;           ///< spins of rough discs
     bool collisions = false;      ///< counters of wall and pair collisions
-    bool directions = false;      ///< only for active discs
+    bool directions = false;      ///< directions of active discs
     bool single_precision = true; ///< 4 bytes a number instead of 8
 };
 

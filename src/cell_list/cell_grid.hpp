@@ -31,7 +31,7 @@ namespace carrom {
 struct GridGeometry {
     Axis axis = Axis::x;
     double low = 0, across_low = 0; ///< where the first column and the first row begin
-    double cell_width = 1;          ///< see set_cell_width
+    double cell_width = 1;          ///< the width of cells that set_cell_width has set
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< discs that can collide are at most this many cells apart
 

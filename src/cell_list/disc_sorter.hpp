@@ -117,10 +117,10 @@ private:
     int n_threads_ = 1;
     std::size_t n_discs_ = 0;
     std::vector<Sorter> sorters_;     ///< scratch memory for several threads
-    std::vector<Carrier> carriers_;   ///< by thread
+    std::vector<Carrier> carriers_;   ///< the state of each thread
     std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
     std::size_t most_travellers_ = 0; ///< limit for each thread's share
-    bool are_in_disorder_ = false;    ///< true if too many discs move far
+    bool are_in_disorder_ = false;    ///< whether too many discs move far
 };
 
 } // namespace carrom

@@ -114,7 +114,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     record_speeds();
-    if (were_rewritten()) // because they have flown straight since the sync
+    if (were_rewritten()) // plain discs have flown straight since the sync
         for (Known& known : known_)
             known.free_from = std::max(known.free_from,
                                        micro_steps_done_ / scene_.sync_every * scene_.sync_every);

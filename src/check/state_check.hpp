@@ -159,7 +159,7 @@ private:
     bool depends_on_x_ = false, depends_on_y_ = false;
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
     bool surfaces_rub_ = false; ///< walls or obstacles rub, so spins change there
-    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
+    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< values of CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection
     double energy_given_ = 0, energy_given_before_ = 0;
     double size_ = 1, size_before_ = 1; ///< LocalView::size now and at the last inspection
@@ -169,8 +169,9 @@ private:
     std::vector<Known> known_, before_;
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0;                   ///< total energy, which limits the speed of plain discs
-    std::uint64_t n_pair_collisions_ = 0; ///< by all ranks since the check began
+           energy_ = 0; ///< total energy, which limits the speed of plain discs
+    /// Collisions of pairs on all ranks since the check began
+    std::uint64_t n_pair_collisions_ = 0;
 };
 
 } // namespace carrom

@@ -32,7 +32,7 @@ struct alignas(64) DiscState {
     double tau = 0;
     DiscId id = 0;
     std::uint64_t wall_collisions : 47 = 0;
-    std::uint64_t is_departed : 1 = 0; ///< see depart()
+    std::uint64_t is_departed : 1 = 0; ///< set by depart()
     std::int64_t image_x : 16 = 0; ///< the disc's image is this many box lengths away (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
     /// Whether the disc has collided since the last sync; only used if collisions may take energy

@@ -24,7 +24,7 @@ inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_co
 
 struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
-    const char* shown; ///< its name in recordings, tables and the fields of a trajectory
+    const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
     bool is_rate;      ///< a rate, which is stored per micro-step
     /// The effects decide which runs have it; otherwise a run has it if initial values are given
     bool is_of_dynamics;

@@ -79,8 +79,9 @@ public:
 
 private:
     Strips strips_;
-    std::vector<Strips> groups_;   ///< by strip
-    std::vector<int> first_ranks_; ///< by strip, and the number of ranks at the end
+    std::vector<Strips> groups_; ///< the cuts across each strip
+    /// The first rank of each strip, and the number of ranks at the end
+    std::vector<int> first_ranks_;
 };
 
 /// The other ranks, ascending, that `rank` may have to send discs to or receive discs from. Discs
@@ -92,7 +93,7 @@ std::vector<int> movers_between(const Domains& before, const Domains& after, int
 /// The arguments for the choice of groups. Lengths are in any unit.
 struct GroupNeeds {
     int n_ranks = 1;
-    double n_discs = 0;           ///< of all ranks
+    double n_discs = 0;           ///< number of discs on all ranks
     double length = 1, width = 1; ///< edges of the box along the strips' axis, and across it
     double halo = 0;              ///< depth of a rank's halo
     /// Whether the box is periodic in these directions

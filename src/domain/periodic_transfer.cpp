@@ -69,7 +69,7 @@ struct Shifts {
         if (period == 0) return;
         if (place - low < (1 - margin) * period - reach &&
             high - place < (1 - margin) * period - reach)
-            return; // true along at least one axis for nearly all discs
+            return; // nearly all discs return here, along at least one axis
         const double lowest = low - reach - margin * period,
                      highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;

@@ -213,7 +213,7 @@ private:
     bool is_sorted_ = false; ///< the grid has the own discs' places
     /// own discs with an image, and the image
     std::vector<std::pair<LocalIndex, Image>> displaced_;
-    bool are_displaced_listed_ = false; ///< since the last migration
+    bool are_displaced_listed_ = false; ///< whether they have been listed since the last migration
     bool has_images_ = false; ///< own discs had their images in the box when they were sorted
     TransferPlan halo_plan_;
     /// Neighbours without this rank; in a periodic box a rank is also a neighbour of itself

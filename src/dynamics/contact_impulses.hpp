@@ -49,7 +49,7 @@ struct KeptImpulse {
 
 struct LastingForces {
     std::vector<PairImpulse> pairs;
-    std::vector<WallImpulse> walls; ///< of the four sides, then of the rows of obstacles
+    std::vector<WallImpulse> walls; ///< impulses of the four sides, then of the rows of obstacles
     int n_sweeps = 0;               ///< largest number of sweeps that a connected component needed
 };
 
@@ -94,7 +94,7 @@ private:
     LastingContactFinder finder_;
     Effects effects_;
     SpeciesTable species_;
-    std::vector<ObstacleRow> rows_;             ///< of obstacles
+    std::vector<ObstacleRow> rows_;             ///< rows of obstacles
     std::vector<std::uint32_t> rows_of_pieces_; ///< the scene's rows of obstacles
     double interval_, pull_;
     double fall_x_, fall_y_; ///< speed gained in half a sync interval, g T / 2

@@ -60,7 +60,7 @@ private:
 
     Box box_;
     Effects effects_;
-    double pair_friction_; ///< of pairs that no row names
+    double pair_friction_; ///< friction of pairs that no row names
     PairTable pairs_;
 };
 

@@ -85,7 +85,8 @@ public:
 private:
     struct Table {
         std::vector<SpeciesView::Range> ranges;
-        std::vector<SizeAndMass> sizes;           ///< of each species or of each disc; may be empty
+        /// Radius and mass of each species or of each disc; may be empty
+        std::vector<SizeAndMass> sizes;
         std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
 
         void spread(std::span<const Species> species, DiscId n_discs, bool radii_change);

@@ -33,7 +33,8 @@ struct WallImpulse {
     double normal = 0;    ///< impulse away from the side
     double along = 0;     ///< impulse along the side, in the direction of its axis
     double energy = 0;    ///< change of the discs' kinetic energy
-    double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; for obstacles
+    /// Impulse and angular momentum of an obstacle, as in WallEvent
+    double ix = 0, iy = 0, torque = 0;
 };
 
 /// The impulse that one disc gives another one at a sync.
@@ -49,12 +50,15 @@ struct PairImpulse {
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
 /// velocities are relative to the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
-    const SpeciesTable& species;       ///< the radius and the mass of each disc
-    std::span<DiscState> discs = {};   ///< includes departed discs, which effects do not change
-    std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
+    const SpeciesTable& species;     ///< the radius and the mass of each disc
+    std::span<DiscState> discs = {}; ///< includes departed discs, which effects do not change
+    /// Spins in the order of `discs`; empty unless discs are rough
+    std::span<double> spins = {};
     std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
-    std::span<double> radii = {};      ///< along the discs; empty unless discs exchange them
-    std::int64_t n_syncs = 0;          ///< since the scene's start, this one included
+    /// Radii in the order of `discs`; empty unless discs exchange them
+    std::span<double> radii = {};
+    /// Number of syncs since the scene's start, this one included
+    std::int64_t n_syncs = 0;
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. `part` must not throw.
@@ -115,9 +119,9 @@ struct Arrival {
     std::size_t side = 0;
     DiscId first = 0, end = 0; ///< range of ids that the disc may have
     double flown = 0;          ///< time since it came in
-    double across = 0;         ///< its place along the side, from 0 to 1 of the free length
+    double across = 0;         ///< place of arrival along the side, from 0 to 1 of the free length
     bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
-    double inwards = 0, along = 0;                  ///< its velocity, for a mass of 1
+    double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1
 };
 
 /// How many arrivals came in, and how many did not.

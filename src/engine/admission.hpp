@@ -26,9 +26,9 @@ struct AdmissionGround {
     const Box& box;
     const SpeciesTable& species;
     double largest_radius;
-    bool have_pairs; ///< if false, discs pass through each other and block no place
-    std::span<const DiscState> own, departed; ///< of this rank
-    const SideColumns& departed_columns;      ///< along `departed`
+    bool have_pairs; ///< whether pairs collide; otherwise discs block no place
+    std::span<const DiscState> own, departed; ///< discs of this rank
+    const SideColumns& departed_columns;      ///< numbers of the discs in `departed`
     /// Whether obstacles leave room for a disc that has flown from the first state straight to the
     /// second one in this time.
     std::function<bool(const DiscState& from, const DiscState& to, double time)> has_room;

@@ -85,7 +85,7 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
     discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
-    redistribute_now(0, Covered::domain); // these cells show where discs are clustered
+    redistribute_now(0, Covered::domain); // cells show where discs are clustered
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
@@ -171,7 +171,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    if (time_ != 0) discs_.forget_images(); // after a sync there are no images
+    if (time_ != 0) discs_.forget_images(); // at time 0, after a sync, there are no images
     if (n_micro_done_ != last_micro_step_) return;
     if (is_in_window_) leave_window();
     drop_scratch(); // frees memory for the output that follows a run

@@ -40,7 +40,7 @@ struct EnergySetting {
     const Effects& effects;
     const Box& box;
     double velocity_unit = 1; ///< converts stored velocities to the effects' unit of time
-    double sync_interval = 0; ///< in micro-steps
+    double sync_interval = 0; ///< time between syncs, in micro-steps
 };
 
 /// Fills in all energies except the kinetic one. `shown` are discs as the box sees them; `spins`
@@ -61,7 +61,7 @@ struct Touching {
                    ? size * (species_table->of(p.id).radius + species_table->of(q.id).radius)
                    : diameter;
     }
-    Periods periods = {}; ///< for the discs' images
+    Periods periods = {}; ///< periods by which images of discs are displaced
 };
 template <class Dynamics>
 Touching touching_of(const Dynamics& dynamics, double time, const Periods& periods) {

@@ -24,9 +24,10 @@ struct WallEvent {
     /// The impulse of a lasting contact until the next sync, not of a collision
     bool is_lasting = false;
     // For an obstacle, which has no side:
-    std::uint32_t obstacle = no_obstacle; ///< its row (rows_of in dynamics/container.hpp)
-    double ix = 0, iy = 0;                ///< impulse on the disc
-    double torque = 0; ///< angular momentum that the obstacle gains, about its centre
+    /// The obstacle's row (rows_of in dynamics/container.hpp)
+    std::uint32_t obstacle = no_obstacle;
+    double ix = 0, iy = 0; ///< impulse on the disc
+    double torque = 0;     ///< angular momentum that the obstacle gains, about its centre
 
     static constexpr std::uint32_t no_obstacle = 0xffffffff;
     bool is_at_side() const { return obstacle == no_obstacle; }

@@ -68,7 +68,7 @@ bool JamWatch::finish_bin() {
 }
 
 void JamWatch::remember(const Past& bin) {
-    // only records that differ by this factor are kept, so the list stays short
+    // Keeps only records that differ by this factor, so that the list stays short
     constexpr double step = 1.05;
     while (!pasts_.empty() && pasts_.back().rate >= bin.rate) pasts_.pop_back();
     if (pasts_.empty() || bin.rate > step * pasts_.back().rate) pasts_.push_back(bin);

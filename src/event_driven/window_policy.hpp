@@ -65,7 +65,7 @@ private:
     WindowSetting setting_;
     double collision_rate_ = 0;
     double rate_to_expect_ = 0;   ///< the rate used for the choice; it falls only slowly
-    double last_duration_ = 1;    ///< of the last window
+    double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of the number of rounds
     double n_rounds_ = 0;         ///< number of repeated rounds in the last window
     Rollback last_;               ///< sums over these rounds, with the latest price

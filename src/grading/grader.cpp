@@ -45,7 +45,7 @@ Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& str
              {scene.n_discs, scene.steps, scene.text_output == TextOutput::every_step}),
       digits_before_(scene.n_discs), is_counter_unknown_(scene.n_discs, false),
       counts_points_(counts_points) {
-    if (scene.steps > 0) points_.are_counters_right = false; // until counters have been compared
+    if (scene.steps > 0) points_.are_counters_right = false; // until they are compared
 }
 
 void Grader::record_growth(std::int64_t step, const ExpectedDiscs& expected) {
@@ -183,7 +183,7 @@ bool Grader::are_possible(std::int64_t step) {
                                line.y >= -slack && line.y <= setting_.box.y + slack;
         const double speed = std::max(std::fabs(line.vx), std::fabs(line.vy));
         const double fastest = counts_points_ ? slack : std::numeric_limits<double>::max();
-        if (is_inside && speed <= fastest) continue; // false also for NaN
+        if (is_inside && speed <= fastest) continue; // this test is false for NaN, too
         if (!verdict_.empty()) return false;
         verdict_ = fmt::format("line {}: step {}, disc {} is outside the box or not finite\n"
                                "rule: lines\n  each number is finite, and each centre in the box\n",
@@ -267,7 +267,7 @@ double Grader::difference_to(const std::vector<DiscState>& discs, double clock, 
         std::fabs(line.vx - disc.vx * unit_), std::fabs(line.vy - disc.vy * unit_)};
     double largest = 0;
     for (const double one : differences) {
-        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // true also for NaN
+        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // true for NaN, too
         largest = std::max(largest, one);
     }
     return largest;

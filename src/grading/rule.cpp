@@ -275,7 +275,8 @@ void PlainRule::bounce(DiscState& disc, double m, double t) const {
     advance(disc, m + t);
     bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
     bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
-    if (!x_reverses && !y_reverses) { // only with every_candidate, after an earlier collision
+    // Happens only with every_candidate, after an earlier collision
+    if (!x_reverses && !y_reverses) {
         const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
             return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;
         };

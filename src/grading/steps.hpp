@@ -65,7 +65,7 @@ private:
     StudentOutput output_;
     std::optional<StudentLine> next_;
     std::vector<StudentLine> lines_;
-    std::vector<bool> is_there_; ///< by id: whether the step has a line of the disc
+    std::vector<bool> is_there_; ///< whether the step has a line of the disc, for each id
     bool is_whole_ = false, is_in_order_ = true;
     std::uint64_t n_counters_ = 0;
     std::string problem_;

@@ -46,7 +46,7 @@ std::vector<Notice> InsertionBox::gather(const std::vector<InputDisc>& given) co
         visit_concerned(x, [&](std::size_t rank) { out[rank].push_back(notice); });
     }
     std::vector<Notice> all = send_to_owners(communicator_, out).items;
-    std::ranges::sort(all, {}, &Notice::id); // so that the grid is the same in every run
+    std::ranges::sort(all, {}, &Notice::id); // sorted, so that the grid is the same in every run
     return all;
 }
 

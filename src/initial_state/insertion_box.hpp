@@ -52,7 +52,7 @@ public:
             obstacles_.emplace(scene.box, scene.radius, scene.effects);
     }
 
-    double diameter() const { return diameter_; } ///< of the largest disc
+    double diameter() const { return diameter_; } ///< diameter of the largest disc
     std::uint64_t n_discs() const { return scene_.n_discs; }
     double radius_of(DiscId id) const { return species_.of(id).radius; }
     const Box& box() const { return box_; }

@@ -90,7 +90,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
 
 struct Checkpoint {
     CheckpointHeader header;
-    DiscStates discs;    ///< this rank's share of the ids, see slabs.hpp
+    DiscStates discs;    ///< discs whose ids are in this rank's slab (slabs.hpp)
     SideColumns columns; ///< columns of these discs
     StoredSamples samples;
 };

@@ -78,7 +78,7 @@ public:
                bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
           places_(is_collective ? std::vector<std::uint64_t>() : find_places()) {
-        on_all_ranks([&] { // from here on all ranks know of a failure
+        on_all_ranks([&] { // after this call all ranks know of a failure
             if (is_writer || is_collective) bytes_.emplace(path_, O_WRONLY);
         });
         if (!is_collective) return;
@@ -154,9 +154,9 @@ private:
     std::string path_;
     const std::vector<DiscTarget>& targets_;
     const Communicator& communicator_;
-    std::vector<std::uint64_t> places_; ///< for each target
+    std::vector<std::uint64_t> places_; ///< the place of this rank's bytes, for each target
     std::optional<Descriptor> bytes_;
-    h5::SharedFile file_; ///< for collective transfers, with its data sets
+    h5::SharedFile file_; ///< the file of collective transfers, with its data sets
     std::vector<h5::Dataset> datasets_;
     std::string failure_;
     std::uint64_t n_batches_ = 0;

@@ -144,7 +144,7 @@ bool has_traces_of_checkpoint(const std::string& path) {
         for (const std::string& trace : traces)
             if (found.find(trace) != std::string_view::npos) return true;
         if (n < text.size()) return false;
-        place += n - longest; // because a trace may continue after the end of these bytes
+        place += n - longest; // a trace of the mark may continue after the end of these bytes
     }
 }
 

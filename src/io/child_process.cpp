@@ -20,10 +20,11 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-constexpr unsigned patience_seconds = 50;  ///< for a process that waits without using a processor
+/// Time limit for a process that waits without using a processor
+constexpr unsigned patience_seconds = 50;
 constexpr time_t least_of_loop = 3;        ///< processor time in seconds; undamaged files need less
 constexpr std::size_t longest_text = 4000; ///< a pipe takes this many bytes at once
-constexpr int code_of_machine = 3;         ///< of a child that ends with a MachineError
+constexpr int code_of_machine = 3;         ///< exit code of a child that ends with a MachineError
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     rlimit limit{};

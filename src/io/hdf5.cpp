@@ -40,7 +40,7 @@ namespace {
 
 // Scenes have at most 2^26 characters
 constexpr std::size_t longest_text = std::size_t{1} << 28;
-constexpr unsigned most_links = 64; // in a group of Carrom's files
+constexpr unsigned most_links = 64; // largest number of links in a group of Carrom's files
 
 /// The innermost entries of the error stack contain the system's text.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {

@@ -149,7 +149,7 @@ public:
     /// call; nothing on other ranks. **Collective.**
     std::span<const std::uint64_t> next(std::uint64_t begin, std::uint64_t end) {
         const std::size_t width = collected_.n();
-        std::vector<std::uint64_t> mine; // for each disc its id, and then its words
+        std::vector<std::uint64_t> mine; // the id of each disc, and then its words
         for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) {
             mine.push_back(discs_[order_[next_]].id);
             collected_.append(shown(order_[next_]), mine);

@@ -47,7 +47,7 @@ WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
 
 WriteLock::~WriteLock() {
     if (file_ < 0) return;
-    // before the lock is released, while no other run can have it
+    // removes the file before the lock is released, because no other run can have the lock then
     if (!is_lost()) ::unlink(path_.c_str());
     ::close(file_);
 }

@@ -67,7 +67,8 @@ private:
                                 const MotionSample& sample) const;
 
     const AveragedSystem& system_;
-    std::optional<MotionInterval> interval_; ///< since the last sample, once averages have begun
+    /// The interval since the last sample, after averages have begun
+    std::optional<MotionInterval> interval_;
     /// The first step, the first step of the present block, and the step of the last sample
     std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0;
     Block present_;

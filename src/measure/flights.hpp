@@ -42,9 +42,10 @@ private:
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>>
-        first_places_; ///< of the consecutive ids that this rank follows
+        first_places_; ///< first places of the consecutive ids that this rank follows
     std::vector<std::array<double, 2>> first_velocities_;
-    std::optional<ImageCounts> lengths_; ///< of a periodic box, since the beginning
+    /// Counts of box lengths in a periodic box, since the beginning
+    std::optional<ImageCounts> lengths_;
     DiscStates flown_;
 };
 

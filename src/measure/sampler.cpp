@@ -66,7 +66,7 @@ void Sampler::go_on_measuring(const StoredSamples& stored) {
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     KeptNumbers kept(stored.sums);
     keep_settings(kept);
-    StoredSamples asked; // its flags select the stored numbers of each disc
+    StoredSamples asked; // the flags of `asked` select the stored numbers of each disc
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;

@@ -59,7 +59,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     around.first_numbers = {};
     around.effects.swap = {}; // other discs would exchange their radii
     around.groups.clear();
-    around.freeze.clear(); // because the frozen discs are obstacles
+    around.freeze.clear(); // the frozen discs are obstacles already
     around.frozen.clear();
     if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
     around.steps = 1;

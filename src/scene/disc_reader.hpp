@@ -98,9 +98,9 @@ private:
     std::vector<DiscColumn> columns_;
     std::optional<std::size_t> place_of_id_; ///< position of the id in a line
     DataLines lines_;
-    DiscId next_id_ = 0; ///< for lines without ids
+    DiscId next_id_ = 0; ///< the next id, for lines without ids
     bool are_ids_noted_ = true;
-    std::vector<bool> seen_; ///< by id, up to the largest id so far
+    std::vector<bool> seen_; ///< ids that have occurred, up to the largest one so far
     std::uint64_t n_seen_ = 0;
     std::vector<char> text_;
     std::vector<Line> taken_;

@@ -47,7 +47,7 @@ struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool excludes_low = false;
-    bool allows_zero = false; ///< 0 is allowed, too
+    bool allows_zero = false; ///< whether 0 is allowed, too
     std::string_view why = "";
 };
 
@@ -93,7 +93,7 @@ struct Key {
     std::vector<Field> fields = {};
     /// For Kind::rows: a single row may be written without the outer brackets
     bool is_one_row = false;
-    std::optional<Axis> axis = {}; ///< of a number that is a place: the axis it lies along
+    std::optional<Axis> axis = {}; ///< the axis along which a place lies
 
     // The following members are filled in from the member of SceneParameters.
     Kind kind = Kind::number;

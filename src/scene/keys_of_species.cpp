@@ -100,7 +100,7 @@ public:
 private:
     const SceneParameters& scene_;
     FirstNumbers numbers_;
-    BySideColumn<std::size_t> next_; // by column
+    BySideColumn<std::size_t> next_; // the next place in each column
     std::vector<RegionRun>::const_iterator region_;
     std::vector<SpeciesRow>::const_iterator row_;
 };

@@ -140,9 +140,11 @@ struct TrajectoryOutput {
     std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
          has_neighbours = false;
-    bool has_image = false; ///< for a periodic box; true if the scene lists no fields
-    SideColumnSet columns;  ///< all columns of the discs, if the scene lists no fields
-    bool is_single = true;  ///< numbers of 4 bytes instead of 8
+    /// Whether frames have images in a periodic box; true if the scene lists no fields
+    bool has_image = false;
+    /// Columns in frames; all columns of the discs if the scene lists no fields
+    SideColumnSet columns;
+    bool is_single = true; ///< numbers of 4 bytes instead of 8
 };
 
 /// `[output.collisions]`: every collision in one file.
@@ -160,7 +162,8 @@ struct MeasurementOutput {
 
     std::string folder; ///< relative to the run's folder
     std::int64_t every_steps = 10, from_step = 0;
-    std::vector<std::string> quantities;                 ///< in the order of the scene
+    /// Names of quantities in the order of the scene
+    std::vector<std::string> quantities;
     std::map<std::string, Number, std::less<>> settings; ///< settings of the quantities, by name
 
     bool measures(std::string_view quantity) const {
@@ -196,7 +199,7 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< settings `key=value` on top of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
-    Origin origin;           ///< of places in texts, messages and tables only
+    Origin origin;           ///< origin of places in texts, messages and tables only
     double radius = 0;       ///< radius of the largest disc
     bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
     std::optional<SizeDistribution> sizes; ///< distribution of the radii, which have become species
@@ -218,7 +221,7 @@ struct SceneParameters {
     double growth_rate = 0.01;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
-    std::optional<StartRegion> region; ///< for discs without a region of their own
+    std::optional<StartRegion> region; ///< region for discs without a region of their own
     /// Regions of species or groups, by ids; empty if there are none
     std::vector<RegionRun> regions;
     bool has_shares = false; ///< shares are given in `discs.species`
@@ -255,7 +258,7 @@ struct SceneParameters {
     Effects effects; ///< times in steps
 
     TextOutput text_output = TextOutput::none;
-    std::string folder; ///< for all outputs, relative to the working folder; empty: none
+    std::string folder; ///< folder of all outputs, relative to the working folder; empty: none
     std::optional<CheckpointOutput> checkpoint; ///< set for every run with a folder
     std::optional<TrajectoryOutput> trajectory;
     std::string length_unit, time_unit; ///< `[output.units]`, for HDF5 files; empty: unknown

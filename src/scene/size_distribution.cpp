@@ -52,7 +52,7 @@ Measure measure_of(const SizeDistribution& sizes) {
     const double s = sizes.polydispersity;
     if (sizes.kind != SizeKind::lognormal) return {1, s, false, sizes.kind == SizeKind::uniform};
     // The variance is that of the logarithm; with this middle the mean of the radii is 1.
-    if (s < narrow) { // by the series of log(1 + s^2)
+    if (s < narrow) { // uses the series of log(1 + s^2)
         const double per_square = 1 - s * s * (0.5 - s * s / 3);
         return {-s * s * per_square / 2, s * std::sqrt(per_square), true, false};
     }

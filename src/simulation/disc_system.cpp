@@ -49,7 +49,8 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
-    for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap can shrink
+    // Frees inputs from the end, so that the heap can shrink
+    for (; !parts.empty(); parts.pop_back()) {
         for (const InputDisc& input : parts.back()) {
             DiscState& disc = state.discs.emplace_back(DiscState{});
             disc.id = input.id;
@@ -154,7 +155,7 @@ DiscSystem::~DiscSystem() = default;
 void DiscSystem::advance_towards(std::int64_t last_step) {
     if (check_ && step() < last_step)
         advance_checked();
-    else // to the first step that ends after a sync
+    else // advances to the first step that ends after a sync
         engine_->advance_towards(last_step);
 }
 

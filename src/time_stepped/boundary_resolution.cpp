@@ -15,7 +15,7 @@ namespace carrom {
 struct BoundaryResolution::Conflict {
     double time;
     DiscId p;
-    std::uint64_t second; ///< 0 for a wall, so that it comes first, else 1 + the id of Q
+    std::uint64_t second; ///< 0 for a wall, so that a wall comes first; else 1 + the id of Q
     std::int32_t rank;
     std::uint32_t number;
     std::uint32_t n_copies; ///< number of ranks that hold the candidate if no rank has rejected it

@@ -17,7 +17,8 @@ class DiscSet {
 public:
     void clear() {
         n_ = 0;
-        if (++round_ == 0) { // after 2^32 rounds, old slots would count as used
+        // round_ starts again after 2^32 rounds, so old slots would count as used
+        if (++round_ == 0) {
             slots_.assign(slots_.size(), {});
             round_ = 1;
         }

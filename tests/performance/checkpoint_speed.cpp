@@ -153,7 +153,7 @@ double seconds_of(const Write& write, const std::string& path, const Communicato
     const std::chrono::duration<double> seconds = Clock::now() - start;
     if (communicator.is_root()) {
         ::unlink(path.c_str());
-        ::sync(); // so that the next one need not wait for these writes
+        ::sync(); // the next measurement need not wait for these writes
     }
     return seconds.count();
 }

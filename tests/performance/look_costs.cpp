@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
                 {{"look_costs", 0, "needs a scene, steps, and steps from look to look"}});
         Scene scene = Scene::from_file(session, argv[1]);
         const std::int64_t last = steps_before + std::atoll(argv[2]), every = std::atoll(argv[3]);
-        scene.set("time.steps", 2 * last); // so that the run does not end with the last read
+        // Twice as many steps, so that the run does not end with the last read
+        scene.set("time.steps", 2 * last);
         for (int k = 4; k < argc; ++k) {
             const std::string setting = argv[k];
             const std::size_t sign = setting.find('=');

@@ -15,7 +15,7 @@ using namespace carrom::test;
 namespace {
 
 constexpr double kt = 0.01, height = 80; // height for discs of radius 1
-constexpr std::size_t n_discs = 407;     // for a packing fraction of 0.2
+constexpr std::size_t n_discs = 407;     // number of discs for a packing fraction of 0.2
 
 /// Flow along x between thermal walls that slide with -u at the bottom and u at the top.
 TestScene channel(double u, double pull) {

@@ -149,7 +149,7 @@ void check_relaxation(std::size_t n, double packing) {
             system.advance_towards(system.step() + 1);
         last = kurtosis_of(system.discs());
         fmt::print("| {} | {:.4f} | {:.4f} |\n", numbers[k], last, known[k]);
-        // 1.2, because both numbers have errors
+        // 1.2 times the bound of one number, because both have errors
         CHECK(std::fabs(last - known[k]) < 4 * 1.2 * noise);
     }
     fmt::print("noise of one state near equilibrium {:.4f}\n", noise);

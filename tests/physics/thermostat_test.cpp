@@ -58,7 +58,8 @@ Speeds measured_speeds(DiscSystem& system, std::int64_t early, std::int64_t apar
 void check_kicked_gas(std::initializer_list<double> restitutions) {
     const Communicator world = Communicator::world();
     const std::size_t n = 3000;
-    const double packing = 0.0025, radius = 1; // at 0.02 cumulants would be larger by 0.005
+    // At a packing of 0.02 cumulants would be larger by 0.005
+    const double packing = 0.0025, radius = 1;
     for (const double e : restitutions) {
         const double a2 = 16 * (1 - e) * (1 - 2 * e * e) / (185 - 153 * e + 30 * (1 - e) * e * e);
         const double g = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));

@@ -151,7 +151,7 @@ double mass_of(const TestScene& scene, DiscId id) {
 /// A step in which no disc collides twice, and the expected change of the integrals.
 struct Step {
     State before, after;
-    double end = 0; ///< in steps
+    double end = 0; ///< end of the step, in steps
     Tensor stress, kinetic;
     double size = 0; ///< typical size of a term
     int n_pairs = 0;

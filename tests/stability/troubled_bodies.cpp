@@ -198,7 +198,7 @@ private:
         }
     }
 
-    std::vector<Species> species_list_; ///< for each disc
+    std::vector<Species> species_list_; ///< the species of each disc
 };
 
 } // namespace

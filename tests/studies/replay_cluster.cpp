@@ -64,7 +64,7 @@ struct Script {
 };
 
 struct Tally {
-    double computing = 0, exchanging = 0, reducing = 0; ///< in seconds
+    double computing = 0, exchanging = 0, reducing = 0; ///< seconds in each phase
     double messages = 0, bytes = 0;
 };
 

@@ -107,8 +107,8 @@ std::vector<TestScene> tiny_velocities() {
     for (const double largest : speeds) {
         Random random(++seed);
         TestScene scene = empty_scene("tiny velocities, case " + std::to_string(seed), 16, 1, 30);
-        add_disc(scene, 1, 1);   // at two walls
-        add_disc(scene, 15, 15); // at the other two walls
+        add_disc(scene, 1, 1);   // a disc at two walls
+        add_disc(scene, 15, 15); // a disc at the other two walls
         add_disc(scene, 3, 1);   // touches the first
         add_disc(scene, 15 - 0.5e-8, 3);
         add_gas(scene, 20, random);

@@ -118,7 +118,7 @@ private:
     void write_if_due() {
         lines_.end_at(run_.last_step());
         if (!lines_.is_due(run_.step())) return;
-        progress_.finish(); // both may be written to the same terminal
+        progress_.finish(); // progress and lines may go to the same terminal
         lines_.write(run_.system());
     }
 

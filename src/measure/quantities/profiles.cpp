@@ -308,15 +308,15 @@ private:
 
     std::size_t n_x_, n_y_;
     std::uint64_t per_block_;
-    std::size_t n_kinds_; ///< 1 unless species have separate tables
+    std::size_t n_kinds_; ///< number of kinds of discs: 1 unless species have separate tables
     SpeciesTable species_;
     std::vector<DiscId> ends_; ///< the id after the last one of each species
     bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
     std::uint64_t n_samples_ = 0; ///< the next members belong to the unfinished block
-    BlockHead head_;              ///< its edges are sums over samples
+    BlockHead head_;              ///< head of the unfinished block; its edges are sums over samples
     FieldSums sample_;            ///< the discs of the present sample, one kind after another
-    FieldSums sums_;              ///< this rank's sums, in the same order
+    FieldSums sums_;              ///< sums of this rank over the block, one kind after another
     std::vector<double> means_;   ///< sample moments of each field
     std::vector<double> heads_;   ///< heads of finished blocks
     std::vector<double> blocks_;  ///< count and moments of each of their fields

@@ -231,7 +231,7 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
         std::string skipped;
         for (std::size_t k = 0; k < overrides.size(); ++k) std::getline(file, skipped);
         SceneText text = read_scene_text(file, path);
-        text.discs_follow = scene.discs_follow; // because the copy does not contain the discs
+        text.discs_follow = scene.discs_follow; // the copy does not contain the discs
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
         SceneParameters there = read_scene(text, overrides), here = scene;

@@ -116,7 +116,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
         });
     FromFile from;
     std::vector<std::string>& settings = from.settings;
-    if (file.n_discs > 0 && scene.n_discs == 0) // otherwise the scene has its own discs.count
+    if (file.n_discs > 0 && scene.n_discs == 0) // a scene with its own discs.count keeps it
         settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
     if (!file.departed.empty()) from.warning = note_on_departed(path, file);

@@ -26,9 +26,9 @@ struct BoundaryDeclaration {
     bool has_restitution = false;
     // Abilities that other features require of a side. A kind cannot be combined with a feature if
     // it does not declare the ability.
-    bool is_at_rest = true;                         ///< its line never moves
+    bool is_at_rest = true;                         ///< whether the side's line never moves
     bool takes_growing_discs = false;               ///< growing discs may touch it
-    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration
+    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< as EffectDeclaration::runs_on_gpu
     /// Keys of one side, such as box.left.speed.
     std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
     /// Tables and keys that all sides of this kind have in common.

@@ -55,7 +55,7 @@ struct ShownDisc {
 /// An energy of discs other than their kinetic energy. Totals, reports and the self-check sum it
 /// over all discs in the box.
 struct OtherEnergy {
-    const char* name;       ///< its name in the report
+    const char* name;       ///< the energy's name in the report
     const char* words;      ///< text behind its value in the summary
     double Totals::* value; ///< effects with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
@@ -75,7 +75,7 @@ struct Way {
 
 /// A number in the report and the summary about the state at the end of a run.
 struct EndNumber {
-    const char* name;  ///< its name in the report
+    const char* name;  ///< the number's name in the report
     const char* label; ///< label of its line in the summary
     const char* words; ///< text behind its value in the summary
     std::uint64_t value;

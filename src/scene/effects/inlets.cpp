@@ -27,7 +27,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double most_arrivals = 1e5; ///< for one sync and one side
+constexpr double most_arrivals = 1e5; ///< largest number of arrivals in one sync at one side
 
 bool has_inlets(const Effects& effects) {
     return std::ranges::any_of(effects.boundaries,

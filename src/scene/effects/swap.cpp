@@ -262,9 +262,9 @@ private:
     double steps_between_;
     BodiesAtRest at_rest_;
     std::optional<SpeciesTable> table_; ///< a copy of the run's table, which shares its memory
-    std::vector<double> radii_;         ///< by number of the radius
-    std::vector<DiscId> holders_;       ///< by number of the radius
-    std::vector<SizeNumber> numbers_;   ///< by id of the disc
+    std::vector<double> radii_;         ///< radii, by number of the radius
+    std::vector<DiscId> holders_;       ///< the disc that has each radius, by number of the radius
+    std::vector<SizeNumber> numbers_;   ///< number of the radius, by id of the disc
     std::int64_t n_accepted_ = 0;
 };
 

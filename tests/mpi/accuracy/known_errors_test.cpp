@@ -86,7 +86,8 @@ struct KnownLoss {
 };
 struct Column {
     double packing, frequency;
-    std::array<KnownLoss, 6> losses; ///< at 1/4, 1/8, ... 1/128 collisions per disc and micro-step
+    /// Losses at 1/4, 1/8, ... 1/128 collisions per disc and micro-step
+    std::array<KnownLoss, 6> losses;
 };
 const std::array<Column, 3> table = {{
     {0.1,

@@ -89,7 +89,7 @@ TEST_CASE("effects: a check finds out what discs have not got from their propuls
     other.method = Method::event_driven;
     other.effects.thermostat = {};
     other.effects.activity = {};
-    other.effects.contact.kind = ContactKind::restitution; // so that the scene has effects
+    other.effects.contact.kind = ContactKind::restitution; // the scene must have effects
     DiscSystem system = system_of(scene, Method::event_driven, world);
     system.check_every_step(other);
     CHECK_THROWS_AS(advance_to(system, 30), CheckFailure);

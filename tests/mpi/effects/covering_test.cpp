@@ -205,7 +205,7 @@ bool is_excluded(const std::string& a, const std::string& b) {
     });
 }
 
-using Picked = std::vector<std::size_t>; ///< for each row, the number of a choice
+using Picked = std::vector<std::size_t>; ///< the number of a choice for each row
 
 constexpr std::size_t open = ~std::size_t{0};
 

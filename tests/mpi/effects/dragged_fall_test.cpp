@@ -62,7 +62,8 @@ DiscState only_disc(const DiscSystem& system, const Communicator& world) {
 TEST_CASE("effects: a ball falls through the air as the formula says, and no faster than g / c") {
     const Communicator world = Communicator::world();
     DiscSystem system = system_of(ball(120, 1), Method::event_driven, world);
-    for (const std::int64_t step : {20, 50, 123, 400, 600}) { // also at times between syncs
+    // Some of these steps are between syncs
+    for (const std::int64_t step : {20, 50, 123, 400, 600}) {
         advance_to(system, step);
         const DiscState disc = only_disc(system, world);
         const auto time = static_cast<Long>(step);
@@ -80,7 +81,8 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
     const Communicator world = Communicator::world();
     for (const double restitution : {1.0, 0.8}) {
         TestScene scene = ball(50, restitution);
-        scene.setting.effects.contact.contact_time = 0.02; // at rest it bounces once in this time
+        // A disc at rest bounces once in this time
+        scene.setting.effects.contact.contact_time = 0.02;
         DiscSystem system = system_of(scene, Method::event_driven, world);
         std::vector<Collision> log, all;
         system.log_to(&log);
@@ -96,7 +98,7 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
         double worst = 0;
         int n = 0;
         for (const Collision& bounce : all) {
-            if (speed * 2 / g < 1) break; // then flights take less than a step
+            if (speed * 2 / g < 1) break; // flights of such a speed take less than a step
             worst = std::max(worst,
                              std::fabs(static_cast<double>(static_cast<Long>(bounce.micro_step) +
                                                            bounce.time - expected)));
@@ -122,7 +124,7 @@ TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever l
     CHECK(rest.wall_collisions > 100);
     CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g);
 
-    scene = ball(47, 0.8); // from 50 it would reach the floor at a sync, which counts as a touch
+    scene = ball(47, 0.8); // a start at 50 would reach the floor at a sync, which counts as a touch
     DiscSystem thin = [&] {
         set_drag(scene, 1e-13);
         return system_of(scene, Method::event_driven, world);
@@ -171,7 +173,7 @@ TEST_CASE("effects: what a wall pushes through the air goes with it") {
     DiscSystem system = system_of(scene, Method::event_driven, world);
     advance_to(system, 1000);
     const DiscState disc = only_disc(system, world);
-    CHECK(disc.x - 1 == Approx(0.05 * 1000).margin(1e-6)); // it hops by c u t^2 / 8
+    CHECK(disc.x - 1 == Approx(0.05 * 1000).margin(1e-6)); // the disc hops by c u t^2 / 8
     CHECK(disc.vx == Approx(0.05).margin(1e-4));
     CHECK(disc.wall_collisions > 1000);
 }

@@ -94,7 +94,7 @@ TEST_CASE("effects: a gas that falls keeps its energy") {
     scene.setting.effects.gravity = {0.004, -0.01};
     DiscSystem system = system_of(scene, Method::event_driven, world);
     const Totals start = system.totals();
-    for (const std::int64_t step : {37, 100, 203}) { // also at times between syncs
+    for (const std::int64_t step : {37, 100, 203}) { // some of these steps are between syncs
         advance_to(system, step);
         const Totals now = system.totals();
         CHECK(now.kinetic_energy + now.potential_energy ==
@@ -158,7 +158,7 @@ TEST_CASE(
     scene.setting.effects.drag = rate;
     DiscSystem system = system_of(scene, Method::event_driven, world);
     const double start = system.totals().kinetic_energy;
-    for (const std::int64_t step : {37, 100, 203}) { // also at times between syncs
+    for (const std::int64_t step : {37, 100, 203}) { // some of these steps are between syncs
         advance_to(system, step);
         const Totals now = system.totals();
         CHECK(now.kinetic_energy ==

@@ -243,7 +243,7 @@ TEST_CASE("effects: discs of several species meet obstacles where their own radi
     scene.setting.effects.species = {{2, 1, 3}, {2, 0.3, 0.1}};
     scene.setting.effects.obstacles = {{{50, 50, 4}}, {{50, 0, 50, 19.25}, {50, 20.75, 50, 45}}, 1};
     add_disc(scene, 10, 50, 2, 0);
-    add_disc(scene, 20, 20, 2, 0); // to a slit of 1.5
+    add_disc(scene, 20, 20, 2, 0); // a disc that flies to a slit of 1.5
     add_disc(scene, 90, 50, -2, 0);
     add_disc(scene, 40, 20.1, 2, 0);
     for (const Method method : {Method::time_stepped, Method::event_driven}) {

@@ -47,7 +47,7 @@ std::vector<TestScene> driven_scenes() {
             if (sides != std::string("walls")) effects.boundaries.fill(periodic);
             if (sides == std::string("sheared")) {
                 effects.boundaries[2] = effects.boundaries[3] = sheared;
-                effects.shear = 0.004; // over a height of 56 this is twice the speed of discs
+                effects.shear = 0.004; // this shear over a height of 56 is twice the speed of discs
             }
             scenes.push_back(scene);
         }
@@ -87,7 +87,7 @@ TEST_CASE("effects: a check finds out what a thermostat has not given") {
     SceneParameters other = scene_of(scene);
     other.method = Method::event_driven;
     other.effects.thermostat = {};
-    other.effects.contact.kind = ContactKind::restitution; // so that the scene has effects
+    other.effects.contact.kind = ContactKind::restitution; // the scene must have effects
     DiscSystem system = system_of(scene, Method::event_driven, world);
     system.check_every_step(other);
     CHECK_THROWS_AS(advance_to(system, 30), CheckFailure);

@@ -166,7 +166,8 @@ TEST_CASE("exact: marks passed on by collisions miss a blow that nobody sees") {
         REQUIRE(scene.discs.size() == static_cast<std::size_t>(halo) + 2);
         const std::vector<InputDisc> expected = by_reference(scene);
         CHECK(expected.front().vx == -0.0625);
-        CHECK(by_simpler_rule(scene, 6, halo).front().vx == 0); // by this rule it has not been hit
+        // By the simpler rule the disc has not been hit
+        CHECK(by_simpler_rule(scene, 6, halo).front().vx == 0);
         CHECK(are_equal(by_simpler_rule(scene, 6, 2 * halo), expected));
         const EventDrivenResult bits = expected_of(scene, world, 1000000);
         for (const double side : {1.0, 2.5, 100.0}) CHECK(by_engine(scene, halo, side) == bits);
@@ -183,5 +184,5 @@ TEST_CASE("exact: marks passed on by collisions go wrong in random scenes, histo
         INFO(scene.name);
         CHECK(by_engine(scene, 2, 1 + static_cast<double>(seed % 4)) == bits);
     }
-    CHECK(n_wrong == 34); // as docs/understanding/method.md says
+    CHECK(n_wrong == 34); // the number in docs/understanding/method.md
 }

@@ -36,7 +36,7 @@ const DeviceKind& gpu() {
 #ifdef CARROM_HAS_CUDA
     return cuda_device();
 #else
-    return serial_device(); // so that this program can be tried without a GPU
+    return serial_device(); // this program can be tried without a GPU, too
 #endif
 }
 

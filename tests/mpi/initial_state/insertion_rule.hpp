@@ -38,7 +38,7 @@ struct BoxOfRule {
 /// all images. After 10000 rounds without a placed disc it starts again, with other numbers.
 inline std::vector<Point> places_by_the_rule(const SceneParameters& scene, std::uint64_t start) {
     const BoxOfRule box(scene);
-    std::vector<double> radii; // by disc
+    std::vector<double> radii; // radius of each disc
     for (const Species& one : scene.effects.species)
         radii.insert(radii.end(), one.count, one.radius);
     radii.resize(scene.n_discs, scene.radius);

@@ -31,7 +31,7 @@ SceneParameters scene_of(const Texts& overrides) {
 
 struct Sums {
     double momentum_x = 0, momentum_y = 0, energy = 0, mass = 0;
-    std::vector<double> energies; ///< of each species
+    std::vector<double> energies; ///< energy of each species
     StateHash hash;
 };
 

@@ -120,7 +120,7 @@ TEST_CASE("frames are read as they were given, in the order of ids") {
             CHECK(is_right({}));
             append(0);
             append(7);
-            CHECK(is_right({})); // not yet committed
+            CHECK(is_right({})); // the frames are not yet committed
             trajectory.commit();
             CHECK(is_right({0, 7}));
             trajectory.describe();
@@ -141,7 +141,7 @@ TEST_CASE("going on takes a trajectory back to its last commit, and further back
             killed.append(step, share(300, step, world), 1.5);
             if (step == 5) killed.commit();
         }
-    } // never committed, as after a kill
+    } // frames that are never committed, as after a kill
     Trajectory trajectory(path, layout_of(300), world);
     trajectory.go_on(20);
     trajectory.commit();
@@ -186,7 +186,7 @@ TEST_CASE("going on to another last step gives its frames the box of that step")
         Trajectory killed(path, layout_with(80), world);
         killed.go_on(299);
         CHECK(holds(path, 40, steps, world, false, 64));
-    } // never committed
+    } // frames that are never committed
     CHECK_THROWS_AS(Trajectory(path, layout_of(41), world).go_on(299), CollectiveError);
     CHECK(holds(path, 40, steps, world, false, 64));
     for (const double box_size : {80.0, 72.0}) { // a longer box, then a shorter one
@@ -255,7 +255,7 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
         killed.commit();
         CHECK(holds_log(40000));
         append(killed, 40000, 50000);
-        CHECK(holds_log(40000)); // not yet committed
+        CHECK(holds_log(40000)); // later rows are not yet committed
     }
     CollisionLog log(path, layout_of(100).system, world);
     log.go_on(100000);
@@ -270,7 +270,7 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     append(log, 12340, 12350);
     log.commit();
     CHECK(holds_log(12350));
-    append(log, 12350, 400000); // over several segments
+    append(log, 12350, 400000); // so many rows lie in several segments
     log.commit();
     CHECK(holds_log(400000));
     CHECK((!world.is_root() || std::filesystem::exists(folder.file("c/0002.h5"))));

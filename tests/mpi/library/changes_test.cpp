@@ -50,7 +50,8 @@ TEST_CASE("changes: a disc that is turned round comes back from where it was") {
     std::vector<Disc> discs = simulation.discs();
     for (Disc& disc : discs) disc.vx = -2, disc.y = 30;
     simulation.change_discs(discs);
-    simulation.advance(20); // from 30 to the wall at 5 in 12.5 steps, and back for 7.5 steps
+    // The disc flies from 30 to the wall at 5 in 12.5 steps, and back for 7.5 steps
+    simulation.advance(20);
     discs = simulation.gathered_discs();
     if (session.is_root())
         CHECK(discs ==

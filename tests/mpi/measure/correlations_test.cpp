@@ -19,7 +19,7 @@ namespace {
 constexpr int n_correlated = 1300; ///< more than the ids in one rank's run
 constexpr int n_light = 1100, sample_steps = 2, last_sample = 90;
 
-using SeenFrame = std::vector<SeenDisc>; ///< in the order of ids
+using SeenFrame = std::vector<SeenDisc>; ///< the discs of a frame, in the order of ids
 
 double mass_of_mixture(DiscId id) { return id < n_light ? 1 : 4; }
 

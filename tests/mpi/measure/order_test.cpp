@@ -75,7 +75,7 @@ SceneParameters with_psi6(const TestScene& test, Method method) {
 struct Point {
     DiscId id = 0;
     double x = 0, y = 0;
-    double squared_radius = 0; ///< 0 if all are equal
+    double squared_radius = 0; ///< squared radius of the disc; 0 if all discs are equal
 };
 
 std::vector<Point> all_points(const DiscSystem& system, const Communicator& world) {

@@ -238,7 +238,7 @@ TEST_CASE("measurements: collisions' stress is shared along the line between cen
             const std::array<double, 4> sums = contact_sums(
                 events, static_cast<double>(cell % 13) * width,
                 static_cast<double>(cell / 13) * height, width, height, scene.box);
-            const double per = 1 / (width * height * 15); // over 15 steps
+            const double per = 1 / (width * height * 15); // impulses are summed over 15 steps
             CHECK(xx[13 * 22 + cell] == Approx(sums[0] * per).margin(1e-9));
             CHECK(xy[13 * 22 + cell] == Approx(sums[1] * per).margin(1e-9));
             // relative to the mean of the discs in the cell, if there are any

@@ -137,7 +137,7 @@ TEST_CASE("a plan to restart from a file or from a folder names it") {
                                      "in " +
                                          options.restart + "\n  " + options.restart +
                                          "/checkpoint-000000000003.h5\n");
-    options.restart = place.of("run"); // in the folder of a run, checkpoints are in a subfolder
+    options.restart = place.of("run"); // the folder of a run, whose checkpoints are in a subfolder
     const StartPlan plan = plan_start(options, {}, world);
     CHECK(plan.restart.place == options.restart + "/checkpoints");
     CHECK(plan.restart.candidates.size() == 1);

@@ -54,7 +54,7 @@ std::vector<GasKind> kinds() {
         {"walls that lose energy",
          [=](Effects& e) {
              for_each_side(e, {.restitution = 0.5});
-             e.contact.contact_time = 1e-7; // also at walls
+             e.contact.contact_time = 1e-7; // the contact time holds at walls, too
          }},
         {"dragged", [](Effects& e) { e.drag = 0.02; }, true},
         {"falling", [](Effects& e) { e.gravity = {0.001, -0.004}; }, true},

@@ -45,7 +45,7 @@ std::vector<std::string> refused_places(const std::vector<std::string>& words) {
     CHECK_FALSE(action.needs_mpi);
     std::vector<std::string> places;
     try {
-        action.act(Communicator::world()); // this process alone
+        action.act(Communicator::world()); // runs on this process alone
     } catch (const InputError& error) {
         for (const Problem& problem : error.problems()) places.push_back(problem.place);
     }

@@ -123,7 +123,7 @@ TEST_CASE("growing pairs have the same bits exchanged, mirrored, transposed and 
 TEST_CASE("discs at rest meet when they have grown") {
     CHECK(delay_of({4, 0, 0, 0, 2}, 0.125) == 8); // sigma is 2 (1 + t / 8)
     CHECK(delay_of({0, 3, 0, 0, 2}, 0.25) == Approx(2).epsilon(1e-15));
-    CHECK(delay_of({4, 0, 0.25, 0, 2}, 0.125) < 0); // they separate as fast as they grow
+    CHECK(delay_of({4, 0, 0.25, 0, 2}, 0.125) < 0); // the discs separate as fast as they grow
     // they separate half as fast as they grow
     CHECK(delay_of({4, 0, 0.125, 0, 2}, 0.125) == Approx(16).epsilon(1e-15));
     // they touch, and grow faster than they separate

@@ -103,7 +103,7 @@ TEST_CASE("block cuts: where discs crowd, no block sees much more work than the 
 }
 
 TEST_CASE("block cuts: halos of other strips count as much as own cells") {
-    Counts counts = crowded(96, 96, 1); // all cells have the same work
+    Counts counts = crowded(96, 96, 1); // counts with the same work in all cells
     const CellSums sums = counts.sums();
     BlockCuts cuts;
     cuts.cut_by_work(counts.all(), {9, 8, {-8, 104, -8, 104}}, sums);

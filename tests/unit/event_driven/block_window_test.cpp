@@ -16,7 +16,7 @@ TEST_CASE("exact window: blocks look further while replays are repeated, then wi
     CHECK(caution.more_halo() == 0);
     CHECK(std::isinf(caution.most_hits()));
     for (int k = 0; k < 20; ++k) caution.learn({0.5, 0.3});
-    CHECK(caution.more_halo() == 2); // at most two more reaches
+    CHECK(caution.more_halo() == 2); // the caution adds at most two reaches
     CHECK(std::isinf(caution.most_hits()));
     for (int k = 0; k < 5; ++k) caution.learn({0.5, 0.9});
     CHECK(caution.more_halo() == 2);

@@ -15,7 +15,7 @@ using namespace carrom;
 
 namespace {
 
-constexpr double diameter = 0.4; // in cells
+constexpr double diameter = 0.4; // diameter in cells
 constexpr double margin = 1e-3;  // the filter's diameter is larger by this share
 constexpr int n_columns = 7, n_rows = 9;
 const auto touching_squared = static_cast<float>((diameter + margin) * (diameter + margin));

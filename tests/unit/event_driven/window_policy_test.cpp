@@ -40,7 +40,7 @@ std::vector<double> ends_until(double target, WindowPolicy& policy, double rate)
 TEST_CASE("window policy: windows of a wanted duration share the time to a sync evenly") {
     WindowPolicy policy({.duration = 0.3});
     const std::vector<double> ends = ends_until(1, policy, 0.2);
-    REQUIRE(ends.size() == 4); // windows of at most 0.3
+    REQUIRE(ends.size() == 4); // windows of a length of at most 0.3
     CHECK(ends[0] == 0.25);
     CHECK(ends[1] == Approx(0.5).epsilon(1e-15));
     CHECK(ends[2] == Approx(0.75).epsilon(1e-15));

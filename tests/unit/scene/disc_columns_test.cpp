@@ -68,7 +68,7 @@ TEST_CASE(
                        {2, 50, 50, 0, 1}, {0, 10, 10, 1, 0}, {3, 80, 80, 0, 0}, {1, 20, 20, 0, 0}});
 
     const SceneParameters other = scene_with(from_file("[\"mass\", \"radius\"]"),
-                                             four_lines); // in the order of the named columns
+                                             four_lines); // numbers are in the order of the columns
     CHECK(other.effects.species == std::vector<Species>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
     const SceneParameters light = scene_with(from_file("[\"radius\"]", 2),
                                              "1 20 20 0 0 2\n0 10 10 1 0 4\n");

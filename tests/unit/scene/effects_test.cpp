@@ -168,7 +168,7 @@ TEST_CASE("drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.gravity.x=0.03", "time.sync_every=64", all}),
               "time.sync_every = 57 or less"));
     CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all})
-              .empty()); // in a sync interval it falls by 42 instead of 61
+              .empty()); // with drag a disc falls in a sync interval by 42 instead of 61
 }
 
 TEST_CASE("rough discs are read, and refused beside what does not go with them yet") {

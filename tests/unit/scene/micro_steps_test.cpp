@@ -85,7 +85,7 @@ TEST_CASE("effects know the energy of a disc") {
     };
     effects.gravity = {0, -0.25}; // downwards: m g h above the bottom
     CHECK(energy() == Approx(3 * 0.25 * 7).epsilon(1e-15));
-    effects.gravity = {0.5, 0}; // to the right: the height is counted from the right side
+    effects.gravity = {0.5, 0}; // gravity to the right: the height is counted from the right side
     CHECK(energy() == Approx(3 * 0.5 * (30 - 4)).epsilon(1e-15));
     effects.gravity = {};
     effects.contact.kind = ContactKind::rough;
@@ -94,7 +94,7 @@ TEST_CASE("effects know the energy of a disc") {
     // The effect of drag and growth on energies.
     effects.drag = 0.1;
     CHECK(energy_left_by(effects, 7) == Approx(std::exp(-1.4)).epsilon(1e-15));
-    effects.gravity = {0, 1}; // then the loss depends on the flight
+    effects.gravity = {0, 1}; // with gravity the loss by drag depends on the flight
     CHECK(energy_left_by(effects, 7) == 1);
     effects.growth = 0.01;
     CHECK(work_in_collision(effects, 2, 3) == Approx(2 * 0.01 * 3).epsilon(1e-15));
