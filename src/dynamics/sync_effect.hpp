@@ -118,7 +118,7 @@ public:
 struct Arrival {
     std::size_t side = 0;
     DiscId first = 0, end = 0; ///< range of ids that the disc may have
-    double flown = 0;          ///< time since it came in
+    double flown = 0;          ///< time since the disc arrived
     double across = 0;         ///< place of arrival along the side, from 0 to 1 of the free length
     bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
     double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1

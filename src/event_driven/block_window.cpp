@@ -25,7 +25,7 @@ constexpr double usual_speed = 0.3; ///< of a disc, over the bound of speeds
 /// Largest number of discs in a block with its halo. They need not all stay in the cache, because
 /// most of them are compared only once.
 constexpr double discs_in_cache = 24000;
-constexpr double cost_per_choice = 5000; ///< for each window, whatever the number of discs
+constexpr double cost_per_choice = 5000; ///< a fixed cost of each window
 /// For each thread and window: estimated time of waits at barriers and for messages
 constexpr double cost_per_window = 50000;
 constexpr int most_blocks_per_thread = 8;

@@ -34,8 +34,8 @@ namespace carrom {
 
 /// Settings that tests vary. Only the validation affects the bits.
 struct BlockTuning {
-    std::optional<int> halo;          ///< relative to the reach
-    std::optional<double> block_side; ///< relative to the reach
+    std::optional<int> halo;          ///< depth of the halo, in reaches
+    std::optional<double> block_side; ///< side of a block, in reaches
     /// Bound of speeds, relative to the largest speed at a window's start
     double speed_allowance = 1.08;
     bool is_validated = true; ///< whether windows are validated; false gives wrong results

@@ -73,7 +73,7 @@ double free_radius_in(const Shape& shape, double length, double height, double r
         nearest = std::min(nearest, rest / (half + root));
         if (shape.lattice.rows > 2) nearest = std::min(nearest, 2 * height / (2 + shape.y_spans));
     }
-    // In a narrow tube the walls are nearer
+    // In a narrow tube the walls are nearer than other discs
     return std::min({nearest, length, height}) / 2 - radius;
 }
 

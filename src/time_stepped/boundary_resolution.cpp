@@ -27,7 +27,8 @@ struct BoundaryResolution::Conflict {
 struct BoundaryResolution::Statement {
     double time;
     DiscId p, q;
-    std::uint32_t number;   ///< among the undecided candidates of the rank that reports it
+    /// Number in the list of undecided candidates of the rank that reports it
+    std::uint32_t number;
     std::uint16_t is_first; ///< 1 if the candidate is the first remaining one of this rank's disc
     std::uint16_t is_mine = 0; ///< 1 if this rank made the statement, 0 if it was received
 

@@ -19,7 +19,8 @@ TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& f
 /// effects, for this method only.
 std::string toml_of(const TestScene& scene, Method method);
 
-/// A scene of that folder. With effects it is for its own method, else for both.
+/// A scene of the folder of regressions. A scene with effects is run by its own method, others by
+/// both methods.
 struct Regression {
     TestScene scene;
     std::vector<Method> methods;
