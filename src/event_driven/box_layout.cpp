@@ -109,9 +109,12 @@ void BoxLayout::sort(std::span<const DiscState> discs, std::span<const LocalInde
         const DiscState& disc = discs[listed[k]];
         const bool is_at_home = listed[k] < n_own || !periods.are_any();
         const Image home = is_at_home ? image_of(disc) : periods.home(disc, time);
-        const Shift shift = periods.shift_of(home, time);
-        const double x = disc.x_at(time) + shift.x - cells.x_low,
-                     y = disc.y_at(time) + shift.y - cells.y_low;
+        double x = disc.x_at(time) - cells.x_low, y = disc.y_at(time) - cells.y_low;
+        if (home != Image{}) [[unlikely]] {
+            const Shift shift = periods.shift_of(home, time);
+            x += shift.x;
+            y += shift.y;
+        }
         cell_of_[k] = cell_along(x * columns_per_length, cells.n_columns) * n_rows +
                       cell_along(y * rows_per_length, cells.n_rows);
         ++box_starts_[cell_of_[k]];

@@ -110,10 +110,17 @@ HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector no
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
-/// Returns which discs of a vector of slots might touch the flight; `slot` is the first slot.
-template <class SomeLanes>
+/// In place of the time 0, where a place needs no product.
+struct AtStart {};
+HWY_INLINE Vector places(const float* at_start, const float* /*velocity*/, AtStart) {
+    return hn::LoadU(Lanes(), at_start);
+}
+
+/// Tells which of a vector of slots, the first of which is `slot`, might touch the flight. `now` is
+/// a vector, or AtStart.
+template <class SomeLanes, class Time>
 HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t slot,
-                                          const SpreadFlight& p, Vector now) {
+                                          const SpreadFlight& p, Time now) {
     const auto x = places(lanes.x + slot, lanes.vx + slot, now),
                y = places(lanes.y + slot, lanes.vy + slot, now);
     const auto vx = hn::LoadU(Lanes(), lanes.vx + slot), vy = hn::LoadU(Lanes(), lanes.vy + slot);
@@ -121,9 +128,9 @@ HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t 
 }
 
 /// Appends to `next` the slots of `run` that might touch the flight; returns the new end.
-template <class SomeLanes>
+template <class SomeLanes, class Time>
 HWY_INLINE std::uint32_t* filter_run(const SomeLanes lanes, SlotRange run, const SpreadFlight& p,
-                                     Vector now, std::uint32_t* next) {
+                                     Time now, std::uint32_t* next) {
     const auto steps = hn::Iota(Slots(), 0);
     const auto end = spread_slot(run.end);
     for (std::uint32_t slot = run.begin; slot < run.end;
@@ -192,7 +199,7 @@ void filter_cells_of_column(const SomeLanes& all_lanes, const CellTable& cells, 
     const std::uint32_t* const own = cells.starts +
                                      static_cast<std::size_t>(column) * cells.column_length;
     const int n_right = HWY_MIN(cells.n_reach_columns, cells.n_columns - 1 - column);
-    const auto start = hn::Zero(Lanes());
+    constexpr AtStart start;
     std::size_t n_partners = 0;
     for (int row = rows.first; row < rows.end; ++row) {
         if (own[row] == own[row + 1]) continue;
