@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Averages over a run: how often discs collide, the pressure, the speeds, each with a standard
+// Averages over a run: how often discs collide, the pressure and the speeds, each with a standard
 // error.
 //
-// All follow from counts of collisions, which every disc carries, and from sums over velocities
-// and impulses in fixed point. So they are the same bits for any number of ranks and threads.
-// docs/reference/report.md says what they mean, docs/understanding/pressure.md what the pressure
-// is. Sources of wall and virial pressure, which follow from counts: Li, Nishikawa, Hoellmer,
-// Carillo, Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a).
+// They follow from counts of collisions, which every disc carries, and from sums over velocities
+// and impulses in fixed point. So they have the same bits for any number of ranks and threads.
+// docs/reference/report.md describes them, and docs/understanding/pressure.md explains the
+// pressure. Wall and virial pressure follow from counts (Li, Nishikawa, Hoellmer, Carillo, Maggs,
+// Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a)).
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Estimate {
     /// In steps. The shortest correlation time that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
-    bool is_conserved = false; ///< all blocks agree except for rounding
+    bool is_conserved = false; ///< whether all blocks agree except for rounding
     bool is_changing = false;  ///< the halves of the run differ by more than errors allow
     /// Mean of the first block, if the average is changing
     double first = std::numeric_limits<double>::quiet_NaN();
@@ -41,14 +41,14 @@ struct TensorEstimate {
 
 /// Lengths in the scene's unit, times in steps, masses 1.
 struct Averages {
-    /// The averages begin after this step and cover this many
+    /// The averages begin after `first_step` and cover `steps` steps
     std::int64_t first_step = 0, steps = 0;
     std::int64_t n_blocks = 0;    ///< number of blocks from which errors are computed
     Estimate collision_frequency; ///< collisions with other discs, per disc and step
     /// Mean time between two collisions of a disc with others, in steps; infinite if there are none
     Estimate mean_free_time;
-    Estimate wall_pressure;   ///< from collisions with walls, (13c)
-    Estimate virial_pressure; ///< from collisions with walls and of pairs, (19a)
+    Estimate wall_pressure;   ///< pressure from collisions with walls, (13c)
+    Estimate virial_pressure; ///< pressure from collisions with walls and of pairs, (19a)
     Estimate mean_speed;
     Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
     Estimate temperature;    ///< kT of translation, without a drift along periodic sides

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc as the program that uses the library sees it.
+// A disc in the form that the library's user gets.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@ struct Disc {
     std::uint64_t id = 0;  ///< 0 to N - 1
     double x = 0, y = 0;   ///< the centre, at the present step; in the box, see SceneFacts
     double vx = 0, vy = 0; ///< length per step
-    double spin = 0;       ///< of rough discs: angle per step, counterclockwise; else 0
-    std::uint64_t wall_collisions = 0; ///< since the scene's start
+    double spin = 0;       ///< angle per step, counterclockwise; 0 unless discs are rough
+    std::uint64_t wall_collisions = 0; ///< collisions with walls since the scene's start
     std::uint64_t pair_collisions = 0; ///< collisions with other discs since the scene's start
 
     friend bool operator==(const Disc&, const Disc&) = default;
 };
 
-/// What a run never changes about a disc. Under growth the radius is the one at the scene's start.
+/// The numbers of a disc that a run does not change. Of growing discs the radius is that at the
+/// scene's start.
 struct DiscKind {
     double radius = 0;        ///< length
-    double mass = 1;          ///< in the scene's unit
-    std::int64_t species = 0; ///< from 0, in the order of ids
+    double mass = 1;          ///< mass in the scene's unit
+    std::int64_t species = 0; ///< number of the species from 0, in the order of ids
 
     friend bool operator==(const DiscKind&, const DiscKind&) = default;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the library throws, and the exit codes that go with it.
+// The exceptions of the library, and the exit codes that belong to them.
 //
-// Every rank throws the same exception, so a program may catch it and go on. A broken invariant,
-// an MPI error and a rank without memory are not thrown: they end all ranks at once.
+// Every rank throws the same exception, so a program may catch it and continue. A broken invariant,
+// an MPI error and a rank without memory are not thrown. They end all ranks at once.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ enum class ExitCode : int {
     stopped = 75            ///< stopped on request before the end
 };
 
-/// One thing wrong with an input: where, what, and how to mend it. `line` 0 means the place has no
+/// A problem with an input: its place, a description, and advice. `line` is 0 if the place has no
 /// line.
 struct Problem {
     std::string place;
@@ -33,11 +33,11 @@ struct Problem {
     friend bool operator==(const Problem&, const Problem&) = default;
 };
 
-/// "place:line: text", or "place: text" where there is no line. Control characters are escaped.
+/// "place:line: text", or "place: text" if there is no line. Control characters are escaped.
 std::string to_string(const Problem& problem);
 
-/// A wrong scene, disc list or argument. Thrown on every rank with the same problems, all that
-/// there are. `what()` has one line for each. Exit code 2.
+/// A wrong scene, disc list or argument. Every rank throws it with the same list of all problems.
+/// `what()` has one line for each. Exit code 2.
 class InputError : public std::runtime_error {
 public:
     explicit InputError(std::vector<Problem> problems);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as it moves forward in time, and its checkpoints.
+// A scene that moves forward in time, and its checkpoints.
 //
-// The state is a function of the scene and the step alone: the same bits for any number of ranks
-// and threads, however the steps are divided into calls. Discs live on the ranks whose part of the
-// box they are in.
+// The state depends only on the scene and the step. It has the same bits for any number of ranks
+// and threads, and for any division of the steps into calls. A disc is stored on the rank whose
+// part of the box it is in.
 #pragma once
 
 #include <cstdint>
@@ -33,61 +33,61 @@ struct Options {
     bool counts_images = false;
 };
 
-/// When `advance_to` writes checkpoints, and which of them it keeps.
+/// When `advance_to` writes checkpoints, and how many it keeps.
 struct CheckpointSchedule {
     std::string folder{};         ///< made if it is missing; no other run may write to it
     std::int64_t every_steps = 0; ///< steps between checkpoints; 0: none by steps
     double every_minutes = 0;     ///< wall time between checkpoints; 0: none by time
     std::int64_t keep = 2; ///< number of checkpoints to keep; older ones of this run are removed
-    bool at_end = true;    ///< writes one after the step `time.steps`, too
+    bool at_end = true;    ///< whether to write one at the step `time.steps`, too
 };
 
 class Simulation {
 public:
-    /// The scene at step 0. Throws InputError with all problems of the scene and of its discs. With
-    /// `time.accuracy` a pilot chooses method and micro-steps first: see `scene()` for its choice.
-    /// Of the tables under `output` it acts on `output.measurements` alone, and writes no file.
-    /// Memory: 94 bytes a disc and more (120 in the event-driven method), shared by the ranks.
-    /// The session must outlive it. **Collective.**
+    /// Makes the scene at step 0. Throws InputError with all problems of the scene and of its
+    /// discs. With `time.accuracy` a pilot first chooses method and micro-steps; `scene()` has its
+    /// choice. Of the tables under `output` only `output.measurements` has an effect, and no file
+    /// is written. Memory: 94 bytes a disc and more (120 in the event-driven method), shared by the
+    /// ranks. The session must outlive it. **Collective.**
     Simulation(const Session& session, const Scene& scene, const Options& options = {});
 
-    /// Goes on from a checkpoint, of this library or of `carrom run`, with the same bits as the
-    /// uninterrupted run. If the place is a folder, it takes the newest complete checkpoint there.
+    /// Continues from a checkpoint of this library or of `carrom run`, with the same bits as the
+    /// uninterrupted run. If the place is a folder, the newest complete checkpoint there is used.
     /// The scene is in the file. `settings` (such as "time.steps=200") override its keys and may
-    /// change the last step and what is measured. Throws CollectiveError (code 2) where the file is
-    /// damaged, InputError where a setting would make it another run. **Collective.**
+    /// change the last step and the measurements. Throws CollectiveError (code 2) if the file is
+    /// damaged, InputError if a setting would make it another run. **Collective.**
     static Simulation from_checkpoint(const Session& session, const std::string& path,
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
 
-    /// Every call of a moved-from simulation throws InputError, except assignment.
+    /// After a move, every call of the old object throws InputError, except assignment.
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    const SceneFacts& scene() const; ///< what is simulated; not collective
+    const SceneFacts& scene() const; ///< facts of the scene; not collective
     std::int64_t step() const;       ///< steps since the scene's start; not collective
 
-    /// Moves forward to the end of that step. Throws InputError where it lies behind the present
-    /// one, or beyond `time.steps`. **Collective.**
+    /// Moves forward to the end of that step. Throws InputError if the step is before the present
+    /// one, or after `time.steps`. **Collective.**
     void advance_to(std::int64_t step);
     void advance(std::int64_t n_steps);                  ///< **Collective.**
     void advance_to_end() { advance_to(scene().steps); } ///< **Collective.**
 
     /// This rank's discs at the present step, in the order of their ids. All ranks together have
-    /// each disc once. Those that have left through an open side are among them: at rest, one
-    /// radius outside. Costs a copy and a sort. Not collective.
+    /// each disc once. Discs that have left through an open side are included: they rest one radius
+    /// outside. Costs a copy and a sort. Not collective.
     std::vector<Disc> discs() const;
 
     /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 64 bytes a
     /// disc there. **Collective.**
     std::vector<Disc> gathered_discs() const;
 
-    /// Write numbers of this rank's discs to the places of their ids, and leave those of other
-    /// ranks' discs: x and y of disc `id` to places 2 id and 2 id + 1, its spin and its direction
-    /// to place `id`, its collisions with walls and with discs to places 2 id and 2 id + 1. The
-    /// arrays have room for all discs of the scene, else InputError is thrown. Cost: one pass by
-    /// all threads. Not collective.
+    /// These functions write numbers of this rank's discs to the places of their ids, and leave the
+    /// places of other discs unchanged. x and y of disc `id` go to places 2 id and 2 id + 1, its
+    /// spin and its direction to place `id`, its collisions with walls and with discs to places 2
+    /// id and 2 id + 1. If the arrays have no room for all discs of the scene, InputError is
+    /// thrown. Cost: one pass by all threads. Not collective.
     void read_positions(std::span<double> xy) const;
     void read_velocities(std::span<double> xy) const; ///< length per step
     void read_spins(std::span<double> spins) const;   ///< angle per step
@@ -103,22 +103,22 @@ public:
     /// **Collective.**
     void read_images(std::span<std::int32_t> lengths) const;
 
-    /// Radius, mass and species of all discs of the scene, by id. Where discs exchange their radii
-    /// (`effects.swap`), they are those of the present step. Not collective.
+    /// Radius, mass and species of all discs of the scene, by id. If discs exchange their radii
+    /// (`effects.swap`), the radii are those of the present step. Not collective.
     std::vector<DiscKind> kinds() const;
 
     /// Gives this rank's discs other positions, velocities or spins between two steps. `discs` are
-    /// those that `discs()` returns, in any order; counts of collisions in them are not taken.
-    /// Discs whose numbers do not change keep all of their bits. Averages begin anew; where
-    /// positions have changed, measurements do so, too. Throws InputError for numbers that are not
-    /// finite, for discs outside of the box or in obstacles, and if more pairs than before would
-    /// overlap; nothing is changed then. Costs about as much as making the simulation from a list
-    /// of discs. **Collective.**
+    /// those that `discs()` returns, in any order; their counts of collisions are ignored. Discs
+    /// whose numbers do not change keep all of their bits. Averages begin anew. If positions have
+    /// changed, measurements begin anew, too. Throws InputError for numbers that are not finite,
+    /// for discs outside of the box or in obstacles, and if more pairs than before would overlap;
+    /// nothing is changed then. Costs about as much as making the simulation from a list of discs.
+    /// **Collective.**
     void change_discs(std::span<const Disc> discs);
 
-    /// An independent simulation of the same state, averages and measurements, which goes on with
-    /// the same bits. It writes no checkpoints until `keep_checkpoints` is called for it.
-    /// **Collective.**
+    /// Makes an independent simulation of the same state, averages and measurements, which
+    /// continues with the same bits. It writes no checkpoints until its `keep_checkpoints` is
+    /// called. **Collective.**
     Simulation copy() const;
 
     /// Sums over all discs; every rank gets them. Costs a pass over the discs and one search for
@@ -130,21 +130,21 @@ public:
     Averages averages() const;
     void restart_averages(); ///< starts the averages anew; **Collective.**
 
-    /// What the scene's `output.measurements` asks for, as sampled so far; nothing before the first
-    /// sample. Sampling happens inside `advance_to`. The same on every rank. Not collective.
+    /// The tables of the scene's `output.measurements`, as sampled so far; none before the first
+    /// sample. Samples are taken inside `advance_to`. The same on every rank. Not collective.
     std::vector<MeasuredTable> measurements() const;
 
     /// Writes the state as a whole file or not at all. Its folder must exist. Throws
-    /// CollectiveError (code 4) where it fails; an older file of that name then stays unchanged.
+    /// CollectiveError (code 4) if it fails; an older file of that name then stays unchanged.
     /// Writes 80 bytes a disc to disk. **Collective.**
     void write_checkpoint(const std::string& path) const;
 
-    /// From now on `advance_to` writes checkpoints as the schedule says, each as `write_checkpoint`
-    /// does; to be called once. Throws InputError for a wrong schedule, CollectiveError (code 4)
-    /// where the folder cannot be made. **Collective.**
+    /// From now on `advance_to` writes checkpoints at the times of the schedule, as
+    /// `write_checkpoint` does. Call it once. Throws InputError for a wrong schedule,
+    /// CollectiveError (code 4) if the folder cannot be made. **Collective.**
     void keep_checkpoints(const CheckpointSchedule& schedule);
 
-    struct State; ///< the library's own
+    struct State; ///< used by the library only
     const State& state() const { return live(); }
 
 private:

@@ -37,7 +37,7 @@ struct Totals {
     // Energy that restitution has taken in the event-driven method since stepping began here.
     // Collisions within the contact time took nothing and are counted in `guarded_collisions`.
     double energy_taken = 0;
-    std::uint64_t guarded_collisions = 0; ///< without contacts at rest
+    std::uint64_t guarded_collisions = 0; ///< number of such collisions, without contacts at rest
     double energy_spared = 0;             ///< the energy that guarded collisions would have taken
     std::uint64_t overlapping_pairs = 0;  ///< pairs that now overlap by more than the tolerance
     /// Depth of the deepest overlap; 2 r if two discs are in one place
@@ -46,8 +46,8 @@ struct Totals {
     /// Touching pairs for which only rounding decides whether they approach
     std::uint64_t sliding_pairs = 0;
     std::uint64_t chained_discs = 0; ///< discs that touch at least two others
-    double kinetic_energy = 0;       ///< of translation, without rotation
-    double rotational_energy = 0;    ///< of rough discs
+    double kinetic_energy = 0;       ///< kinetic energy of translation, without rotation
+    double rotational_energy = 0;    ///< energy of rotation, of rough discs
     /// Of positions; under gravity it is 0 at the walls towards which it pulled at the start
     double potential_energy = 0;
     double momentum_x = 0, momentum_y = 0;

@@ -19,32 +19,32 @@ namespace carrom {
 /// The data of each disc in a trajectory. Positions are always there.
 struct TrajectoryFields {
     bool velocities = true;
-    bool spins = false;           ///< only for rough discs
+    bool spins = false;           ///< spins of rough discs
     bool collisions = false;      ///< counters of wall and pair collisions
-    bool directions = false;      ///< only for active discs
+    bool directions = false;      ///< directions of active discs
     bool single_precision = true; ///< 4 bytes a number instead of 8
 };
 
 /// Writes one H5MD file, which can be read while it grows. Frames pass through rank 0.
 class TrajectoryWriter {
 public:
-    /// Begins a new file, which replaces any other of that name; it has no frame yet. The
-    /// simulation must outlive this. Throws CollectiveError (code 4) where the file cannot be
-    /// written. All calls are **collective**.
+    /// Makes a new file without frames, which replaces any other of that name. The simulation must
+    /// outlive the writer. Throws CollectiveError (code 4) if the file cannot be written. All calls
+    /// are **collective**.
     TrajectoryWriter(const Simulation& simulation, const std::string& path,
                      const TrajectoryFields& fields = {});
 
-    /// Goes on with a file of the same run, cut back to frames up to the simulation's present step.
-    /// Begins a new one where there is none. Throws CollectiveError (code 2) where the file has
-    /// other fields or is of another run. **Collective.**
+    /// Continues a file of the same run, cut back to frames up to the simulation's present step, or
+    /// makes a new one if there is none. Throws CollectiveError (code 2) if the file has other
+    /// fields or belongs to another run. **Collective.**
     static TrajectoryWriter going_on(const Simulation& simulation, const std::string& path,
                                      const TrajectoryFields& fields = {});
 
     TrajectoryWriter(TrajectoryWriter&&) noexcept;
     ~TrajectoryWriter();
 
-    /// Adds the present step and brings it to disk: so a crash after this call does not damage the
-    /// file. Throws CollectiveError (code 4) where that fails; frames before it stay undamaged.
+    /// Adds the present step and brings it to disk, so that a crash after this call does not damage
+    /// the file. Throws CollectiveError (code 4) if that fails; earlier frames stay undamaged.
     /// **Collective.**
     void append();
 
@@ -62,8 +62,8 @@ private:
 /// Reads a trajectory, or a checkpoint as a file of one frame.
 class FrameReader {
 public:
-    /// Opens the file on every rank. Throws InputError where the file is neither of these,
-    /// CollectiveError (code 2) where it is damaged. **Collective.**
+    /// Opens the file on every rank. Throws InputError if it is neither a trajectory nor a
+    /// checkpoint, CollectiveError (code 2) if it is damaged. **Collective.**
     FrameReader(const Session& session, const std::string& path);
     FrameReader(FrameReader&&) noexcept;
     ~FrameReader();
@@ -75,8 +75,7 @@ public:
 
     /// The discs of a frame, by id, or those of ids from `begin` to `end` - 1. Places are those of
     /// the scene (`box.origin`). Numbers that the file does not have are 0. `frame` counts from 0.
-    /// Throws InputError where there is no such frame or disc, or where reading fails. Not
-    /// collective.
+    /// Throws InputError if there is no such frame or disc, or if reading fails. Not collective.
     std::vector<Disc> read(std::size_t frame) const;
     std::vector<Disc> read(std::size_t frame, std::uint64_t begin, std::uint64_t end) const;
 

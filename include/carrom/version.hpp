@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which version of the library a program is linked with.
+// The version of the library that a program is linked with.
 #pragma once
 
 #include <string>

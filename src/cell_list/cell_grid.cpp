@@ -161,7 +161,7 @@ void CellGrid::sort_cells(std::span<DiscState> own, const GridGeometry& geometry
     anchor_ = time;
     has_flights_ = false;
     sort(own, n_threads, companions);
-    RawVector<float>().swap(lanes_); // because only the sorter used them
+    RawVector<float>().swap(lanes_); // only the sorter used the memory of these lanes
 }
 
 void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& companions) {
@@ -298,7 +298,7 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 }
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
-    constexpr double margin = 1e-6; // because the ends of cells are rounded
+    constexpr double margin = 1e-6; // a margin, because the ends of cells are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
     // The cells first .. end - 1 of n that lie within low .. high, if the first one begins at
     // `origin`. The first and the last cell also contain discs from outside of the grid.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cell list: discs sorted into square cells by where they are at a window's anchor. Cells
+// The cell list: discs sorted into square cells by their positions at a window's anchor. Cells
 // follow each other column by column. So the cells of a column that lie within reach of a disc are
-// one contiguous run of slots, to be read 16 lanes at a time.
+// one contiguous range of slots, which is read 16 lanes at a time.
 //
-// Own discs are brought into that order themselves: their slots are their places, and neighbours in
-// space are neighbours in memory. Discs of the halo stay where messages have put them; they have
-// slots of their own, in the columns where there are any. For each slot the grid holds the disc's
-// free flight in single precision, in units of cells and windows, so that nothing can overflow. It
-// serves to reject; the double predicate decides. Price: 16 bytes a disc and 4 a cell.
+// Own discs are sorted in memory: the slot of an own disc is its place, and neighbours in space are
+// neighbours in memory. Discs of the halo stay in the order in which they arrived. They have slots
+// of their own, in the columns that contain any. For each slot the grid holds the disc's free
+// flight in single precision, in units of cells and windows, so that nothing can overflow. Flights
+// serve only to reject pairs; the predicate in double precision decides. Price: 16 bytes a disc and
+// 4 a cell.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ namespace carrom {
 struct GridGeometry {
     Axis axis = Axis::x;
     double low = 0, across_low = 0; ///< where the first column and the first row begin
-    double cell_width = 1;          ///< see set_cell_width
+    double cell_width = 1;          ///< the width of cells that set_cell_width has set
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< discs that can collide are at most this many cells apart
 
@@ -160,7 +161,8 @@ public:
         return run_from(halo_.starts(), halo_.first_cell(column), first_row, last_row);
     }
     bool has_halo_in(int column) const { return halo_.has_column(column); }
-    /// The first row from `row` on with halo discs in a column that has some, or the end of rows.
+    /// The first row, not below `row`, that has halo discs in this column, or the end of rows. The
+    /// column must have some.
     int next_halo_row(int column, int row) const {
         return halo_.next_row(column, row, geometry().n_rows);
     }

@@ -58,8 +58,8 @@ public:
     /// Gives each thread the travellers among its places. Returns false if there are many: then the
     /// discs are not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
-    /// Brings discs to their places, ascending. Calls placed(i) when the disc of place i is there;
-    /// the order up to i is not needed any more.
+    /// Brings discs to their places, in ascending order. Calls placed(i) when the disc of place i
+    /// is there. From then on the order up to i is not needed.
     template <class Placed>
     void carry(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
         set_travellers_aside(discs, memory);
@@ -112,7 +112,7 @@ private:
     std::vector<Carrier> carriers_;   ///< by thread
     std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
     std::size_t most_travellers_ = 0; ///< limit for each thread's share
-    bool are_in_disorder_ = false;    ///< true if too many discs move far
+    bool are_in_disorder_ = false;    ///< whether too many discs move far
 };
 
 } // namespace carrom

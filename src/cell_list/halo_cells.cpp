@@ -36,7 +36,7 @@ void HaloCells::turn_counts_into_starts(int n_threads) {
     const std::size_t n_cells = start_.size() - 1;
     const auto n_shares = static_cast<std::size_t>(n_threads);
     std::uint32_t* const counts = start_.data() + 1;
-    std::vector<std::uint32_t> starts(n_shares + 1, 0); // of the threads' shares
+    std::vector<std::uint32_t> starts(n_shares + 1, 0); // where each thread's share starts
 #pragma omp parallel num_threads(n_threads)
     {
 #pragma omp for schedule(static, 1)

@@ -28,7 +28,8 @@ public:
     }
     /// The place of the column's first cell in `starts`.
     std::uint32_t first_cell(int column) const { return column_[static_cast<std::size_t>(column)]; }
-    /// The first row from `row` on with discs in a column that has some, or `n_rows`.
+    /// The first row, not below `row`, that has discs in this column, or `n_rows`. The column must
+    /// have some.
     int next_row(int column, int row, int n_rows) const {
         if (row >= n_rows) return n_rows;
         const std::uint32_t* const of_rows = &start_[first_cell(column)];

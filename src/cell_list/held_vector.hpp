@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A number in every lane of a vector, as a member of a struct. Vectors of SVE have no size when
-// they are compiled, so they cannot be members: there the number itself is held, and spread over
-// lanes where it is needed. Everywhere else the vector is held, which saves instructions.
+// A number in every lane of a vector, as a member of a struct. Vectors of SVE have no fixed size,
+// so they cannot be members. On such machines this type holds the number, and spreads it over the
+// lanes where it is used. On all others it holds the vector, which saves instructions.
 //
 // Like the filters that include it, this file is compiled once per instruction set.
 #if defined(CARROM_HELD_VECTOR) == defined(HWY_TARGET_TOGGLE)

@@ -9,8 +9,7 @@
 
 namespace carrom {
 
-/// A rank's discs: its own first, then the halo's. Other ranks treat the pairs of two
-/// halo discs.
+/// A rank's discs: its own first, then the halo's. Pairs of two halo discs are left to other ranks.
 struct Population {
     std::span<const DiscState> discs;
     std::size_t n_own = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of a loop for several threads. Each thread takes the chunks of its own share
-// first, in order, and then those that others have left.
+// Chunks of a loop for several threads. Each thread takes the chunks of its own share first, in
+// order, and then those that others have left.
 //
-// Shares stay the same while the work does, so a thread finds its data in its own
-// cache. No thread waits while there is work.
+// Shares stay the same if the work does, so a thread finds its data in its own cache. No thread
+// waits while there is work.
 #pragma once
 
 #include <atomic>

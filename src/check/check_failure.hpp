@@ -25,7 +25,7 @@ enum class Invariant : int {
     counters,
     motion,  ///< the disc's velocity and its spin have changed in collisions only
     overlap, ///< no pair overlaps, except as the time-stepped method allows
-    energy,  ///< the discs that have collided have the same energy together as before, and so
+    energy,  ///< the discs that have collided have the same total energy as before, and so
              ///< have all discs
 };
 

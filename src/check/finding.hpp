@@ -13,7 +13,7 @@ namespace carrom {
 
 /// `partner`, `value` and `bound` depend on the invariant (text_of).
 struct Finding {
-    Finding() = default; ///< finds nothing
+    Finding() = default; ///< no broken invariant
     Finding(Invariant broken, int owner, DiscId id, double how_much = 0, double allowed = 0,
             DiscId other = 0)
         : invariant(broken), rank(owner), is_found(1), disc(id), partner(other), value(how_much),

@@ -33,7 +33,7 @@ bool is_finite(const DiscState& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-/// Returns the stored state unchanged if the box's coordinates are those of the discs.
+/// The disc in the box's coordinates: the stored state itself unless the frame moves.
 DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
                   double micro_steps_since_sync) {
     if (!frame.is_moving) return disc;
@@ -114,7 +114,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     record_speeds();
-    if (were_rewritten()) // because they have flown straight since the sync
+    if (were_rewritten()) // plain discs have flown straight since the sync
         for (Known& known : known_)
             known.free_from = std::max(known.free_from,
                                        micro_steps_done_ / scene_.sync_every * scene_.sync_every);
@@ -358,8 +358,8 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Asks the ranks that have the records of the two discs, one after the other, when each disc last
-/// collided.
+/// Finds out from the ranks that keep the records of the two discs when each disc last collided,
+/// and drops the pairs that the method explains.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));

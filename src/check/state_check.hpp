@@ -168,8 +168,9 @@ private:
     std::vector<Known> known_, before_;
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0;                   ///< total energy, which limits the speed of plain discs
-    std::uint64_t n_pair_collisions_ = 0; ///< by all ranks since the check began
+           energy_ = 0; ///< total energy, which limits the speed of plain discs
+    /// Collisions of pairs on all ranks since the check began
+    std::uint64_t n_pair_collisions_ = 0;
 };
 
 } // namespace carrom

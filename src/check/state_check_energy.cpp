@@ -48,7 +48,7 @@ Finding StateCheck::find_velocity_change() const {
         const double seam = effects_.periods(scene_.box).speed;
         double wx = disc.vx - (then.vx * left + pull.x * time + swayed_[0].speed);
         const double wy = disc.vy - (then.vy * left + pull.y * time + swayed_[1].speed);
-        if (seam != 0) // because a disc is shown with the velocity of its image in the box
+        if (seam != 0) // the disc has the velocity of its image in the box
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
                                              (std::sqrt(squared_speed_of(then)) + std::fabs(seam))
@@ -89,7 +89,8 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    if (finding.is_found == 1) finding.rank = -1; // the rank that has the record has found it
+    // the energy is checked by the records of discs, not by the owner of one of them
+    if (finding.is_found == 1) finding.rank = -1;
     return finding;
 }
 
@@ -98,8 +99,8 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
 Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || surfaces_give_energy_) return {};
-    // Energy that effects give at a sync has become another one by now: it counts in a frame that
-    // an acceleration in time moves, and drag takes a part of it.
+    // The energy that effects gave at a sync has changed until now: an acceleration that changes in
+    // time moves the frame in which it is measured, and drag takes a part of it.
     if (acts_at_syncs_ && (effects_.acceleration().sways() || FallingFrame(effects_).slows()))
         return {};
     const double n = static_cast<double>(scene_.n_discs);
@@ -157,10 +158,11 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     return energy;
 }
 
-/// Images beyond the seam give energy to discs that collide with them, and discs that come through
-/// it are shown with another velocity. The energy of all discs together is checked
-/// (first_other_total), but not the energy of each. During a step collisions may make a disc up to
-/// four times as fast as any disc is at its ends.
+/// Whether a disc may have met an image beyond the seam, or come through the seam. An image gives
+/// energy to discs that collide with it, and a disc that comes through the seam gets another
+/// velocity. The energy of all discs together is checked (first_other_total), but not the energy of
+/// such a disc. During a step collisions may make a disc up to four times as fast as any disc is at
+/// its ends.
 bool StateCheck::may_have_met_seam(std::size_t i) const {
     if (!effects_.are_sheared()) return false;
     const double near = 4 * fastest_up_ * stretch() + 2 * scene_.radius;

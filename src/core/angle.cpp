@@ -17,7 +17,7 @@ double wrapped_angle(double angle) {
     const double rest = angle - turn * std::floor(angle / turn + 0.5);
     return rest > std::numbers::pi    ? std::numbers::pi
            : rest < -std::numbers::pi ? -std::numbers::pi
-                                      : rest; // by rounding only
+                                      : rest; // rounding may exceed pi
 }
 
 /// The Taylor series of a quarter of the angle, whose next terms are below 2^-60; the angle is then

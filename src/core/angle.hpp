@@ -10,8 +10,8 @@ namespace carrom {
 /// The angle in [-pi, pi], in radians, that differs from `angle` by whole turns.
 double wrapped_angle(double angle);
 
-/// Cosine and sine of an angle in [-pi, pi], to within 2e-15. It is fifty times faster than
-/// `rounded_sine`, which also rounds the last bit correctly.
+/// Cosine and sine of an angle in [-pi, pi], to within 2e-15. Fifty times faster than
+/// `rounded_sine`, whose last bit is correct, too.
 Direction direction_of(double angle);
 
 /// A random angle, uniform in [-pi, pi).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box in messages: "10", or "10 x 5". A format of numbers holds for both.
+// A box in messages: "10", or "10 x 5". One format of numbers is used for both lengths.
 #pragma once
 
 #include <string>

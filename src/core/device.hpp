@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks the functions that kernels call for a pair of discs. A compiler for GPUs needs a word
-// before each of them; for other compilers the word is empty. These functions are inline, and take
+// Marks the functions that kernels call for a pair of discs. A compiler for GPUs needs a keyword
+// before each of them; for other compilers the macro is empty. These functions are inline, and take
 // and return plain data.
 #pragma once
 

@@ -52,9 +52,9 @@ template <auto Field> constexpr StateColumn make(const char* name, const char* u
 
 inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
-/// Stands for the time of a departed disc, which has none.
+/// Written in place of the time of a departed disc.
 inline constexpr double departed_time = -1;
-/// Stands for the time of a collision that happened exactly at a sync.
+/// Written in place of the time of a collision that happened exactly at a sync.
 inline constexpr double collided_at_sync = -0.0;
 inline double stored_time(const DiscState& disc) {
     if (disc.has_departed()) return departed_time;

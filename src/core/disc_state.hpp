@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc's stored state: where it was at its own time `tau`, and how often it has collided.
+// A disc's stored state: its position at its own time `tau`, and how often it has collided.
 //
-// The state is rewritten by the disc's own collisions and stops and by the common sync, and by
-// nothing else (docs/understanding/method.md, section 2). It fills one cache line: the engine
-// reaches states at random, one disc at a time.
+// Only the disc's own collisions and stops and the common sync rewrite the state
+// (docs/understanding/method.md, section 2). It fills one cache line, because the engine reads the
+// states of single discs at random places.
 #pragma once
 
 #include <cstdint>
@@ -32,10 +32,10 @@ struct alignas(64) DiscState {
     double tau = 0;
     DiscId id = 0;
     std::uint64_t wall_collisions : 47 = 0;
-    std::uint64_t is_departed : 1 = 0; ///< see depart()
+    std::uint64_t is_departed : 1 = 0; ///< set by depart()
     std::int64_t image_x : 16 = 0; ///< the disc's image is this many box lengths away (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Since the last sync; only used if collisions may take energy
+    /// Whether the disc has collided since the last sync; only used if collisions may take energy
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 

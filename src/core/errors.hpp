@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kinds of failure, divided by which ranks know about them
-// (docs/understanding/architecture.md): the input is wrong and every rank knows; a collective
-// operation fails on some rank and all agree on it; an invariant is broken. The first two are
-// exceptions of the public API.
+// (docs/understanding/architecture.md). The input is wrong, and every rank knows it. Or a
+// collective operation fails on some rank, and all ranks agree on it. Or an invariant is broken.
+// The first two are exceptions of the public API.
 #pragma once
 
 #include <string_view>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time integral of v_a v_b over one disc's flight, seen from the box.
+// The time integral of v_a v_b over one disc's flight, in the coordinates of the box.
 //
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from it
 // by the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known
 // function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b, and more_y^2 for yy
-// where the acceleration turns. Where a sync changes no velocity the integral may go on over many
-// of them.
+// where the acceleration turns. If syncs change no velocity the integral may extend over many of
+// them.
 //
 // The integral over a path with collisions is then a sum over events. A collision at time t that
 // changes v into v' adds the integral up to t with v and subtracts the integral up to t with v'.
-// Before the integral begins anew, the integral over the whole time is added.
+// Before the integral begins again, its value for the whole time is added.
 #pragma once
 
 namespace carrom {

@@ -42,7 +42,7 @@ std::ifstream open_plain_file(const std::string& path, OpenProblem& problem) {
     problem = is_socket ? OpenProblem{"is not a plain file", false, true} : problem_of(number);
     std::ifstream stream;
     if (problem.text.empty()) {
-        // By the handle that was tested, because another file may have taken the name.
+        // Opens the handle that was tested, because another file may have taken the name by now.
         stream.open("/proc/self/fd/" + std::to_string(number), std::ios::binary);
         if (!stream) problem = {"cannot be opened: " + std::generic_category().message(errno)};
     }

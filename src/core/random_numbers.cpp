@@ -29,7 +29,7 @@ Direction random_direction(DiscRandom& random) {
         const double y = 2 * random.uniform() - 1;
         const double square = x * x + y * y;
         if (square > 1 || square < 0x1p-20)
-            continue; // because the directions of very short vectors are coarse
+            continue; // the direction of a very short vector has few digits
         const double length = std::sqrt(square);
         return {x / length, y / length};
     }

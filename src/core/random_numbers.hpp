@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers by counter: any rank can draw any disc's numbers, in any order, and gets the same
+// Random numbers by counter. Any rank can draw any disc's numbers, in any order, and gets the same
 // ones.
 //
 // Philox4x64-10 (Salmon, Moraes, Dror and Shaw, SC 2011) with key (seed, purpose) and counter (id,
-// attempt, ...), so purposes never share a number. Only + - * / and sqrt follow: the same bits on
-// every machine.
+// attempt, ...), so two purposes never use the same number. The words are turned into numbers with
+// + - * / and sqrt only, which have the same bits on every machine.
 #pragma once
 
 #include <array>

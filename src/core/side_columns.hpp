@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of discs that are stored beside their 64-byte states, in runs whose dynamics need them.
 //
-// Engines migrate, sort, exchange, speculate on and roll back whatever is present, without knowing
-// its meaning. Scenes, checkpoints, restarts and recordings use the table below. A new column takes
-// a name and a line there. One that effects need takes a line in the function `side_columns_of`
-// that inspects a scene's effects, and one that collisions change takes another in the one below. A
-// run without a column has no memory and no work for it.
+// Engines send, sort and roll back all columns that are present, without knowing what they mean.
+// Scenes, checkpoints, restarts and recordings use the table below. A new column takes a name and a
+// line in the table. If effects need it, it takes a line in the function `side_columns_of` of
+// dynamics/effects.hpp. If collisions change it, it takes a line in the last function of this file.
+// A run without a column uses no memory and no time for it.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_co
 
 struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
-    const char* shown; ///< its name in recordings, tables and the fields of a trajectory
+    const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
     bool is_rate;      ///< a rate, which is stored per micro-step
     /// The effects decide which runs have it; otherwise a run has it if initial values are given
     bool is_of_dynamics;
@@ -49,7 +49,7 @@ inline constexpr std::array<SideColumn, n_side_columns> all_side_columns = [] {
     return all;
 }();
 
-/// Those whose first numbers scenes may give.
+/// Number of columns that scenes may give first values for
 inline constexpr std::size_t n_given_columns = static_cast<std::size_t>(
     std::count_if(side_column_table.begin(), side_column_table.end(),
                   [](const SideColumnInfo& info) { return info.is_given; }));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fingerprint of a whole state that does not depend on who holds which disc, or in which order.
+// A fingerprint of a whole state. It does not depend on which rank owns a disc, nor on the order of
+// discs.
 //
 // Each disc's record (id, position, velocity, local time, counters; -0 counts as +0) is hashed with
 // XXH3-128 and the hashes are added, so ranks and threads may add their shares in any order. Cost:

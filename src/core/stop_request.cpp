@@ -12,7 +12,8 @@ static_assert(std::atomic<std::int64_t>::is_always_lock_free, "handlers of signa
 
 namespace {
 
-std::atomic<std::int64_t> patience = 1'000'000'000; ///< in nanoseconds
+/// How long a step may take after a request, in nanoseconds
+std::atomic<std::int64_t> patience = 1'000'000'000;
 
 std::int64_t now() {
     const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();

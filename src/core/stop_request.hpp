@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A request to stop, as a signal handler records it, and the exception by which all ranks obey it.
+// A request to stop, as a signal handler records it, and the exception with which all ranks stop.
 //
-// A run obeys between two steps.  Work that takes too long for that ends itself: a start, or a step
+// A run stops between two steps. Work that takes too long for that ends inside: a start, or a step
 // that does not end within the patience. Ranks get signals at different times, so they must agree
 // before they throw.
 #pragma once
@@ -31,7 +31,7 @@ inline bool is_stop_requested() {
 /// Costs one comparison as long as there is no request.
 inline bool is_stop_overdue() { return is_stop_requested() && stop_request::has_patience_ended(); }
 
-/// How long a step may still take after a request; a second unless this is called.
+/// Sets how long a step may still take after a request. It is a second unless this is called.
 void set_stop_patience(double seconds);
 
 /// Thrown on every rank if a start or a step is abandoned because of a request. The simulation is

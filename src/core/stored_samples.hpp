@@ -10,14 +10,14 @@
 
 namespace carrom {
 
-/// Where a disc was when sampling, or a window of it, began.
+/// The position of a disc when sampling, or one of its windows, began.
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
-    /// Box lengths by which it has been brought back into a periodic box since then
+    /// Box lengths by which the disc has been brought back into a periodic box since then
     double lengths_x = 0, lengths_y = 0;
-    double vx = 0, vy = 0; ///< at that time, per step
-    /// Box lengths by which it had been brought back by then, since the scene's start
+    double vx = 0, vy = 0; ///< velocity per step, when sampling or the window began
+    /// Box lengths by which the disc had been brought back before then, since the scene's start
     double image_x = 0, image_y = 0;
 };
 
@@ -39,8 +39,8 @@ struct StoredSamples {
     bool have_lengths = false;      ///< equal on all ranks
     bool have_velocities = false;   ///< equal on all ranks
     bool have_images = false;       ///< equal on all ranks; for the images of a trajectory
-    /// A run of ids without gaps. To be written, these are the discs of this rank's
-    /// pieces (pieces.hpp); as read, those of its slab (slabs.hpp).
+    /// Discs with consecutive ids. For writing, they are the discs of this rank's pieces
+    /// (pieces.hpp). After reading, they are those of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;
 };
 

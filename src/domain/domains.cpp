@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// With groups, a rank must have less than this share of the discs that it would have with whole
-/// strips. It must also save at least this many discs of its halo, about as many as cost the time
-/// of messages to six more neighbours.
+/// Limits for groups of ranks. With groups, a rank must have less than this share of the discs that
+/// it would have with whole strips. Its halo must also be smaller by this many discs. Copying them
+/// takes about as long as messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 
 /// The area of a rank's domain and halo divided by that of its domain, on average. Halos do not

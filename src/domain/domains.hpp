@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank owns which rectangle of the box. Strips cut the box along the strips' axis, and each
-// strip belongs to a group of ranks that cut it again, across the axis. A group of one owns its
+// Assigns rectangles of the box to ranks. Strips cut the box along the strips' axis. Each strip
+// belongs to a group of ranks that cut it again, across the axis. A group of one rank owns its
 // whole strip. Pure arithmetic, no MPI.
 //
-// Few ranks have groups of one, because a whole strip has the fewest neighbours. With many ranks
-// whole strips would be so narrow that most discs of a rank would be halo. A rectangle that is
-// about as wide as high has the smallest halo. Each strip has its own cuts, so that all domains can
-// have equal work in any distribution of discs.
+// With few ranks groups have one rank, because a whole strip has the fewest neighbours. With many
+// ranks whole strips would be so narrow that most discs of a rank would be halo. A rectangle that
+// is about as wide as high has the smallest halo. Each strip has its own cuts, so that all domains
+// can have equal work in any distribution of discs.
 //
 // As in strips.hpp, all lists follow from numbers that every rank knows. They are symmetric, and
 // complete to the last bit.
@@ -29,8 +29,8 @@ struct Domain {
     bool holds(double place, double place_across) const {
         return along.holds(place) && across.holds(place_across);
     }
-    /// Whether the domain meets the square of all places within `reach` of this one along each
-    /// axis. The domain is not empty.
+    /// Whether the domain is not empty and contains a position within `reach` of this one along
+    /// each axis.
     bool is_within(double reach, double place, double place_across) const {
         return along.meets(place - reach, place + reach) &&
                across.meets(place_across - reach, place_across + reach);
@@ -79,8 +79,9 @@ public:
 
 private:
     Strips strips_;
-    std::vector<Strips> groups_;   ///< by strip
-    std::vector<int> first_ranks_; ///< by strip, and the number of ranks at the end
+    std::vector<Strips> groups_; ///< the cuts across each strip
+    /// The first rank of each strip, and the number of ranks at the end
+    std::vector<int> first_ranks_;
 };
 
 /// The other ranks, ascending, that `rank` may have to send discs to or receive discs from. Discs
@@ -92,7 +93,7 @@ std::vector<int> movers_between(const Domains& before, const Domains& after, int
 /// The arguments for the choice of groups. Lengths are in any unit.
 struct GroupNeeds {
     int n_ranks = 1;
-    double n_discs = 0;           ///< of all ranks
+    double n_discs = 0;           ///< number of discs on all ranks
     double length = 1, width = 1; ///< edges of the box along the strips' axis, and across it
     double halo = 0;              ///< depth of a rank's halo
     /// Whether the box is periodic in these directions

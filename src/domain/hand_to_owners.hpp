@@ -10,9 +10,9 @@
 
 namespace carrom {
 
-/// Moves each value to the rank `owner_of(place)`, which may read the value, because it is still in
-/// its place. Values are sent in rounds, and arriving values take the places of departed ones. If
-/// all were sent at once, every rank would need two or three times the memory of its discs.
+/// Moves each value to the rank `owner_of(place)`, where `place` is the index of a value that has
+/// not moved yet. Values are sent in rounds, and arriving values take the places of departed ones.
+/// If all were sent at once, every rank would need two or three times the memory of its discs.
 /// **Collective.**
 template <class Values, class Owner>
 void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {

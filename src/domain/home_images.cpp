@@ -5,9 +5,9 @@
 
 namespace carrom {
 
-/// A disc's companion gets the same image, although its position may differ. Discs far from all
-/// sides at the time of sorting still have the right image. This holds because no frame may jump
-/// along a periodic axis (scene/rules.cpp).
+/// Gives each own disc the image that is in the box. A disc's companion gets the same image,
+/// although its position may differ. Discs far from all sides at the time of sorting still have the
+/// right image, because no frame may jump along a periodic axis (scene/rules.cpp).
 void StripDiscs::set_home_images(double time, double farthest, DiscStates* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,

@@ -17,8 +17,8 @@ TransferPlan StripDiscs::plan_of_halo(double time, const HaloDepth& depth) const
     return plan_halo(domains_, rank, own(), searched, time, depth, n_threads_);
 }
 
-/// Neighbours first report whether they need more. Only pairs of ranks of which one does exchange
-/// discs.
+/// Neighbours first report whether they need more halo. A pair of ranks exchanges discs only if one
+/// of them does.
 void StripDiscs::fetch_more_halo(double time, double beyond, double reach, bool wants) {
     if (has_no_halo()) return;
     const std::vector<int> near = halo_partners(domains_, communicator_.rank(), reach, periods_);
@@ -56,7 +56,7 @@ void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
     for (const HaloPart& part : more_halo_) report_part(part.plan, part.offsets, of_halo, reported);
 }
 
-/// Reports those discs that arrived with one part of the halo. **Collective.**
+/// Reports to the owners the discs that arrived with one part of the halo. **Collective.**
 void StripDiscs::report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
                              std::span<const LocalIndex> of_halo,
                              std::vector<LocalIndex>& reported) {

@@ -11,7 +11,8 @@ namespace carrom {
 
 namespace {
 
-/// Lists of partners extend this much further than the distances, because images are rounded.
+/// Lists of partners are made for distances that are larger by this share of a period, because
+/// images are rounded.
 constexpr double margin = 1e-9;
 
 /// The domain, limited to the box along periodic axes.
@@ -68,7 +69,7 @@ struct Shifts {
         if (period == 0) return;
         if (place - low < (1 - margin) * period - reach &&
             high - place < (1 - margin) * period - reach)
-            return; // nearly always the case along one axis
+            return; // nearly all discs return here, along at least one axis
         const double lowest = low - reach - margin * period,
                      highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;
@@ -118,7 +119,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
         const double along = periods.place_of(own[i], axis, time);
         const double across = domains.are_cut_across()
                                   ? periods.place_of(own[i], other_axis(axis), time)
-                                  : 0; // a whole strip contains any position
+                                  : 0; // a whole strip contains all positions across
         if (mine.holds(along, across)) return;
         const int owner = domains.owner(along, across);
         if (owner == rank) return;

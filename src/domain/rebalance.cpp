@@ -41,7 +41,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
     }
     const double of_pair = of_pairs / static_cast<double>(n_pairs);
     for_each_cell([&](SlotRange cell) {
-        if (cell.begin == cell.end) return; // avoids a negative number
+        if (cell.begin == cell.end) return; // otherwise n_others would be negative
         const double n_others = static_cast<double>(cell.end - cell.begin) - 1;
         const std::uint64_t weight = of_disc(of_discs, of_pair * n_others);
         for (std::uint32_t i = cell.begin; i < cell.end; ++i) visit(discs_[i], weight);

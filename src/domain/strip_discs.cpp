@@ -109,7 +109,8 @@ std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double
 
 void StripDiscs::set_departed_aside() {
     forget_halo();
-    // Without std::stable_partition, because the alignment of its buffer is too small for discs.
+    // std::stable_partition allocates a buffer that is not aligned enough for discs, so this is a
+    // loop.
     const auto has_departed = [](const DiscState& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
     columns_.for_each([&](SideColumn column) {
@@ -257,7 +258,7 @@ void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     for (std::size_t& offset : halo_offsets_) offset += n_own_;
-    // With the same capacity as the discs, so that it grows as rarely
+    // With the same capacity as the discs, so that the list grows as rarely as theirs
     is_shown_.reserve(discs_.capacity());
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The discs of one rank: its own, in the order of their cells, and behind them the halo that its
-// neighbours have sent. The rank owns a strip, or a part of one (domains.hpp). Moves them between
-// ranks: migrate, sort, fetch the halo.
+// neighbours have sent. The rank owns a strip, or a part of one (domains.hpp). This class moves
+// discs between ranks: it migrates and sorts them, and fetches the halo.
 //
-// Who may send to whom follows from cuts and bounds that all ranks share, so
-// `farthest` and `reach` must be the same on all ranks. Price: two passes over the own
-// discs, and two messages to each neighbour.
+// Which ranks exchange discs follows from cuts and bounds that all ranks know, so `farthest` and
+// `reach` must be the same on all ranks. Price: two passes over the own discs, and two messages to
+// each neighbour.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct GroupChoice {
     std::optional<int> ranks_across;
 };
 
-/// The work of a rank, in any unit that all ranks share. Work for pairs of near discs, such as
-/// collisions, is counted separately, because it grows with the density around a disc.
+/// The work of a rank, in any unit that is the same on all ranks. Work for pairs of near discs,
+/// such as collisions, is counted separately, because it grows with the density around a disc.
 struct RankWork {
     std::uint64_t of_discs = 0, of_pairs = 0;
 
@@ -98,9 +98,9 @@ public:
     /// `reported`. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
-    /// Moves the cuts to equal shares of the `work` that ranks have done lately, if the largest
-    /// share exceeds the mean by more than the factor `above`. Discs count where they are at
-    /// `time`; the next migration moves them. **Collective.**
+    /// Moves the cuts so that all domains have equal shares of the `work` that ranks have done
+    /// lately, if the largest share exceeds the mean by more than the factor `above`. Discs count
+    /// where they are at `time`; the next migration moves them. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -148,11 +148,12 @@ public:
     /// Removes discs that have left the box from the own ones for good, and drops the halo.
     /// **Collective.**
     void set_departed_aside();
-    /// Takes departed discs, the same ones on all ranks, into the box, and forgets the halo. Each
-    /// becomes one of the rank where its state is, at its own time.
+    /// Takes departed discs, the same ones on all ranks, into the box, and drops the halo. The rank
+    /// whose domain contains a disc's state owns the disc.
     void take_back(std::span<const ReturningDisc> discs);
     std::span<const DiscState> departed() const { return departed_; }
-    const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
+    /// Numbers of the departed discs, in the order of `departed()`
+    const SideColumns& departed_columns() const { return departed_columns_; }
     /// Number of discs on all ranks, departed ones included.
     std::uint64_t n_with_departed() const { return n_with_departed_; }
 
@@ -209,9 +210,10 @@ private:
         redistributed_domains_; ///< the present cuts, and the cuts at the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false;                              ///< the grid has the own discs' places
-    std::vector<std::pair<LocalIndex, Image>> displaced_; ///< own discs with an image, and these
-    bool are_displaced_listed_ = false;                   ///< since the last migration
+    bool is_sorted_ = false; ///< the grid has the own discs' places
+    /// own discs with an image, and the image
+    std::vector<std::pair<LocalIndex, Image>> displaced_;
+    bool are_displaced_listed_ = false; ///< whether they have been listed since the last migration
     bool has_images_ = false; ///< own discs had their images in the box when they were sorted
     TransferPlan halo_plan_;
     /// Neighbours without this rank; in a periodic box a rank is also a neighbour of itself

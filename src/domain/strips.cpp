@@ -52,9 +52,10 @@ bool can_move(const Strip& before, const Strip& after, double distance) {
 }
 
 bool are_within(const Strip& a, const Strip& b, double reach) {
-    // Rounding is monotone. For x < a.high the rounded x + reach is at most this sum. Where the
-    // rounded x - reach of a sender above b is less than b.high, the sum is at least x. The
-    // difference of the two edges could be rounded the wrong way.
+    // The same comparisons as those of senders. A sender below b compares the rounded x + reach,
+    // which is at most this sum, because rounding is monotone. A sender above b compares the
+    // rounded x - reach, and if that is less than b.high the other sum is at least x. A difference
+    // of the two edges could be rounded the wrong way.
     return a.high + reach >= b.low && b.high + reach >= a.low;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An axis, by default x, cut into half-open slabs, and which owners of slabs may therefore exchange
-// discs. Domains (domains.hpp) are strips in both directions. Pure arithmetic, no MPI.
+// An axis, by default x, cut into half-open slabs, and the lists of owners that may exchange discs.
+// Domains (domains.hpp) are strips in both directions. Pure arithmetic, no MPI.
 //
 // All lists follow from numbers that every rank knows, so both partners of an exchange compute the
 // same lists without a message. Lists are symmetric: a lists b if and only if b lists a. They are
@@ -71,9 +71,9 @@ bool can_move(const Strip& before, const Strip& after, double distance);
 /// Whether a disc in one of the strips can lie within `reach` >= 0 of the other. Neither is empty.
 bool are_within(const Strip& a, const Strip& b, double reach);
 
-/// The cuts below which the shares `below`, ascending from 0 to 1, of the weight lie. `weights`
-/// belong to equal bins of [0, length], and are assumed to be spread evenly inside a bin. The cuts
-/// ascend, lie within the box, and are a function of the arguments alone.
+/// Returns cuts such that the share `below[k]` of the weight is below cut k; the shares ascend from
+/// 0 to 1. `weights` belong to equal bins of [0, length], and are assumed to be spread evenly
+/// inside a bin. The cuts ascend, lie within the box, and are a function of the arguments alone.
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   std::span<const double> below);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who sends which discs to whom, and the sending: plan first, then move any array that goes along
-// with the discs.
+// Plans which discs go to which rank, and sends them. A plan can move any array that runs along the
+// discs.
 //
 // Halo and migration are two plans for the same move. Both ends of a plan know their partners from
 // the cuts and a bound on distances alone. So the only messages are those that carry discs, one to

@@ -14,8 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// The time at which a flight gets further than `reach` from the centre, if it has not passed
-/// `wall` yet.
+/// The time at which a flight gets further than `reach` from the centre, unless it is beyond
+/// `wall` already.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;

@@ -50,7 +50,7 @@ public:
                                                              double sigma, double deepest_overlap) {
         return contact_delay(met.ex, met.ey, met.wx, met.wy, sigma, deepest_overlap);
     }
-    /// Whether a contact that the formula finds counts.
+    /// Whether a contact found by the formula is accepted.
     CARROM_DEVICE static constexpr bool counts(const DiscState& /*p*/, const DiscState& /*q*/,
                                                const PairContact<double>& /*found*/) {
         return true;

@@ -44,7 +44,7 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                      // If discs collide thousands of times within this many micro-steps, the run
                      // ends as a collision cascade.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n);   // from now on times count from micro-step n
+                     changing.begin_interval(n);   // times count from micro-step n after this call
                      changing.look_up_in(species); // uses the radii and masses of this table
                      {
                          bodies.largest()

@@ -125,8 +125,8 @@ Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis, const 
     return {disc.tau + to_high, low + 1};
 }
 
-/// Assumes a straight flight, and an acceleration only if it is towards the wall. Ignoring one away
-/// from the wall is safe.
+/// Assumes a straight flight. An acceleration counts only if it is towards the wall; ignoring the
+/// others is safe.
 bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
                           const Body& body) const {
     if (disc.has_departed()) return false;
@@ -135,7 +135,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_on();
-        // From the wall's highest position, where the wall may be soon
+        // The distance from the wall's highest position, which the wall may reach soon
         if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);

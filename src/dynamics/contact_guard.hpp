@@ -11,12 +11,12 @@
 // so whatever presses a disc to one or into the wedge between two brings it back without end. A
 // scene may name a time instead, which costs fewer collisions where discs lie at rest.
 //
-// Where discs are pulled to a wall, a contact at rest is a series of small bounces without loss.
-// What these spare is no error, so losses leave them out. Where contacts last, slow ones lose their
-// energy at syncs, so losses leave them out too.
+// If discs are pulled to a wall, a contact at rest is a series of small bounces without loss. The
+// energy that they keep is no error, so it does not count as lost by the guard. Slow contacts that
+// last lose their energy at syncs, so they do not count either.
 //
-// Only collisions count as contacts, syncs and starts do not. A disc does not remember its last
-// collision over a sync, so its first collision after that is never guarded by itself.
+// Only collisions count as contacts, syncs and starts do not. A disc's last collision is forgotten
+// at a sync, so its first collision after the sync is guarded only through its partner.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class ContactGuard {
 public:
     /// The share of the distance between centres that two discs close in by during a contact.
     static constexpr double pair_share = 1e-6;
-    /// The same for a disc and its image behind a wall.
+    /// This share for a disc and its image behind a wall.
     static constexpr double wall_share = 1e-4;
 
     /// For discs of at most `radius`.
@@ -66,7 +66,7 @@ public:
         return contact_time_ > 0 ? 0.5 * pull * contact_time_
                                  : std::sqrt(0.5 * wall_share * radius * pull);
     }
-    /// How long such a disc is away.
+    /// The time after which a disc that leaves a wall with `least_departure` is back.
     double rest_time(double pull, double radius) const {
         if (contact_time_ > 0) return contact_time_;
         return pull > 0 ? 2 * least_departure(pull, radius) / pull : 0;
@@ -80,14 +80,15 @@ public:
     }
 
 private:
-    /// Neighbours of a contact at rest disturb it by some departures.
+    /// A contact at rest is disturbed by its neighbours, so this many times the speed of departure
+    /// counts as rest.
     static constexpr double rest_factor = 10;
 
     CARROM_DEVICE bool holds(double since, double closing, double share) const {
         return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
     }
 
-    double contact_time_; ///< 0: by the share
+    double contact_time_; ///< 0: a length is used instead
     double rest_speed_;   ///< slower contacts are at rest
 };
 

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact dynamics at a sync: the impulses that keep slow discs from meeting until the next one.
+// Contact dynamics at a sync: the impulses that keep slow discs from colliding until the next one.
 //
-// A disc falls by g T^2 / 2 between two syncs. What lies on something would so meet it
-// again and again. Here it gets at the sync what its supports give it in all of the time T, as in
-// the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl. Mech. Eng.
-// 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync, impulses P at the
-// contacts are such that
+// A disc falls by g T^2 / 2 between two syncs. A disc that lies on others would so collide again
+// and again. Instead it gets at the sync the impulse that its supports give it in the whole time T,
+// as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl.
+// Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
+// impulses P at the contacts are such that
 //
-//   gap + T w_n >= rest gap,   P_n >= 0,   and one of both with "=";   |P_t| <= mu P_n against slip
+//   gap + T w_n >= rest gap,   P_n >= 0,   with equality in at least one of the two;
+//   |P_t| <= mu P_n, against slip
 //
 // A disc of a heap then has w = 0: it flies up by g T^2 / 8 and is back at the next sync. All discs
 // of the heap do so together, so none meets another one, and the heap costs nothing. Pairs that
-// approach faster than `speed` are no lasting contacts, and meet as others do. So do all pairs for
-// which the impulses are not right, so that no error of this kind makes an overlap.
+// approach faster than `speed` are no lasting contacts, and collide. So do all pairs whose impulses
+// are not accurate, so that an inaccurate impulse never makes an overlap.
 //
-// Gauss and Seidel's sweeps with over-relaxation go over the contacts from the lowest up. They end
-// when impulses have settled, or after a number of sweeps. Then discs in contact that are left with
-// less than `least_motion` of g T stop (w = 0), so that a heap that bears itself repeats its state
-// bit by bit. The result is a function of the discs in the order of ids, so all ranks have the same
-// bits. Price: some 10 ns for each contact and sweep.
+// Gauss-Seidel sweeps with over-relaxation go over the contacts from the lowest up. They end when
+// impulses have converged, or after a number of sweeps. Then discs in contact that are left with
+// less than `least_motion` of g T stop (w = 0), so that a heap at rest repeats its state bit by
+// bit. The result is a function of the discs in the order of ids, so all ranks have the same bits.
+// Price: some 10 ns for each contact and sweep.
 #pragma once
 
 #include <array>

@@ -54,7 +54,7 @@ double area_of(const FixedBodyList& fixed_bodies, const Box& box);
 /// A row of the scene's lists of fixed bodies, or the wall of the box's shape.
 struct BodyRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
-    std::uint32_t number = 0; ///< from 1 on in its list; 0 for the box's wall
+    std::uint32_t number = 0; ///< place in its list, from 1 on; 0 for the box's wall
     double x = 0, y = 0;      ///< position: its centre, or the mean of its corners if it has none
     double length = 0;        ///< length of its line; both faces of a segment or an arc share it
 

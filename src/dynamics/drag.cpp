@@ -15,7 +15,8 @@ double short_integral(double z) {
     return sum;
 }
 
-constexpr int most_halvings = 2100; ///< enough for the product of the two largest doubles
+constexpr int most_halvings =
+    2100; ///< enough halvings to bring the product of the two largest doubles below 1/2
 
 /// A time that was halved until the series converges, and the clock and the slowing at this time.
 /// If the time or the rate is infinite, the results are NaN.

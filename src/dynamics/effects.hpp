@@ -69,8 +69,9 @@ struct ContactEffect {
                                                  ///< tangential impulse is at most this times the
                                                  ///< normal one
     double inertia = 0.5;             ///< moment of inertia in m r^2; 0.5 for a uniform disc
-    std::vector<ContactPair> pairs{}; ///< with other numbers than these (pair_table.hpp)
-    std::vector<SpeciesRow> rows{};   ///< in the order of ids; empty without `discs.species`
+    std::vector<ContactPair> pairs{}; ///< rows of pairs with numbers of their own (pair_table.hpp)
+    /// Ids of each row of `discs.species`, ascending; empty without that key
+    std::vector<SpeciesRow> rows{};
 
     bool is_on() const { return kind != ContactKind::elastic; }
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
@@ -85,7 +86,8 @@ inline constexpr auto boundary_words = std::to_array<std::string_view>(
 
 /// What a wall or a fixed body does along its surface (rubbing.hpp).
 struct Surface {
-    double tangential_restitution = -1; ///< as for rough discs; -1 is smooth
+    /// What the surface does to the slip, as between rough discs; -1 is smooth
+    double tangential_restitution = -1;
     double friction = std::numeric_limits<double>::infinity();
     double velocity = 0; ///< of sides along +x or +y, of fixed bodies counterclockwise around
                          ///< themselves, of arcs around their centres; thermal sides have one, too
@@ -107,15 +109,16 @@ struct Inlet {
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
-    double restitution = 1; ///< of walls, also of moving ones
-    double temperature = 0; ///< of thermal walls: kT, a velocity squared, for masses of 1
-    double speed = 0;       ///< of moving walls, along +x or +y
+    double restitution = 1; ///< restitution of walls, also of moving ones
+    /// Temperature of thermal walls: kT, a velocity squared, for masses of 1
+    double temperature = 0;
+    double speed = 0; ///< speed of moving walls, along +x or +y
     // For oscillating walls (oscillation.hpp):
     double amplitude = 0;
     double period = 1;
     double phase = 0; ///< angle at the start
     Surface surface{};
-    Inlet inlet{}; ///< of open sides
+    Inlet inlet{}; ///< the inlet of an open side
 
     bool is_plain() const {
         return kind == BoundaryKind::wall && restitution == 1 && !surface.rubs();
@@ -202,7 +205,7 @@ enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
-    double strength = 0;    ///< for kicks: xi^2
+    double strength = 0;    ///< xi^2 of kicks
     double rate = 0;        ///< rate at which discs get new velocities, or rate of friction
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
@@ -239,8 +242,8 @@ struct Barostat {
 
 /// Discs that exchange their radii (scene/effects/swap.cpp).
 struct Swaps {
-    std::int64_t rounds = 0;     ///< of proposals, at each sync
-    std::int64_t until_step = 0; ///< 0 is the end of the run
+    std::int64_t rounds = 0;     ///< rounds of proposals at each sync
+    std::int64_t until_step = 0; ///< the step at which swaps end; 0: the end of the run
     std::uint64_t seed = 3210;
 
     bool is_on() const { return rounds != 0; }

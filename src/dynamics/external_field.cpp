@@ -15,7 +15,7 @@ namespace {
 /// Unser, A. Aldroubi and M. Eden, IEEE Trans. Signal Process. 41, 821 (1993).
 std::vector<double> round_coefficients(const std::vector<double>& f) {
     const double pole = std::sqrt(3.0) - 2;
-    constexpr std::size_t far = 40; // because pole^40 is below 2^-75
+    constexpr std::size_t far = 40; // pole^40 is below 2^-75
     const std::size_t n = f.size();
     std::vector<double> c(n);
     double sum = 0;

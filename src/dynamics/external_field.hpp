@@ -98,7 +98,7 @@ enum class FieldKind { none, trap, sine, grid };
 /// `[effects.field]`; times in steps in a scene, in micro-steps in a dynamics.
 struct ExternalField {
     FieldKind kind = FieldKind::none;
-    double stiffness_x = 0, stiffness_y = 0; ///< of a trap: force per length
+    double stiffness_x = 0, stiffness_y = 0; ///< stiffness of a trap: force per length
     /// Centre of a trap or sine; by default the middle of the box
     std::optional<double> centre_x, centre_y;
     double amplitude = 0; ///< energy of a sine, or factor of the values on a grid

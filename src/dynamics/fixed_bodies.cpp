@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// A disc in the box may touch this many images of a body: the body itself and eight around it.
+/// A disc in the box may touch the body or one of the eight images around it.
 constexpr std::uint32_t n_images = 9;
 
 /// The least slope at which a disc leaves the inner face of an arc, because along the face it would
@@ -333,7 +333,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
-    // As at walls, a disc that is pulled back leaves fast enough to stay away for a contact.
+    // A disc that is pulled back leaves fast enough to stay away for a contact time, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);

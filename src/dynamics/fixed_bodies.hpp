@@ -95,8 +95,8 @@ public:
 private:
     struct Body {
         double x, y;                       ///< the centre of a disc, or one end of a line
-        double radius;                     ///< 0 for a line
-        double ux = 0, uy = 0, length = 0; ///< for a line: direction and length
+        double radius;                     ///< radius of a fixed disc; 0 for a line
+        double ux = 0, uy = 0, length = 0; ///< direction and length of a line
         /// Velocity of its surface relative to the scene's key, counterclockwise
         double slides = 1;
         bool is_arc = false;
@@ -158,7 +158,7 @@ private:
     std::size_t n_fixed_discs_;
     Container container_;
     Periods periods_;
-    double largest_radius_; ///< of a disc
+    double largest_radius_; ///< largest radius of a disc
     /// Fixed discs, then for each segment, edge and arc its line and its two ends
     std::vector<Body> bodies_;
     std::vector<std::uint32_t> first_bodies_; ///< first body of each row behind the fixed discs

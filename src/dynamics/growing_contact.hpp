@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`,
-/// not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
+/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`;
+/// `growth` is not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
 template <class Real>
 [[gnu::always_inline]] CARROM_DEVICE inline Real growing_contact_delay(Real dx, Real dy, Real wx,
                                                                        Real wy, Real sigma,
@@ -25,7 +25,7 @@ template <class Real>
     const Real clock = contact_delay(dx, dy, vx, vy, wx, wy, sigma, deepest_overlap);
     if (clock < 0) return none;
     const Real rest = std::fma(-growth, clock, Real{1});
-    return rest > 0 ? clock / rest : none; // the clock approaches 1 / g but never reaches it
+    return rest > 0 ? clock / rest : none; // the growing discs' clock never reaches 1 / g
 }
 
 } // namespace carrom

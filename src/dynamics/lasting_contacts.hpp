@@ -2,8 +2,7 @@
 // The pairs, and the discs at walls and fixed bodies, that are so close at a sync that they may
 // press each other until the next one. They are found with cells as wide as the largest contact.
 //
-// A contact that is left out costs time but causes no error, because its discs collide as others
-// do.
+// A contact that is left out costs time but causes no error, because its discs collide instead.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +59,7 @@ private:
 
     Box box_;
     Effects effects_;
-    double pair_friction_; ///< of pairs that no row names
+    double pair_friction_; ///< friction of pairs that no row names
     PairTable pairs_;
 };
 

@@ -159,7 +159,7 @@ private:
     }
 
     ContactKind kind_;
-    PairFactors common_; ///< of pairs that no row names
+    PairFactors common_; ///< factors of pairs that no row names
     PairView pairs_;
     double inertia_;
     ContactGuard guard_;

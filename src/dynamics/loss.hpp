@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy that restitution takes in one collision, or that a guard keeps it from taking
+// The energy that restitution takes in one collision, or would take if a guard did not prevent it
 // (contact_guard.hpp).
 #pragma once
 

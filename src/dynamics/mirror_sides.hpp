@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of a box without effects: four elastic walls at rest, for discs of one radius. Sides of
-// scenes with effects are in boundaries.hpp and give the same answers.
+// The sides of a box without effects: four elastic walls at rest, for discs of one radius. Its
+// functions have the same names as those of boundaries.hpp, which has the sides of scenes with
+// effects.
 #pragma once
 
 #include <cstdint>

@@ -53,7 +53,7 @@ public:
     }
     bool parts_overlaps() const { return arithmetic_.parts_overlaps(); }
 
-    // Sizes, for radii that have not grown. The radius is the largest one.
+    // Sizes of discs before they grow; the radius is the largest one.
 
     CARROM_DEVICE const Box& box() const { return box_; }
     CARROM_DEVICE double radius() const { return radius_; }
@@ -130,12 +130,12 @@ public:
                                                    double time) {
         return std::min(since_collision(p, time), since_collision(q, time));
     }
-    /// From p to q, whose states are both at their collision.
+    /// The separation from p to q, whose states are both at their collision.
     Separation separation(const DiscState& p, const DiscState& q) const {
         const Encounter<double> met = space_.see(p, q, q.x - p.x, q.y - p.y, p.tau);
         return {met.ex, met.ey};
     }
-    /// From p to q, whose states are at `time` or earlier.
+    /// The separation from p to q, whose states are at `time` or earlier.
     CARROM_DEVICE Separation separation_at(const DiscState& p, const DiscState& q,
                                            double time) const {
         const Encounter<double> met = space_.see(p, q, q.x_at(time) - p.x_at(time),

@@ -17,7 +17,7 @@ constexpr int most_visits = 8;
 /// A search begins and ends this many periods outside of the time in which the disc is within
 /// reach.
 constexpr double margin = 1.0 / 16;
-/// In periods; much longer than any time between syncs.
+/// A time in periods that is much longer than any time between syncs.
 constexpr double latest = 0x1p40;
 
 /// The turns from -1/4 to 1/4 with this sine, by bisection.
@@ -96,7 +96,7 @@ private:
     double from_line_at(double s) const {
         return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
     }
-    /// At s = 0 this is exactly the number that a rebound has left.
+    /// The rate of the distance. At s = 0 after a rebound it is exactly the rate of that rebound.
     double slope_at(double s, const WallMotion& then) const {
         return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
     }

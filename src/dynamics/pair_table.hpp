@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How contacts depend on the species of both discs: numbers for each pair of rows of
-// `discs.species`, and the common ones for all other pairs.
+// The numbers of contacts that depend on the species of both discs: one set for each pair of rows
+// of `discs.species`, and a common set for all other pairs.
 //
-// Rows come in the order of ids, so a disc's row follows from its id. Rows are kept beside Species,
-// because equal discs of two rows are one Species there, and may be of two materials here.
+// Rows come in the order of ids, so a disc's row follows from its id. The table goes by rows and
+// not by Species, because equal discs of two rows are one Species, and may be of two materials
+// here.
 #pragma once
 
 #include <cmath>
@@ -28,7 +29,7 @@ struct PairFactors {
         return {(1 + restitution) / 2, (1 + tangential_restitution) / 2 * (inertia / (1 + inertia)),
                 friction};
     }
-    /// Of pairs that no row names.
+    /// The numbers of all pairs that no row names.
     static PairFactors common(const ContactEffect& contact) {
         return of(contact.restitution, contact.tangential_restitution, contact.friction,
                   contact.inertia);
@@ -45,7 +46,7 @@ public:
         : ends_(ends), factors_(factors), n_(n) {}
 
     CARROM_DEVICE bool are_any() const { return factors_ != nullptr; }
-    /// The same for (p, q) and (q, p).
+    /// The factors of the pair; (p, q) and (q, p) have the same.
     CARROM_DEVICE const PairFactors& of(DiscId p, DiscId q) const {
         return factors_[row_of(p) * n_ + row_of(q)];
     }

@@ -58,7 +58,7 @@ struct Parabola {
         if (found[1] < found[0]) std::swap(found[0], found[1]);
         return found;
     }
-    /// A time after `s` from which the distance grows for good.
+    /// A time after `s` from which on the distance only grows.
     double late(double s) const {
         const double g = std::sqrt(gx * gx + gy * gy);
         double step = std::sqrt(wx * wx + wy * wy) / g +

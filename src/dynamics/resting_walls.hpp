@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic walls at rest, for one coordinate of a disc's centre. `Real` is double, or
-// float for the accuracy study.
+// Elastic walls at rest, for one coordinate of a disc's centre. `Real` is double, or float for the
+// accuracy study.
 //
 // In the time-stepped method the position of the disc at the end of micro-step m decides whether it
 // bounces. Only the wall ahead counts. A slow disc that ends within the band bounces at t = 1
-// without touching, because otherwise rounding might keep it at a wall for ever.
+// without touching the wall. Otherwise rounding might keep it at the wall for ever.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,8 @@ public:
         return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
     }
 
-    /// The time into the `rest` of a micro-step at which the disc would leave the box, or `never`.
+    /// The time within the `rest` of a micro-step at which the disc would leave the box, or
+    /// `never`.
     [[gnu::always_inline]] CARROM_DEVICE Real stop(Real x, Real v, Real rest) const {
         const Real at_end = x + v * rest;
         if (v < 0 && at_end < low_) return std::max((low_ - x) / v, Real{0});

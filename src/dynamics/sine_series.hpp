@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sines of angles, and roots in brackets, computed by + - * / in a fixed order. So they have the
-// same bits on every machine, which other libraries do not ensure.
+// same bits on every machine, which the C library does not ensure.
 #pragma once
 
 #include <array>

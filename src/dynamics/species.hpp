@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Species: the radius and the mass of each disc. Swap moves alone give them other ones in a run.
+// Species: the radius and the mass of each disc. Only swap moves change them in a run.
 //
-// Species come in the order of ids, so a disc's species follows from its id: it needs no array, and
-// no bytes in messages and checkpoints. Few species are found by comparisons. Many have a table by
-// id on every rank: up to 65,536 species take 2 bytes a disc, which name the species, and more take
-// 16, because radius and mass stand there themselves.
+// Species come in the order of ids, so a disc's species follows from its id, and needs no array,
+// and no bytes in messages and checkpoints. A few species are found by comparisons. Many have a
+// table by id on every rank. Up to 65,536 species take 2 bytes a disc for the number of the
+// species. More of them take 16, because the table then contains radius and mass.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// A number of equal discs. Their ids follow the ids of the species before.
+/// A number of equal discs. Their ids follow those of the species before.
 struct Species {
     std::uint64_t count = 0;
     double radius = 0;
@@ -66,7 +66,8 @@ public:
     /// numbers of its own.
     SpeciesTable(std::span<const Species> species, double radius, bool radii_change = false);
 
-    /// In all copies. Only of a table whose radii change, while nobody else reads it.
+    /// Sets the radius in all copies of the table. Only for a table whose radii change; no other
+    /// thread may read the table meanwhile.
     void set_radius(DiscId id, double radius) { table_->sizes[id].radius = radius; }
 
     const SizeAndMass& of(DiscId id) const { return view_.of(id); }
@@ -84,7 +85,8 @@ public:
 private:
     struct Table {
         std::vector<SpeciesView::Range> ranges;
-        std::vector<SizeAndMass> sizes;           ///< of each species or of each disc; may be empty
+        /// Radius and mass of each species or of each disc; may be empty
+        std::vector<SizeAndMass> sizes;
         std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
 
         void spread(std::span<const Species> species, DiscId n_discs, bool radii_change);

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// In periods after a sync. The next sync comes before.
+/// The longest time after a sync, in periods; the next sync comes earlier.
 constexpr double longest_arc = 0.125 * (1 + 0x1p-10);
 
 /// For a small angle x: its sine, 1 - cos x and x - sin x, each accurate to a few roundings.
@@ -29,7 +29,7 @@ struct Turn {
 /// A disc's flight relative to a wall, at the time s after the disc's time.
 struct SwayingFlight {
     double distance, speed, pull;
-    double sine, cosine; ///< of the changing part of acceleration, in units of acceleration
+    double sine, cosine; ///< parts of the changing acceleration, in units of acceleration
     double rate;         ///< angular frequency, 2 pi / period
 
     ValueAndSlope distance_at(double s) const {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An effect that acts at syncs: between them discs fly and collide as without it.
+// An effect that acts at syncs. Between syncs discs fly and collide as without it.
 //
-// At a sync all states are at one time and in the box's own coordinates. What an effect does to a
-// disc may depend on that disc's state, on exact sums over all discs, and on random numbers of
-// `at_sync`, which are functions of the seed, the disc and the count of syncs. Then every machine
-// shape gets the same bits, and a restart needs nothing but the count and what an effect says that
-// it keeps.
+// At a sync all states are at one time and in the box's own coordinates. The effect on a disc may
+// depend on that disc's state, on exact sums over all discs, and on random numbers of `at_sync`,
+// which are functions of the seed, the disc and the count of syncs. So every machine shape gets the
+// same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
 //
-// The engine calls the list of effects once a sync, never for a pair. The list is
-// empty in scenes without such an effect.
+// The engine calls the list of effects once a sync, never for a pair. The list is empty in scenes
+// without such an effect.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +40,7 @@ struct WallImpulse {
 struct PairImpulse {
     DiscId p = 0, q = 0;       ///< p is the lower id
     double x = 0, y = 0;       ///< centre of p
-    double dx = 0, dy = 0;     ///< vector from there to the centre of q
+    double dx = 0, dy = 0;     ///< vector from the centre of p to the centre of q
     double ix = 0, iy = 0;     ///< impulse that p gets; q gets the opposite
     double p_vx = 0, p_vy = 0; ///< means of the velocities before and after the sync
     double q_vx = 0, q_vy = 0;
@@ -50,12 +49,15 @@ struct PairImpulse {
 /// The discs of a rank at a sync, with velocities and spins per micro-step. Between sheared sides
 /// velocities are relative to the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
-    const SpeciesTable& species;       ///< the radius and the mass of each disc
-    std::span<DiscState> discs = {};   ///< some may have departed; effects do not change those
-    std::span<double> spins = {};      ///< along the discs; empty unless discs are rough
+    const SpeciesTable& species;     ///< the radius and the mass of each disc
+    std::span<DiscState> discs = {}; ///< includes departed discs, which effects do not change
+    /// Spins in the order of `discs`; empty unless discs are rough
+    std::span<double> spins = {};
     std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
-    std::span<double> radii = {};      ///< along the discs; empty unless discs exchange them
-    std::int64_t n_syncs = 0;          ///< since the scene's start, this one included
+    /// Radii in the order of `discs`; empty unless discs exchange them
+    std::span<double> radii = {};
+    /// Number of syncs since the scene's start, this one included
+    std::int64_t n_syncs = 0;
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
     /// Calls `part` for pieces of the discs, on several threads at once. `part` must not throw.
@@ -105,8 +107,8 @@ public:
     virtual double size() const = 0;
     /// The largest factor to which this sync can change it.
     virtual double largest_at(std::int64_t n_syncs) const = 0;
-    /// Changes the factor. `room` is the largest one at which no two discs overlap, or exceeds
-    /// `largest_at`.
+    /// Changes the factor. `room` is the largest factor at which no two discs overlap; it may
+    /// exceed `largest_at`.
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
@@ -114,14 +116,14 @@ public:
 /// discs depart.
 struct Arrival {
     std::size_t side = 0;
-    DiscId first = 0, end = 0; ///< the ids that the disc may have
-    double flown = 0;          ///< how long ago that was
-    double across = 0;         ///< its place now along the side, from 0 to 1 of the room there
+    DiscId first = 0, end = 0; ///< range of ids that the disc may have
+    double flown = 0;          ///< time since the disc arrived
+    double across = 0;         ///< place of arrival along the side, from 0 to 1 of the free length
     bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
-    double inwards = 0, along = 0;                  ///< its velocity, for a mass of 1
+    double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1
 };
 
-/// What has become of arrivals.
+/// How many arrivals came in, and how many did not.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
     std::uint64_t without_place = 0; ///< because another disc or a fixed body is there
@@ -155,13 +157,13 @@ public:
     /// The change of radii, for an effect that has one; null for all others. At most one effect has
     /// it.
     virtual SizeChange* sizes() { return nullptr; }
-    /// Of an effect that lets discs in; null for all others. At most one effect has it.
+    /// The source of an effect that lets discs in; null for all others. At most one effect has it.
     virtual DiscSource* source() { return nullptr; }
 
     /// Whether `begin` does anything.
     virtual bool begins() const { return false; }
-    /// Like `act`, immediately before the flights that follow a sync or the scene's start. What
-    /// outputs show at a sync is the state between `act` and `begin`. **Collective.**
+    /// Like `act`, immediately before the flights that follow a sync or the scene's start. Outputs
+    /// at a sync contain the state between `act` and `begin`. **Collective.**
     virtual void begin(const SyncDiscs& /*at*/) {}
 
     /// The numbers that the effect needs at the next sync besides the states of discs, equal on all

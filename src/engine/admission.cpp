@@ -11,30 +11,30 @@ namespace carrom {
 
 namespace {
 
-/// Discs come in with a gap of at least this share of the distance, so that no rounding makes them
-/// overlap.
+/// A disc comes in only if the gaps to others are at least this share of the distance, so that
+/// rounding never makes discs overlap.
 constexpr double least_gap = 1e-9;
 
-/// An arrival with its disc. Whether it comes in depends on the place where it came, and not on how
-/// far it has flown since, because fast discs would be left out more often.
+/// An arrival with its disc. A disc is let in if its place of entry is free, even if the place that
+/// it has reached since is not. Otherwise fast discs would be left out more often.
 struct Candidate {
-    ReturningDisc disc; ///< at the place where it came
-    DiscState there;    ///< where it has flown to
+    ReturningDisc disc; ///< the disc at the place of entry
+    DiscState there;    ///< the disc at the place that it has reached by the sync
     double radius = 0;
     bool is_blocked = false, is_blocked_there = false;
 };
 
 bool may_have(const Arrival& arrival, DiscId id) { return id >= arrival.first && id < arrival.end; }
 
-/// The discs that wait on this rank and may be among the first ones of all: as many of the lowest
-/// ids as there are arrivals, for each range of ids.
+/// The departed discs on this rank that may come in: for each range of ids those with the lowest
+/// ids, as many as there are arrivals of this range.
 std::vector<ReturningDisc> lowest_of_rank(std::span<const Arrival> arrivals,
                                           const AdmissionGround& ground) {
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < arrivals.size(); ++k) {
         const Arrival& arrival = arrivals[k];
         if (k > 0 && arrival.first == arrivals[k - 1].first && arrival.end == arrivals[k - 1].end)
-            continue; // found already
+            continue; // this range of ids has been searched
         std::vector<std::size_t> some;
         for (std::size_t i = 0; i < ground.departed.size(); ++i)
             if (may_have(arrival, ground.departed[i].id)) some.push_back(i);
@@ -56,7 +56,7 @@ std::vector<ReturningDisc> lowest_of_rank(std::span<const Arrival> arrivals,
     return discs;
 }
 
-/// By id. **Collective.**
+/// Joins the lists of all ranks, ordered by id. **Collective.**
 std::map<DiscId, ReturningDisc> lowest_of_all(const std::vector<ReturningDisc>& mine,
                                               const Communicator& communicator) {
     std::map<DiscId, ReturningDisc> all;
@@ -69,8 +69,8 @@ std::map<DiscId, ReturningDisc> lowest_of_all(const std::vector<ReturningDisc>& 
     return all;
 }
 
-/// Gives the disc its velocity and both places. The second one is blocked where it is not in the
-/// box.
+/// Gives the disc its velocity, its place of entry and the place that it has reached. The second
+/// place counts as blocked if it is not in the box.
 void place(Candidate& candidate, const Arrival& arrival, double mass, const Box& box) {
     const bool is_x = arrival.side < 2, is_low = arrival.side % 2 == 0;
     const double length = is_x ? box.x : box.y, width = is_x ? box.y : box.x,
@@ -107,14 +107,14 @@ bool do_overlap(const DiscState& p, const DiscState& q, double radii) {
     return dx * dx + dy * dy < least * least;
 }
 
-/// Finds the candidates that discs of any rank are in the way of. **Collective.**
+/// Marks places that discs of any rank block. **Collective.**
 void block_by_discs(std::vector<Candidate>& candidates, const AdmissionGround& ground) {
     std::vector<std::uint64_t> n_in_way(2 * candidates.size(), 0);
     for (const DiscState& disc : ground.own)
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             const Candidate& one = candidates[k];
             const DiscState &from = one.disc.state, &to = one.there;
-            // Most are far away, and their radii need not be looked up.
+            // Most discs are far away, so reading their radii would be a waste of time.
             const double far = 2 * (one.radius + ground.largest_radius);
             if (disc.x < std::min(from.x, to.x) - far || disc.x > std::max(from.x, to.x) + far ||
                 disc.y < std::min(from.y, to.y) - far || disc.y > std::max(from.y, to.y) + far)
@@ -152,7 +152,7 @@ Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground
         block_by_fixed_bodies(candidate, arrival, ground);
     }
     if (ground.have_pairs) block_by_discs(candidates, ground);
-    std::vector<std::pair<DiscState, double>> admitted; // with radii
+    std::vector<std::pair<DiscState, double>> admitted; // discs that have come in, with radii
     for (Candidate& one : candidates) {
         const auto is_in_way_of = [&](const DiscState& state) {
             return ground.have_pairs && std::ranges::any_of(admitted, [&](const auto& other) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets discs into the box at a sync that have departed before. All ranks agree on which ones come
-// in, and where, so the bits do not depend on where a disc waits.
+// Lets departed discs come back into the box at a sync. All ranks agree on which ones come in, and
+// where, so the bits do not depend on the rank that holds a departed disc.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@
 
 namespace carrom {
 
-/// Where discs come in. All states are those of a sync, in the box's own coordinates.
+/// The box, the discs and the obstacles that decide where a disc can come in. All states are those
+/// of a sync, in the box's own coordinates.
 struct AdmissionGround {
     const Communicator& communicator;
     const Box& box;

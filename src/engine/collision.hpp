@@ -14,7 +14,7 @@ struct Collision {
 
     /// `time` counts from the start of this micro-step, which counts from the scene's start
     std::int64_t micro_step = 0;
-    double time = 0; ///< in micro-steps
+    double time = 0; ///< time in micro-steps
     /// Number in a chain of collisions at one time in the event-driven method
     std::uint64_t generation = 0;
     DiscId p = 0, q = wall; ///< p is the lower id of a pair

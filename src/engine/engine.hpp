@@ -31,12 +31,12 @@ namespace carrom {
 /// behind them, all sorted into cells.
 struct LocalView {
     Population population;
-    const CellGrid* grid = nullptr; ///< its reach covers pairs within a diameter
+    const CellGrid* grid = nullptr; ///< a grid whose reach covers pairs within a diameter
     const Domains* domains = nullptr;
-    double time = 0;   ///< since the last sync
+    double time = 0;   ///< time since the last sync
     Frame frame;       ///< the coordinates are in this frame
-    Periods periods{}; ///< of a periodic box; positions are those of the discs' images
-    double size = 1;   ///< see Engine::size
+    Periods periods{}; ///< periods of a periodic box; positions are those of the discs' images
+    double size = 1;   ///< the value of Engine::size
 };
 
 class Engine {
@@ -65,7 +65,7 @@ public:
     /// **Collective.**
     virtual RollbackCounts rollback_counts() const { return {}; }
 
-    virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
+    virtual std::int64_t micro_steps_done() const = 0; ///< micro-steps since the scene's start
     virtual std::span<const DiscState> own() const = 0;
     virtual std::span<const DiscState> departed()
         const = 0; ///< the discs of this rank that have left the box; own() does not contain them
@@ -81,7 +81,8 @@ public:
     virtual std::uint64_t n_discs() const = 0;
     /// See SyncAction::energy_given.
     virtual double energy_given() const { return 0; }
-    virtual std::vector<std::int64_t> kept_by_effects() const { return {}; } ///< in StoredState
+    /// What effects keep, for StoredState
+    virtual std::vector<std::int64_t> kept_by_effects() const { return {}; }
     virtual PhaseSeconds phase_seconds() const = 0;
     /// Largest number of ranks that share a strip; the same on all ranks
     virtual int most_ranks_across() const = 0;

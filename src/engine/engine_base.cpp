@@ -29,8 +29,9 @@ void Engine::record_crossing(const DiscState& disc, double x, double y, const Pe
 
 namespace {
 
-/// Halos are usually this deep, in mean distances of discs: a reach of the time-stepped method, and
-/// three of the event-driven one, whose windows are longer (tests/performance/rank_loads.cpp).
+/// The usual depth of a halo in mean distances of discs. It is one reach of the time-stepped
+/// method, and three reaches of the event-driven one, whose windows are longer
+/// (tests/performance/rank_loads.cpp).
 GroupChoice group_choice(Method method, const Tuning& tuning) {
     return {method == Method::time_stepped ? 1.2 : 10, tuning.ranks_across};
 }
@@ -72,8 +73,8 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
-/// Where a sync changes velocities flights end there, and so they do in a flow, which they do not
-/// count in.
+/// Micro-steps between two additions of flights to the sums of stress. Flights are added at every
+/// sync if syncs change velocities, if images move, or if discs move in their own frame.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
@@ -84,7 +85,7 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
     discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
-    redistribute_now(0, Covered::domain); // whose cells show how discs crowd
+    redistribute_now(0, Covered::domain); // cells show where discs are clustered
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
@@ -111,11 +112,11 @@ void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered)
     discs_.fetch_halo(time_, reach, nullptr);
 }
 
-/// The part of `seen` that own discs and their partners within `reach` are in, if it is small.
-/// What is beyond it counts to the cells at its edge.
+/// The part of `seen` that contains the own discs and their partners within `reach`; all of `seen`
+/// if that part is not small. A disc outside of the part counts in the nearest cell.
 template <class Dynamics>
 Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) const {
-    constexpr double small = 0.25; // of the area
+    constexpr double small = 0.25; // share of the area of `seen`
     const std::span<const DiscState> discs = own();
     if (discs.empty()) return seen;
     Extent part = {seen.x_high, seen.x_low, seen.y_high, seen.y_low};
@@ -137,12 +138,13 @@ Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) c
 template <class Dynamics>
 void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) const {
     if constexpr (Dynamics::is_periodic) {
-        constexpr double most = 15000; // core/image.hpp counts to 16000
+        constexpr double most = 15000; // images are counted to 16000 (core/image.hpp)
         const std::int64_t left = last_micro_step_ - last_sync();
         const auto interval = static_cast<double>(left > 0 ? std::min(sync_every_, left)
                                                            : sync_every_);
         double lengths = most_lengths(discs_.periods(), speed, speed, interval);
-        if (lengths > most && Dynamics::has_moving_images) // flows are far faster along x
+        // a second test: in a flow discs are far faster along x than along y
+        if (lengths > most && Dynamics::has_moving_images)
             lengths = most_lengths(discs_.periods(), speed, communicator_.max(fastest_up(own())),
                                    interval);
         if (lengths <= most) return;
@@ -168,10 +170,10 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         advance_to(std::min(stop, next_sync));
         if (n_micro_done_ == next_sync) sync();
     }
-    if (time_ != 0) discs_.forget_images(); // a sync leaves none
+    if (time_ != 0) discs_.forget_images(); // at time 0, after a sync, there are no images
     if (n_micro_done_ != last_micro_step_) return;
     if (is_in_window_) leave_window();
-    drop_scratch(); // leaves memory for what follows a run
+    drop_scratch(); // frees memory for the output that follows a run
 }
 
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::horizon_of(std::int64_t target) const {
@@ -189,7 +191,8 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     DiscSource* const source = Dynamics::may_lose_discs ? sync_action_.source() : nullptr;
     if (source) largest_speed = std::max(largest_speed, let_discs_in(*source));
     finish_sync(largest_speed);
-    if (source) take_speed(largest_speed); // the next migration, too, allows for those discs
+    // the next migration also needs the speed of the discs that came in
+    if (source) take_speed(largest_speed);
     redistributed_time_ -= time_;
     time_ = 0;
     ++n_syncs_;
@@ -240,10 +243,10 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     return std::sqrt(fastest);
 }
 
-/// Returns the largest speed that own discs have then.
+/// Returns the largest speed of own discs after the effects.
 template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     if (this->before_effects_) {
-        const double end = std::exchange(time_, 0); // of the flights that have ended
+        const double end = std::exchange(time_, 0); // states are at the sync, which is time 0
         this->before_effects_();
         time_ = end;
     }
@@ -258,10 +261,10 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     return largest_speed_of_all_states();
 }
 
-/// Once for the flights to the next sync, also if a run stops here and a restart goes on.
+/// Effects begin once for all flights to the next sync, also if a restart continues from here.
 template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
-    discs_.forget_halo(); // it has the velocities of before
+    discs_.forget_halo(); // the halo has the velocities before the effects
     sync_action_.begin(discs_, n_micro_done_ / sync_every_);
     take_speed(largest_speed_of_all_states());
 }
@@ -288,7 +291,7 @@ template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& si
     dynamics_.resize(sizes.size());
 }
 
-/// Fetches a halo in the middle of a sync, when states are those after it, at time 0.
+/// Fetches a halo in the middle of a sync, when all states are at time 0 already.
 template <class Dynamics> void EngineBase<Dynamics>::fetch_neighbours(double reach) {
     const double end = std::exchange(time_, 0);
     redistributed_time_ -= end;
@@ -297,7 +300,7 @@ template <class Dynamics> void EngineBase<Dynamics>::fetch_neighbours(double rea
     time_ = end;
 }
 
-/// States are those after the sync. Returns the largest speed of discs that come in.
+/// Lets discs in. All states are at the sync. Returns the largest speed of the discs that come in.
 template <class Dynamics> double EngineBase<Dynamics>::let_discs_in(DiscSource& source) {
     const std::vector<Arrival> arrivals = source.arrivals(n_micro_done_ / sync_every_);
     if (arrivals.empty()) return 0;
@@ -322,8 +325,7 @@ template <class Dynamics> void EngineBase<Dynamics>::forget_neighbours() {
     discs_.forget_halo();
 }
 
-/// Distances are in units of the discs of the scene, which an effect may have made larger or
-/// smaller.
+/// Distances are relative to the sizes in the scene, because an effect may have changed all radii.
 template <class Dynamics>
 void EngineBase<Dynamics>::visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const {
     visit_pairs_within(discs_.grid(), population(), discs_.periods(), size(), reach, visit);
@@ -379,7 +381,7 @@ template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
     return box;
 }
 
-/// In a periodic box the frame counts as moving, because places have to be brought into the box.
+/// In a periodic box the frame counts as moving, because positions have to be brought into the box.
 template <class Dynamics> Frame EngineBase<Dynamics>::frame() const {
     Frame frame = dynamics_.frame_at(time_);
     if (!discs_.periods().are_any()) return frame;

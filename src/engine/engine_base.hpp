@@ -163,7 +163,7 @@ private:
     /// Windows go on after stops, because the last stop between syncs was not followed by a
     /// redistribution, which would have made a window useless.
     bool windows_pass_stops_ = false;
-    bool is_redistributed_ = true; ///< since the last stop
+    bool is_redistributed_ = true; ///< whether discs were redistributed since the last stop
 };
 
 #define CARROM_DECLARE(Dynamics) extern template class EngineBase<Dynamics>;

@@ -21,7 +21,7 @@ struct PairEvent {
     DiscId p = 0, q = 0; ///< p is the lower id
     /// The micro-step, since the scene's start, from which `time` counts
     std::int64_t micro_step = 0;
-    double time = 0;           ///< in micro-steps
+    double time = 0;           ///< time in micro-steps
     double x = 0, y = 0;       ///< centre of p
     double dx = 0, dy = 0;     ///< vector from there to the centre of q
     double ix = 0, iy = 0;     ///< impulse on p; q gets the opposite

@@ -35,8 +35,8 @@ void measure_collisions(std::span<const DiscState> own, const SideSpans& columns
     totals.hash = {sums[2], sums[3]};
 }
 
-/// A departed disc stands a radius outside its side, exactly. The coordinate that is furthest out
-/// shows which side it is.
+/// The centre of a departed disc is exactly a radius beyond the side through which it left. So the
+/// coordinate that is furthest outside shows the side.
 void measure_departures(std::span<const DiscState> own, const Box& box,
                         const Communicator& communicator, Totals& totals) {
     for (const DiscState& disc : own) {
@@ -133,7 +133,7 @@ public:
     PairsAt(const Population& population, double time, const Touching& touching)
         : population_(population), time_(time), touching_(touching) {}
 
-    /// The rank of the lower id counts a pair.
+    /// Whether this rank counts the pair: it owns the disc with the lower id.
     bool is_mine(LocalIndex a, LocalIndex b) const {
         return (disc(a).id < disc(b).id ? a : b) < population_.n_own;
     }
@@ -166,11 +166,13 @@ private:
     const Touching& touching_;
 };
 
-/// Counts this rank's pairs that touch, those of them that slide, and discs that touch several.
+/// Counts the touching pairs of this rank, how many of these pairs slide, and the discs that touch
+/// several others.
 std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Population& population,
                                             const CellGrid& grid, double tolerance) {
     std::array<std::uint64_t, 3> counts{};
-    std::vector<std::uint8_t> n_partners(population.discs.size(), 0); // 2 stands for more, too
+    // 2 also stands for more than two
+    std::vector<std::uint8_t> n_partners(population.discs.size(), 0);
     visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
         if (!(std::fabs(pairs.overlap(a, b)) <= tolerance)) return;
         for (const LocalIndex index : {a, b}) n_partners[index] += n_partners[index] < 2;
@@ -187,7 +189,7 @@ double largest_size(const Population& population, const CellGrid& grid, const To
                     const Communicator& communicator, int n_threads) {
     Touching of_scene = touching;
     of_scene.size = 1;
-    double least = std::numeric_limits<double>::infinity(); // of squares
+    double least = std::numeric_limits<double>::infinity(); // smallest ratio of squared distances
     const int n_columns = grid.geometry().n_columns;
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(min : least)
     for (int column = 0; column < n_columns; ++column) {

@@ -41,7 +41,7 @@ struct EnergySetting {
     const Effects& effects;
     const Box& box;
     double velocity_unit = 1; ///< converts stored velocities to the effects' unit of time
-    double sync_interval = 0; ///< in micro-steps
+    double sync_interval = 0; ///< time between syncs, in micro-steps
 };
 
 /// Fills in all energies except the kinetic one. `shown` are discs as the box sees them; `spins`
@@ -55,14 +55,14 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
 struct Touching {
     double diameter = 0, tolerance = 0;
     const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
-    double size = 1;                             ///< by which the table's radii have grown
+    double size = 1;                             ///< factor by which the table's radii have grown
 
     double diameter_of(const DiscState& p, const DiscState& q) const {
         return species_table
                    ? size * (species_table->of(p.id).radius + species_table->of(q.id).radius)
                    : diameter;
     }
-    Periods periods = {}; ///< for the discs' images
+    Periods periods = {}; ///< periods by which images of discs are displaced
 };
 template <class Dynamics>
 Touching touching_of(const Dynamics& dynamics, double time, const Periods& periods) {

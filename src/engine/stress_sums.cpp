@@ -28,7 +28,7 @@ void StressSums::add_flight(double mass, const DiscState& disc, const FlightInte
     energy.add(term_xx + term_yy);
 }
 
-/// See add_impulse.
+/// Gives the same sums as add_impulse for each term.
 void StressTerms::add_to(StressSums& sum) {
     const double from = unit_shift / sum.xx.scale(), // all three sums have one bound
         from_twice = 2 * from;
@@ -44,7 +44,8 @@ void StressTerms::add_to(StressSums& sum) {
         changed |= (term_xx ^ bits_of(from)) | (term_xy ^ bits_of(from_twice)) |
                    (term_yy ^ bits_of(from));
     }
-    const bool are_large = changed >> 52 != 0; // an exponent is not that of the constant
+    // the term changed the exponent, so it is too large for this sum
+    const bool are_large = changed >> 52 != 0;
     if (are_large || !std::isnormal(from)) {
         add_each(sum);
     } else {
@@ -55,7 +56,7 @@ void StressTerms::add_to(StressSums& sum) {
     n_ = 0;
 }
 
-/// Gives the same bits as add_to, one term after the other.
+/// Slower than add_to, with the same bits.
 void StressTerms::add_each(StressSums& sum) const {
     for (std::size_t k = 0; k < n_; ++k) add_impulse(sum, ix_[k], iy_[k], {x_[k], y_[k]});
 }

@@ -129,8 +129,8 @@ void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
     };
 }
 
-/// Followers take the mean of the velocities before and after an event from those after it, so
-/// these are about the mean of the sync, as if the impulse were alone.
+/// Followers compute the mean velocity of an event from the velocity after it. So the event
+/// contains velocities whose mean is that of the whole sync.
 PairEvent SyncAction::event_of(const PairImpulse& pair, std::int64_t micro_step) const {
     const double p_share = 0.5 / species_.of(pair.p).mass, q_share = 0.5 / species_.of(pair.q).mass;
     PairEvent event;
@@ -157,7 +157,7 @@ std::vector<std::byte> SyncAction::gathered(std::span<const std::byte> mine) con
     return all;
 }
 
-/// vx = rate (y - Ly / 2) turns clockwise at half the rate.
+/// The flow vx = rate (y - Ly / 2) turns clockwise with an angular velocity of half the rate.
 void SyncAction::add_flow(const SyncDiscs& at, double times) const {
     const double rate = times * shear_;
     for (DiscState& disc : at.discs) disc.vx += rate * (disc.y - box_.y / 2);

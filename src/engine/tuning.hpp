@@ -10,7 +10,8 @@ namespace carrom {
 /// Settings that are not given are chosen during the run.
 struct Tuning {
     int threads = 1;
-    std::uint64_t discs_per_thread = 2000; ///< with fewer discs a rank uses fewer threads
+    /// A rank with fewer discs for each thread uses fewer threads
+    std::uint64_t discs_per_thread = 2000;
     std::optional<double>
         window; ///< micro-steps per window; below 1 a micro-step is divided into parts
     std::optional<double> cell_width;  ///< width of cells relative to the window's reach
@@ -21,7 +22,7 @@ struct Tuning {
     std::int64_t rebalance_every = 1;
     double rebalance_above =
         1.05; ///< tolerated ratio of the largest to the mean load; 0 changes the cuts every time
-    bool ends_jams = true; ///< false for repeated steps that are known to end without a jam
+    bool ends_jams = true; ///< false for repeated steps, which are known to end without a jam
 };
 
 } // namespace carrom

@@ -10,16 +10,18 @@ namespace {
 
 // Times in nanoseconds, on one core, with discs in cache. In main memory all take some
 // 1.2 times as long.
-constexpr double disc = 30;       ///< for each disc in a window of any length
-constexpr double partner = 1.3;   ///< for each partner within a square of one reach
-constexpr double hit = 85;        ///< for predicting a disc again that was hit inside the window
-constexpr double hit_partner = 3; ///< for each partner of such a disc within a square of one reach
+constexpr double disc = 30;     ///< time for each disc in a window of any length
+constexpr double partner = 1.3; ///< time for each partner within a square of one reach
+/// Time for predicting a disc again that was hit inside the window
+constexpr double hit = 85;
+/// Time for each partner of such a disc within a square of one reach
+constexpr double hit_partner = 3;
 /// For each disc in a part of a micro-step, the end of the part included.
 constexpr double disc_in_part = 65;
 /// For each partner in a part of a micro-step. It is small because most pairs are rejected early.
 constexpr double partner_in_part = 0.7;
-constexpr double fast_disc = 200;  ///< for each fast disc in a part of a micro-step
-constexpr double fast_partner = 1; ///< for each disc in the cells along a fast disc's path
+constexpr double fast_disc = 200;  ///< time for each fast disc in a part of a micro-step
+constexpr double fast_partner = 1; ///< time for each disc in the cells along a fast disc's path
 /// For each pair of fast discs. It is small because fast discs lie side by side in memory.
 constexpr double fast_pair = 0.1;
 constexpr double largest_fast_share = 0.1;
@@ -80,7 +82,7 @@ double reach_of(const WindowNeeds& needs, double duration) {
 }
 
 double reach_of(const WindowNeeds& needs, double duration, double speed) {
-    const double from_anchor = duration > 1 ? duration : duration / 2; // see Window::anchor
+    const double from_anchor = duration > 1 ? duration : duration / 2; // time from Window::anchor
     return (2 * needs.radius + 2 * speed * from_anchor) * (1 + 1e-6) +
            64 * 0x1p-53 * needs.box.longest();
 }

@@ -10,8 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Shares are adjusted so many times, in the first window and in others, unless the block with most
-/// work has less than this many times the mean. A round with 128 blocks takes 40 us of one thread.
+/// Number of rounds in which shares are adjusted, in the first window and in later ones. Rounds end
+/// earlier if the block with most work has less than `even_enough` times the mean. A round with 128
+/// blocks takes 40 us of one thread.
 constexpr int first_rounds = 10, later_rounds = 4;
 constexpr double even_enough = 1.08;
 
@@ -24,8 +25,8 @@ template <class Claim> int first_beyond(int first, int end, const Claim& is_beyo
     return end;
 }
 
-/// Cuts a rectangle across the longer side of what it holds, so that `share` of the work is below
-/// the cut. Returns false if there is no work, or just one cell of it.
+/// Cuts a rectangle across the longer side of the part that holds discs, so that `share` of the
+/// work is below the cut. Returns false if there is no work, or only one cell of it.
 bool cut_longer(const CellBlock& part, double share, const CellSums& sums, bool& by_column,
                 int& cut) {
     const double wanted = share * static_cast<double>(sums.in(part));
@@ -85,7 +86,7 @@ void BlockCuts::cut_evenly(const CellBlock& cells, int block_columns, int block_
 }
 
 void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const CellSums& sums) {
-    // Discs hardly move in a window, so the last cuts are nearly right.
+    // Discs hardly move in a window, so shares of the last window are nearly right.
     const bool is_first = shares_.size() != needs.n_blocks;
     if (is_first) shares_.assign(needs.n_blocks, 1);
     const int n_rounds = is_first ? first_rounds : later_rounds;
@@ -101,7 +102,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
                 return cut_longer(part, lower / (lower + upper), sums, cut.is_by_column, cut.at);
             });
     };
-    // Where halos are there is as much work as in the rest of what a block sees.
+    // Only work in own cells is known. The halo beyond them is assumed to have the same work per
+    // area.
     const auto work_with_halo = [&](const CellBlock& block) {
         const CellBlock seen = block.widened(needs.halo).within(needs.frame),
                         known = seen.within(cells);
@@ -124,7 +126,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
             least = most / mean;
             shares_ = shares;
         }
-        // By the whole ratio, halos that change with the cuts would make shares swing.
+        // The square root damps the change. Halos change with the cuts, so shares that follow the
+        // full ratio would oscillate.
         for (std::size_t k = 0; k < work_.size(); ++k)
             shares[numbers_[k]] *= std::sqrt(std::clamp(mean / std::max(work_[k], 1.0), 0.5, 2.0));
     }

@@ -72,7 +72,8 @@ template <class Dynamics> void BlockRun<Dynamics>::run_events() {
     const auto is_current = [&s](const Event& event) {
         return s.versions_of(event) == event.versions;
     };
-    // A run that stops early for a request is void: the engine gives up the step.
+    // After a request to stop the loop ends early. This run has no valid result, and the engine
+    // gives up the step.
     for (Event event; s.queue.pop(event, s.ground.stop, before, is_current) &&
                       !s.outcome->is_cascade && !is_stop_overdue();)
         s.happen(event);
@@ -146,7 +147,7 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
-/// `b` displaced by `image`, if there is one.
+/// The state of `b`, displaced by `image` if there is one.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::predict_shifted(
     std::uint32_t a, std::uint32_t b, const Image* image) {
@@ -157,8 +158,8 @@ template <class Dynamics>
         move_image(discs[b], -*image);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
-    // Two discs that have just collided with each other do not collide again at the same time. The
-    // rest of their approach, a rounding, is too small for an impulse to mend.
+    // Two discs that have just collided with each other do not collide again at the same time. What
+    // remains of their approach is a rounding error, too small for an impulse.
     if (have_just_collided(a, b, time)) return;
     push(time, a, b, image);
 }
@@ -179,7 +180,7 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     predict_fixed_body(slot);
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
-    float radius = 0; // equal discs have theirs in the bounds
+    float radius = 0; // only for discs of several sizes; equal discs have it in `bounds`
     if constexpr (has_sizes) radius = radii[slot];
     if (x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
         y_end - radius > y_inner_low && y_end + radius < y_inner_high)
@@ -247,7 +248,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // no other event may come in between, because x and y are alike
+             vy_before)) { // no event comes between, because the order of x and y has no meaning
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -301,7 +302,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     DiscState &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
-    // Times that would be equal without rounding count as one. A disc that has not collided since
+    // Times that would be equal without rounding count as equal. A disc that has not collided since
     // the last sync has the time 0.
     const double last = std::max(p.tau, q.tau);
     const bool is_simultaneous = last > 0 && event.time - last <= 0x1p-48 * event.time;
@@ -323,8 +324,8 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
     return loss;
 }
 
-/// Reports a disc from beyond the ring that an own disc has met, because its history is not
-/// compared. It has come further than the speed bound allows, or the run is wrong.
+/// Records that an own disc has met a disc from beyond the ring, whose history is not compared.
+/// Either that disc was faster than the speed bound, or this run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;
     outcome->far_partner = std::max({outcome->far_partner,
@@ -360,10 +361,10 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
         layout.for_ghosts_of(slot, [this](const Ghost& ghost) { place_ghost(ghost); });
 }
 
-/// A window is exact if no disc is ever further from its place at the start than the speed bound
-/// would have taken it by then. So a disc may exceed the bound for a while without harm if it was
-/// slower before. The run is void if the disc might get too far before the window ends, or if it
-/// collides again while it is too far away. After a stop, where no disc was, all counts from there.
+/// A window is exact if no disc is ever further from its initial place than the speed bound allows
+/// at that time. So a disc may exceed the bound for a while without harm if it was slower before.
+/// The run is void if the disc might get too far before the window ends, or if it collides again
+/// while it is too far away. After a stop, distances and times count from the stop.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];
@@ -378,7 +379,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
                         8 * 0x1p-53 * dynamics.box().longest();
     const double speed = std::sqrt(dynamics.squared_speed(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
-    // Only then does its next collision call this function again.
+    // A disc that is hardly too fast might not be tested at its next collision, so it is an error.
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
         away + speed * (window.end - time) <= window.speed_bound * duration)

@@ -19,7 +19,8 @@ namespace carrom {
 /// The events of a disc in this window.
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
-    /// Histories of a run that is alone, of discs that have collided since it went on, or before.
+    /// Values of `history` in a run of the whole box: the disc has collided since the last report,
+    /// or only before it.
     static constexpr std::uint64_t unreported = 1, reported = 2;
 
     /// See HaloRecord.
@@ -343,7 +344,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
           /// Farthest: half width of a flight box on each side of its flight, in cells
         farthest = 0;
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
-          y_inner_high = 0;    ///< no wall is near a disc between these bounds, in cells
+          y_inner_high = 0;    ///< a disc between these bounds, in cells, is near no wall
     std::size_t cell_rows = 0; ///< number of entries of `cell_starts` for each column
     std::vector<std::uint32_t> cell_starts; ///< by column and row, plus an end for each column
     std::vector<LocalIndex> indices;        ///< by slot, like all arrays below

@@ -178,13 +178,18 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     }
 }
 
-/// In a run of the whole box: the rank's cells say which of its discs are the block's.
+/// Finds the block's discs in a run of the whole box, by the cells of the rank.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock& own) {
+    if (ground.is_alone) {
+        is_own.assign(indices.size(), 1);
+        for (const Ghost& ghost : layout.ghosts()) is_own[ghost.slot] = 0;
+        return;
+    }
     is_own.resize(indices.size());
     for (std::uint32_t slot = 0; slot < indices.size(); ++slot) {
         const LocalIndex index = indices[slot];
         is_own[slot] = index < ground.n_own && !ghost_at(slot);
-        if (ground.is_alone || is_own[slot] == 0) continue;
+        if (is_own[slot] == 0) continue;
         const CellGrid::Cell cell = ground.grid->cell_of(index);
         const int column = owning_column(cell.column),
                   row = std::clamp(cell.row, ground.own_cells.first_row,
@@ -194,7 +199,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(cons
     }
 }
 
-/// Reports an own disc or one of the ring.
+/// Reports a disc that is an own disc of the block or in its ring.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_disc(
     std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
@@ -204,9 +209,9 @@ template <class Dynamics>
         if (!is_whole) outcome->ring.push_back({indices[slot], history});
         return;
     }
-    if (!ground.is_alone) histories[indices[slot]] = history;
+    histories[indices[slot]] = history;
     end_squared = std::max(end_squared, dynamics.squared_speed_at(discs[slot], ground.window.end));
-    if (history == 0 || ground.is_alone) return;
+    if (history == 0) return;
     outcome->hit[next] = indices[slot];
     outcome->states[next] = NewState(discs[slot]);
     outcome->columns.copy(next, columns, slot);
@@ -242,7 +247,12 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     if (ground.stop < ground.window.end) return;
     double end_squared = 0;
     std::size_t next = ground.is_alone ? n_hit : 0;
-    if constexpr (has_sizes) {
+    if (ground.is_alone) {
+        for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
+            if (is_own[slot] != 0)
+                end_squared = std::max(end_squared,
+                                       dynamics.squared_speed_at(discs[slot], ground.window.end));
+    } else if constexpr (has_sizes) {
         for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
             if (is_own[slot] != 0 || (!is_whole && is_of_ring[slot] != 0))
                 report_disc(slot, histories, next, end_squared);

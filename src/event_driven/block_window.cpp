@@ -17,19 +17,20 @@ constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc,
 constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
 constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tries
-/// For each of them that the two would come to in the window. Where discs crowd, the costs above
-/// have them; in a thin gas a long window takes them from the whole box.
+/// For each possible partner that the disc would meet in the window if no other one stopped it.
+/// Where discs are clustered, the costs above include this. In a dilute gas a long window makes the
+/// whole box possible partners.
 constexpr double cost_per_candidate = 6;
 constexpr double usual_speed = 0.3; ///< of a disc, over the bound of speeds
-/// Discs in a block with its halo. They need not all stay in the cache, because most of them are
-/// compared only once.
+/// Largest number of discs in a block with its halo. They need not all stay in the cache, because
+/// most of them are compared only once.
 constexpr double discs_in_cache = 24000;
-constexpr double cost_per_choice = 5000; ///< for each window, whatever the number of discs
-/// For each thread and window: what it waits at barriers and for messages (an estimate).
+constexpr double cost_per_choice = 5000; ///< a fixed cost of each window
+/// For each thread and window: estimated time of waits at barriers and for messages
 constexpr double cost_per_window = 50000;
 constexpr int most_blocks_per_thread = 8;
-/// A block's work differs by this share from what its cells and discs foretell, for the worst of
-/// many. A run that is repeated with twice the halo takes this many times as long.
+/// The work of the worst of many blocks differs by the share `unforeseen` from the estimate by its
+/// cells and discs. A run that is repeated with twice the halo takes `repeated_run` times as long.
 constexpr double unforeseen = 0.1, repeated_run = 1.6;
 constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision rate is estimated
 /// Ratio of diameter to reach below which two reaches of halo are enough: if discs fly far compared
@@ -39,13 +40,14 @@ constexpr double thin_gas = 0.2;
 // Repeating a block's run with twice the halo costs as much as two or three runs.
 constexpr double runs_to_repeat = 2.5, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of the windows before the last one
-/// The same for waits: a single one is long, and says little about how often there are any.
+/// Weight of older windows in the mean of waits. It is larger, because a single wait is long and
+/// shows little about how often waits occur.
 constexpr double memory_of_waits = 0.98;
-constexpr int most_more = 2;   ///< reaches
+constexpr int most_more = 2;   ///< in reaches of halo
 constexpr int long_calm = 200; ///< windows without a repeated run before a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
-/// The mean distance of discs where they are.
+/// The mean distance between neighbouring discs
 double spacing_of(const BlockNeeds& needs) {
     const double n = needs.n_discs * needs.crowding + 1;
     return needs.box.is_square() ? needs.box.x / std::sqrt(n)
@@ -67,7 +69,7 @@ double share_seen(const BlockNeeds& needs, const BlockChoice& choice) {
     return along(needs.box.x, needs.goes_round_x) * along(needs.box.y, needs.goes_round_y);
 }
 
-/// The time until the last thread is ready divided by the mean time that threads work.
+/// The time until the last thread has finished, divided by the mean time that threads work
 double share_waited(const BlockNeeds& needs, const BlockChoice& choice) {
     if (needs.n_threads == 0 || needs.is_one_block) return 1;
     const double blocks_per_thread = std::max(1.0,
@@ -75,15 +77,15 @@ double share_waited(const BlockNeeds& needs, const BlockChoice& choice) {
     return 1 + (unforeseen + repeated_run * needs.rounds) / blocks_per_thread;
 }
 
-/// Takes blocks of so many own discs where these are as dense as around most discs.
+/// Chooses blocks of `own_discs` discs each. The density is that around most discs.
 void take_blocks_of(double own_discs, const BlockNeeds& needs, BlockChoice& choice) {
     const double area = own_discs * spacing_of(needs) * spacing_of(needs);
     choice.own_discs = own_discs;
     choice.block_side = std::max(std::sqrt(area), area / needs.box.shortest());
 }
 
-/// Makes blocks so small that each thread gets one or some. Many have more halo, and a few let
-/// threads wait longer for the last one.
+/// Chooses blocks so small that each thread gets at least one. Small blocks have more halo in
+/// total, and with few blocks threads wait longer for the last one.
 void share_out(const BlockNeeds& needs, BlockChoice& choice) {
     const double largest = choice.own_discs;
     BlockChoice best = choice;
@@ -119,14 +121,14 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     return choice;
 }
 
-/// Bounces at walls per disc and time. A bounce is followed by a prediction, as a collision is.
+/// Bounces at walls per disc and time. As after a collision, each needs a prediction.
 double bounce_rate(const BlockNeeds& needs) {
     const double speed = 2 / std::numbers::pi * usual_speed * needs.speed_bound;
     return (needs.goes_round_x ? 0 : speed / needs.box.x) +
            (needs.goes_round_y ? 0 : speed / needs.box.y);
 }
 
-/// The share of all discs that a disc comes to in a window, if no other one stops it.
+/// The share of all discs that a disc would meet in a window if no other disc stopped it
 double share_met(const BlockNeeds& needs, double duration) {
     const double edge = 2 * needs.radius + 2 * usual_speed * needs.speed_bound * duration;
     return std::min(edge / needs.box.x, 1.0) * std::min(edge / needs.box.y, 1.0);

@@ -10,23 +10,24 @@ namespace carrom {
 
 namespace {
 
-/// Blocks are cut by work if the fullest one has this many times the discs of the mean one. Below
-/// it such cuts gain less than they cost, and blocks of few discs differ as much by chance.
+/// Blocks are cut by work if the fullest block has this many times the mean number of discs. Below
+/// this ratio the cuts cost more than they save, and blocks of few discs differ as much by chance.
 constexpr double uneven = 1.5;
-/// Where discs crowd, there are at most this many times as many cells as in an even gas, because
-/// empty cells take memory too.
+/// If discs are clustered, there are at most this many times as many cells as in a homogeneous gas,
+/// because empty cells take memory too.
 constexpr double most_cells = 4;
-constexpr double most_units = 0x1p31; ///< so that sums of whole units fit 32 bits
+constexpr double most_units = 0x1p31; ///< sums of whole work units must fit 32 bits
 
-/// Cells and windows by the mean density cost as little while discs are hardly denser than that.
+/// Below `least_crowding` the crowding counts as 1, because cells and windows chosen by the mean
+/// density cost as little there.
 constexpr double least_crowding = 2, most_crowding = 400;
 
-/// The place of the first own disc of a cell. The row after the last one is allowed.
+/// The index of the first own disc of a cell. The row after the last one is allowed.
 std::uint32_t discs_before(const CellGrid& grid, int column, int row) {
     return grid.run(column, row, row).begin;
 }
 
-/// The number of pairs of discs in one cell, each counted twice.
+/// The number of pairs of discs that are in the same cell; each pair counts twice.
 double pairs_in_cells(const CellGrid& grid, const CellBlock& cells, int n_threads) {
     std::uint64_t n_pairs = 0;
 #pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : n_pairs)
@@ -79,8 +80,9 @@ int cells_along(double length, double width) {
 
 } // namespace
 
-/// Own columns end where the domain does: a block's halo counts from its last column, the rank's
-/// from the domain. The last own row may end beyond the domain, by less than a reach.
+/// Own columns end where the domain ends, because the halo of a block is counted from its last
+/// column and the rank's halo from the domain. The last own row may extend beyond the domain, by
+/// less than a reach.
 template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
     const Domains& domains = discs_.domains();
@@ -160,7 +162,7 @@ template <class Dynamics> std::vector<CellBlock> EventDrivenEngine<Dynamics>::cu
     return cuts_.blocks();
 }
 
-/// A disc costs more the denser it is around it, because it collides more often there.
+/// A disc costs more where the density is high, because it collides more often there.
 template <class Dynamics>
 std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) {
     const CellGrid& grid = discs_.grid();
@@ -180,15 +182,15 @@ std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) 
               [&grid](int column, int row) { return discs_before(grid, column, row); });
     cuts_.cut_by_work(own_cells_, needs, sums);
     std::vector<CellBlock> blocks = cuts_.blocks();
-    // A run lists all cells of its block. So blocks do without the empty cells around their discs,
-    // unless rounding has put discs outside of the own cells, which no sum counts.
+    // A run lists all cells of its block. So blocks are cut down to the cells that hold discs. That
+    // is not done if rounding has put discs outside of the own cells, because sums over cells miss
+    // them.
     if (work.per_disc > 0 && discs_in(grid, own_cells_) == discs_.n_own())
         for (CellBlock& block : blocks) block = without_margins(block, sums);
     return blocks;
 }
 
-/// Learns the crowding before the first window, from cells that need not be those of a window.
-/// **Collective.**
+/// Measures the crowding before the first window, from any cells that exist. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::learn_crowding() {
     const GridGeometry& geometry = discs_.grid().geometry();
     measure_crowding({0, geometry.n_columns, 0, geometry.n_rows});
@@ -214,11 +216,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_crowding(std::u
 
 /// Each cell takes four bytes, and four more while blocks are cut.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::bytes_for_crowds() const {
-    constexpr double cells_per_disc = 2; // of an even gas, where they are smallest
+    // cells per disc in a homogeneous gas with the smallest cells
+    constexpr double cells_per_disc = 2;
     return cells_per_disc * 8 * (std::min(mean_crowding_, most_cells) - 1);
 }
 
-// These members are called from event_driven_engine.cpp, where the class itself is compiled.
+// These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double);                          \
     template void EventDrivenEngine<Dynamics>::make_blocks();                                      \

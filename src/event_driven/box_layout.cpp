@@ -10,7 +10,7 @@ namespace carrom {
 
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {
     const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a thin tube one cell holds its whole height.
+    // In a thin tube a cell is as high as the tube.
     const double spacing = std::max(std::sqrt(height * length / n_cells), length / n_cells);
     const double per_reach = std::round(reach / std::max(2 * spacing, reach / 4));
     return std::max(reach / std::clamp(per_reach, 1.0, 4.0), 0.7 * spacing);
@@ -109,9 +109,12 @@ void BoxLayout::sort(std::span<const DiscState> discs, std::span<const LocalInde
         const DiscState& disc = discs[listed[k]];
         const bool is_at_home = listed[k] < n_own || !periods.are_any();
         const Image home = is_at_home ? image_of(disc) : periods.home(disc, time);
-        const Shift shift = periods.shift_of(home, time);
-        const double x = disc.x_at(time) + shift.x - cells.x_low,
-                     y = disc.y_at(time) + shift.y - cells.y_low;
+        double x = disc.x_at(time) - cells.x_low, y = disc.y_at(time) - cells.y_low;
+        if (home != Image{}) [[unlikely]] {
+            const Shift shift = periods.shift_of(home, time);
+            x += shift.x;
+            y += shift.y;
+        }
         cell_of_[k] = cell_along(x * columns_per_length, cells.n_columns) * n_rows +
                       cell_along(y * rows_per_length, cells.n_rows);
         ++box_starts_[cell_of_[k]];
@@ -122,7 +125,7 @@ void BoxLayout::sort(std::span<const DiscState> discs, std::span<const LocalInde
         sorted_[--box_starts_[cell_of_[k]]] = static_cast<std::uint32_t>(k);
 }
 
-/// The lines of cells along an axis, those beyond the sides included.
+/// The columns or rows of cells along an axis, including those beyond the sides.
 std::vector<BoxLayout::Line> BoxLayout::lines(int n_cells, int n_beyond) {
     std::vector<Line> lines;
     for (int cell = -n_beyond; cell < n_cells + n_beyond; ++cell) {

@@ -37,7 +37,8 @@ struct Ghost {
     std::uint32_t slot = 0, disc = 0; ///< the ghost's own slot and the disc's
     std::uint32_t next = 0;           ///< number of the disc's next ghost, or none
     Image image;
-    float x_shift = 0, y_shift = 0; ///< from the disc to the ghost, in units of the lanes
+    /// Displacement from the disc to the ghost, in units of the lanes
+    float x_shift = 0, y_shift = 0;
 };
 
 class BoxLayout {
@@ -97,8 +98,9 @@ private:
     std::vector<LocalIndex> indices_;
     std::vector<std::uint32_t> starts_;
     std::vector<Ghost> ghosts_;
-    std::vector<std::uint32_t> ghost_at_, first_ghost_; ///< by slot
-    std::vector<LocalIndex> listed_;                    ///< each disc of the box once
+    /// For each slot its ghost, and its disc's first ghost
+    std::vector<std::uint32_t> ghost_at_, first_ghost_;
+    std::vector<LocalIndex> listed_;        ///< each disc of the box once
     std::vector<std::uint32_t> sorted_;     ///< places in the list, in the order of the cells
     std::vector<std::uint32_t> cell_of_;    ///< for each entry of `listed_`, its cell
     std::vector<std::uint32_t> box_starts_; ///< for each cell, where it begins in `sorted_`

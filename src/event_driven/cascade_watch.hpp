@@ -8,9 +8,10 @@ namespace carrom {
 
 class CascadeWatch {
 public:
-    /// Counts a collision. Returns true if there were too many of them in too short a time: a
-    /// cascade within `interval` micro-steps, or a rush. In a rush time goes on, but at that rate
-    /// no micro-step would end, as for a disc in a slot that is a rounding wider than itself.
+    /// Counts a collision. Returns true if there were too many of them in too short a time. That is
+    /// either a cascade within `interval` micro-steps, or a rush. In a rush time goes on, but so
+    /// slowly that no micro-step would end, for example if a disc is in a slot that is wider than
+    /// the disc only by a rounding error.
     bool add(double time, double interval, std::uint64_t n_discs) {
         if (time > cascade_begin_ + interval) {
             cascade_begin_ = time;

@@ -49,9 +49,9 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     travel_speed_ = communicator_.max(largest_speed_);
     this->distribute();
     learn_crowding();
-    if (mean_crowding_ > 1) this->redistribute_now(); // the cells of before hold too many discs
-    // A later state is checked only if its dynamics part overlapping discs, because in other
-    // dynamics the run itself may have made discs overlap.
+    if (mean_crowding_ > 1) this->redistribute_now(); // the first cells hold too many discs each
+    // Overlaps are always an error at the start of a scene. In a restart they are an error only if
+    // the dynamics parts overlapping discs, because in other dynamics the run may have made them.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_,
@@ -150,8 +150,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         blocks_.front().is_marked = 1;
         return;
     }
-    // Where discs crowd there are many cells. The results of the last window would be there with
-    // them and with the sums by which blocks are cut, 30 bytes a disc at the peak.
+    // If discs are clustered, there are many cells. Results of the last window are freed first.
+    // Otherwise memory would also hold them and the sums for the cuts, 30 bytes a disc more at the
+    // peak.
     if (mean_crowding_ > 1)
         for (Block& block : blocks_) block.outcome = {};
     discs_.sort_cells(lay_cells(reach()), time_);
@@ -160,8 +161,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);
     }
-    histories_.clear(); // nothing of it needs to be kept
-    // With room for a wider halo. A list that grows is there twice for a while.
+    histories_.clear(); // old histories need not be copied
+    // Reserves room for a wider halo, because a list that grows is in memory twice for a while.
     histories_.reserve(discs_.all().capacity());
     histories_.resize(discs_.all().size());
     halo_counts_.n_windows += 1;
@@ -201,7 +202,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks(double st
     std::vector<std::size_t> marked;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
         if (blocks_[k].is_marked != 0) marked.push_back(k);
-    // The others wait less for a block with much work if it does not begin last.
+    // A block with much work begins early, so that the other threads wait less for it.
     if (const std::vector<double>& work = cuts_.work(); work.size() == blocks_.size())
         std::ranges::stable_sort(marked, std::greater<>(), [&](std::size_t k) { return work[k]; });
     std::vector<BlockWork> round;
@@ -214,7 +215,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks(double st
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::size_t i = 0; i < marked.size(); ++i) {
         Block& block = blocks_[marked[i]];
-        // A run that is alone may have to go on later, whichever thread does it.
+        // A run of the whole box may continue later on any thread, so it always uses the same
+        // scratch space.
         const int number = is_alone_ ? 0 : omp_get_thread_num();
         BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(number)];
         block.saw_all = sees_all(block);
@@ -229,7 +231,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks(double st
         const BlockOutcome& outcome = blocks_[marked[i]].outcome;
         round[i].n_carried = outcome.n_carried;
         round[i].n_seen = outcome.n_seen;
-        if (round[i].is_repeated) continue; // it may happen anywhere next time
+        // repeated runs may be anywhere in the next window, so they do not count for the balance
+        if (round[i].is_repeated) continue;
         this->rank_work_.of_pairs += work_unit * outcome.n_carried;
         this->rank_work_.of_discs += static_cast<std::uint64_t>(
             work_of_disc * work_unit * static_cast<double>(outcome.n_seen));
@@ -269,7 +272,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
-    is_largest_known_ = false; // noise and thermostats change speeds
+    is_largest_known_ = false; // noise and thermostats have changed speeds
     const Axis axis = discs_.domains().axis();
     const double across = discs_.domains().are_cut_across()
                               ? dynamics_.jump_at(other_axis(axis), time_)

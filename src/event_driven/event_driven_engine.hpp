@@ -34,11 +34,11 @@ namespace carrom {
 
 /// Settings that tests vary. Only the validation affects the bits.
 struct BlockTuning {
-    std::optional<int> halo;          ///< relative to the reach
-    std::optional<double> block_side; ///< relative to the reach
+    std::optional<int> halo;          ///< depth of the halo, in reaches
+    std::optional<double> block_side; ///< side of a block, in reaches
     /// Bound of speeds, relative to the largest speed at a window's start
     double speed_allowance = 1.08;
-    bool is_validated = true; ///< false gives wrong results
+    bool is_validated = true; ///< whether windows are validated; false gives wrong results
     bool parts_sizes = false; ///< whether each octave of radii has a level of cells of its own
     /// Unset: true for several threads, and if discs are clustered
     std::optional<bool> cuts_by_work;
@@ -90,7 +90,7 @@ private:
         int halo = 0;               ///< depth of the halo, in reaches
         std::uint8_t is_marked = 0; ///< the block has to run
         bool has_run = false;       ///< the block has already run in this window
-        bool saw_all = false;       ///< its last run covered the whole box
+        bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };
@@ -180,7 +180,7 @@ private:
     /// Whole numbers, because their sums do not depend on the order
     static constexpr double crowding_unit = 1024;
     bool is_largest_known_ = false;        ///< `reduced_` holds the largest speed of all ranks
-    std::uint64_t n_events_in_window_ = 0; ///< over all ranks, up to now
+    std::uint64_t n_events_in_window_ = 0; ///< events of the window on all ranks so far
     RollbackCounts counts_;                ///< counts of blocks are those of this rank
 
     BlockChoice choice_;
@@ -194,7 +194,8 @@ private:
     std::vector<Block> blocks_;
     std::vector<std::vector<BlockWork>> rounds_;
     HaloCounts halo_counts_;
-    RawVector<std::uint64_t> histories_;         ///< for each disc, own discs before the halo
+    /// Histories of own discs, then of the halo's discs
+    RawVector<std::uint64_t> histories_;
     std::vector<BlockRun<Dynamics>> block_runs_; ///< one for each thread
 };
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-using std::isnan; // Highway 1.0 calls it so where it has no vectors
+using std::isnan; // Highway 1.0 calls isnan without hn:: where it has no vectors
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "event_driven/flight_filter.cpp"
@@ -34,11 +34,10 @@ struct SpreadFlight {
           touching(hold(Lanes(), touching_squared)) {}
 };
 
-/// Tells which of the discs at x and y with velocities vx and vy might touch the flight in the rest
-/// of the window. These are the discs that are near already, and those that approach, do not pass
-/// by and arrive in time. Each condition is a number that is negative if the condition holds, so
-/// that one comparison decides on all of them.
-/// `touching` is a squared distance.
+/// Returns which of the discs at x and y with velocities vx and vy might touch the flight in the
+/// rest of the window. These are the discs that are near already, and those that approach, do not
+/// pass by and arrive in time. Each condition is a number that is negative if the condition holds,
+/// so that one comparison decides on all of them. `touching` is a squared distance.
 HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy, Vector touching,
                                        const SpreadFlight& p) {
     const Lanes d;
@@ -111,10 +110,17 @@ HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector no
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
-/// Tells which of a vector of slots, the first of which is `slot`, might touch the flight.
-template <class SomeLanes>
+/// In place of the time 0, where a place needs no product.
+struct AtStart {};
+HWY_INLINE Vector places(const float* at_start, const float* /*velocity*/, AtStart) {
+    return hn::LoadU(Lanes(), at_start);
+}
+
+/// Tells which of a vector of slots, the first of which is `slot`, might touch the flight. `now` is
+/// a vector, or AtStart.
+template <class SomeLanes, class Time>
 HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t slot,
-                                          const SpreadFlight& p, Vector now) {
+                                          const SpreadFlight& p, Time now) {
     const auto x = places(lanes.x + slot, lanes.vx + slot, now),
                y = places(lanes.y + slot, lanes.vy + slot, now);
     const auto vx = hn::LoadU(Lanes(), lanes.vx + slot), vy = hn::LoadU(Lanes(), lanes.vy + slot);
@@ -122,9 +128,9 @@ HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t 
 }
 
 /// Appends to `next` the slots of `run` that might touch the flight; returns the new end.
-template <class SomeLanes>
+template <class SomeLanes, class Time>
 HWY_INLINE std::uint32_t* filter_run(const SomeLanes lanes, SlotRange run, const SpreadFlight& p,
-                                     Vector now, std::uint32_t* next) {
+                                     Time now, std::uint32_t* next) {
     const auto steps = hn::Iota(Slots(), 0);
     const auto end = spread_slot(run.end);
     for (std::uint32_t slot = run.begin; slot < run.end;
@@ -165,7 +171,8 @@ PartnerCounts filter_two_runs(const SomeLanes& all_lanes, std::span<const SlotRa
             const auto slots = hn::Add(steps, spread_slot(slot));
             const auto is_one_of_them = hn::Or(hn::Eq(slots, p_slot), hn::Eq(slots, q_slot));
             const auto inside = hn::AndNot(is_one_of_them, hn::Lt(slots, end));
-            // Both masks come before the first store, so that each number is loaded once.
+            // Both masks are computed before the first store, so that each slot's data is loaded
+            // once.
             const auto p_touch = touching_slots(lanes, slot, p_spread, now),
                        q_touch = touching_slots(lanes, slot, q_spread, now);
             p_next = append(slots, hn::And(p_touch, inside), p_next);
@@ -175,7 +182,8 @@ PartnerCounts filter_two_runs(const SomeLanes& all_lanes, std::span<const SlotRa
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-/// The `touching` of a slot's flight: for discs of several sizes its radius and the margin.
+/// The `touching` of the flight in a slot. For discs of several sizes it is the radius and the
+/// margin.
 HWY_INLINE float touching_in(const FlightLanes&, std::uint32_t, float touching_squared) {
     return touching_squared;
 }
@@ -191,7 +199,7 @@ void filter_cells_of_column(const SomeLanes& all_lanes, const CellTable& cells, 
     const std::uint32_t* const own = cells.starts +
                                      static_cast<std::size_t>(column) * cells.column_length;
     const int n_right = HWY_MIN(cells.n_reach_columns, cells.n_columns - 1 - column);
-    const auto start = hn::Zero(Lanes());
+    constexpr AtStart start;
     std::size_t n_partners = 0;
     for (int row = rows.first; row < rows.end; ++row) {
         if (own[row] == own[row + 1]) continue;

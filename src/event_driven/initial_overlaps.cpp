@@ -25,7 +25,8 @@ struct Overlap {
     }
 };
 
-/// The first pairs of a rank, or of all ranks. The number also counts pairs that are not listed.
+/// The first overlapping pairs of a rank, or of all ranks. The number also counts pairs that are
+/// not listed.
 struct FirstOverlaps {
     std::uint64_t number = 0;
     std::array<Overlap, n_named> pairs; ///< ascending, empty places last

@@ -13,12 +13,12 @@ constexpr double most_in_bin = 0x1p-10;
 /// The first bin after a start is shorter than others by this factor. Each next one is twice as
 /// long as the one before, because before the first bin no frequency is known.
 constexpr double first_bin = 0x1p-10;
-/// Collisions in a bin, and more per disc, that cost about a second. A run that goes on beyond
-/// them comes nearer to the jam by less than it takes longer.
+/// Numbers of collisions in a bin that take about a second: in all, and for each disc. Beyond them
+/// a run gains less packing than it costs time.
 constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
 constexpr double ever_more = 3, rarer = 4;
-/// The run's end must be beyond the room by this factor, because a dense fluid that freezes gains
-/// room.
+/// A run is ended only if its last step is beyond the remaining time to the jam by this factor,
+/// because a dense fluid gains room when it freezes.
 constexpr double sure = 2;
 
 } // namespace
@@ -35,7 +35,7 @@ void JamWatch::start(double time, double sync) {
     begin_bin(time, first_bin * width_);
 }
 
-/// Bins end at multiples of their width, which syncs are.
+/// Bins end at multiples of their width. Syncs are multiples, too.
 void JamWatch::begin_bin(double begin, double width) {
     if (begin >= setting_.interval) {
         sync_ += setting_.interval;
@@ -68,12 +68,13 @@ bool JamWatch::finish_bin() {
 }
 
 void JamWatch::remember(const Past& bin) {
-    constexpr double step = 1.05; // keeps the list short
+    // Keeps only records that differ by this factor, so that the list stays short
+    constexpr double step = 1.05;
     while (!pasts_.empty() && pasts_.back().rate >= bin.rate) pasts_.pop_back();
     if (pasts_.empty() || bin.rate > step * pasts_.back().rate) pasts_.push_back(bin);
 }
 
-/// The latest bin in which collisions were rarer by the factor, or null.
+/// The latest bin in which collisions were rarer by this factor, or null.
 const JamWatch::Past* JamWatch::when_rarer(double rate) const {
     const auto after = std::ranges::upper_bound(pasts_, rate / rarer, {}, &Past::rate);
     return after == pasts_.begin() ? nullptr : &*(after - 1);

@@ -66,7 +66,7 @@ private:
     /// Number of collisions in the present bin that means a jam
     double limit_ = std::numeric_limits<double>::infinity();
     double n_collisions_ = 0;
-    std::vector<Past> pasts_; ///< in ascending order of times and rates
+    std::vector<Past> pasts_; ///< earlier bins, in ascending order of times and rates
     Sign sign_ = Sign::none;
 };
 

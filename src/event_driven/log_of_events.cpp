@@ -31,7 +31,7 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
     this->pair_followers_.give(outcome.pairs.all());
 }
 
-// These members are called from event_driven_engine.cpp, where the class itself is compiled.
+// These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome&);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)

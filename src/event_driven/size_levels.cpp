@@ -9,15 +9,15 @@ namespace carrom {
 namespace {
 
 // Costs in instructions, with vectors of eight.
-constexpr double cost_per_level = 80;  ///< for a search in a level
-constexpr double cost_per_column = 50; ///< for each column of cells that it searches
-constexpr double cost_per_partner = 4; ///< for each disc in these cells
+constexpr double cost_per_level = 80;  ///< cost for each level that a search visits
+constexpr double cost_per_column = 50; ///< cost for each column of cells in that level
+constexpr double cost_per_partner = 4; ///< cost for each disc in these cells
 constexpr int n_octaves = 48;          ///< octaves of radii that can have levels of their own
 
-/// How far a disc flies in a window, over the mean distance of discs.
+/// Typical flight of a disc in a window, in mean distances of discs
 constexpr double flight = 0.5;
 
-/// The mean cost of a search, if discs search as often as they collide.
+/// The mean cost of a search. Discs are weighted by how often they collide.
 double cost_of(std::span<const SizeLevel> levels, double area, double travel) {
     double cost = 0, n_all = 0;
     for (const SizeLevel& own : levels) n_all += own.n_discs * own.largest_radius;
@@ -57,7 +57,8 @@ std::vector<SizeLevel> choose_size_levels(std::span<const Species> species, doub
     if (is_each_octave) return levels;
     const double travel = flight * std::sqrt(area / n_discs);
     double least = cost_of(levels, area, travel);
-    for (bool has_merged = true; has_merged;) { // neighbours, as long as that saves anything
+    // merges neighbouring levels as long as that saves time
+    for (bool has_merged = true; has_merged;) {
         has_merged = false;
         for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
             std::vector<SizeLevel> fewer = levels;

@@ -67,8 +67,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     }
 }
 
-/// If a disc of a ring has another history than its owner has found, marks the block of the ring
-/// and the block of the owner. Discs that other ranks own are appended to `foreign`.
+/// Compares a ring disc's history with the history that its owner has found. If they differ, marks
+/// the block of the ring and the block of the owner. Discs that other ranks own are appended to
+/// `foreign`.
 template <class Dynamics>
 void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& foreign) {
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
@@ -100,25 +101,26 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
     }
 }
 
-/// Whether a disc of the ring can have met an own disc of the block, in the block's run or in that
-/// of the disc's owner. If not, the run is right although it has got the disc wrong
-/// (docs/understanding/method.md, section 8.2).
+/// Whether a disc of the ring can have met an own disc of the block, in the block's run or in the
+/// run of the disc's owner. If it cannot, the run is right although its history of this disc is
+/// wrong (docs/understanding/method.md, section 8.2).
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::could_meet(const Block& block, const DiscState& disc,
                                              SpeedClass fastest) const {
-    if (Dynamics::has_moving_images) return true; // a disc has several speeds
+    if (Dynamics::has_moving_images) return true; // each row of images gives the disc another speed
     if (fastest == largest_speed_class) return true;
     const double at_begin = std::sqrt(dynamics_.squared_speed(disc)),
                  later = window_.speed_bound * std::sqrt(fastest / speed_classes_to_bound);
     const double speeds = block.outcome.largest_speed + std::max(at_begin, later);
-    // A reach counts with two discs of the bound, of which each makes half of the sum.
+    // block_reach is for two discs that both have the bound as their speed, so the bound is half of
+    // the sum.
     const double farthest = block_reach(window_.with_bound(speeds / 2), contact_distance(),
                                         dynamics_.box());
     return distance_from_own(block, disc) <= farthest;
 }
 
-/// How far a disc was from the nearest place where own discs of the block can have been at the
-/// window's begin.
+/// The least distance at the window's begin between a disc and the places where own discs of the
+/// block can have been.
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::distance_from_own(const Block& block,
                                                       const DiscState& disc) const {
@@ -154,10 +156,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalInde
         .store(1, std::memory_order_relaxed);
 }
 
-/// Notes what it costs to run the marked blocks again. All threads of all ranks wait for the rank
+/// Records what it costs to run the marked blocks again. All threads of all ranks wait for the rank
 /// that has most of them. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
-    constexpr double deeper = 1.6; // the time of such a run divided by that of a first run
+    // time of a run with twice the halo divided by the time of a first run
+    constexpr double deeper = 1.6;
     std::uint64_t n_marked = 0;
     for (const Block& block : blocks_) n_marked += block.is_marked;
     const auto share_of = [](std::uint64_t n, std::uint64_t n_blocks) {
@@ -175,7 +178,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
     policy_.note(rollback);
 }
 
-/// How many more discs the blocks of this rank would see with a halo one reach deeper, as a share.
+/// By what share the blocks of this rank would have more discs if their halo were one reach deeper.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const CellBlock frame{0, geometry.n_columns, 0, geometry.n_rows};
@@ -188,10 +191,10 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() c
     return now > 0 ? deeper / now - 1 : 0;
 }
 
-/// Doubles the halo of all marked blocks that do not have the whole box yet. A block may have it
-/// now without having had it in its run, because the rank's halo has grown for other blocks. Ranks
-/// whose halo must then become deeper get more of it, as far as there are cells for it. Returns
-/// true if the halos of all ranks must become deeper than that, so that all blocks have to run
+/// Doubles the halo of all marked blocks that do not have the whole box yet. (A block may have it
+/// now without having had it in its last run, because the rank's halo has grown for other blocks.)
+/// Ranks whose halo must become deeper extend it as far as there are cells for it. Returns true if
+/// that is not enough, so that the halos of all ranks become deeper and all blocks have to run
 /// again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
@@ -274,8 +277,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
     return has_all_cells && rank_has_all;
 }
 
-/// Along a periodic axis a block has all images that matter if its cells go once around the box
-/// from its own cells, and one reach further at both ends.
+/// Along a periodic axis a block needs no further images if its cells go once around the box from
+/// its own cells, and one reach further at both ends.
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridGeometry& geometry = discs_.grid().geometry();
@@ -333,7 +336,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
     agree(communicator_, text.empty(), text);
 }
 
-// These members are called from event_driven_engine.cpp, where the class itself is compiled.
+// These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate();         \
     template bool EventDrivenEngine<Dynamics>::widen_marked();                                     \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the next window of the event-driven engine is: how long, for which speeds, and whether one
-// run of the whole box serves. Also whether growing discs jam in it.
+// Plans the next window of the event-driven engine: its length, its speed bound, and whether a
+// single run of the whole box is used. Also tests whether growing discs jam in it.
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +15,13 @@ namespace carrom {
 
 namespace {
 
-/// Factor by which the largest speed may grow between two syncs. Growing discs become some 30 times
-/// as fast from a thin gas to the densest liquid.
+/// A jam is reported if the largest speed grows by more than this factor between two syncs. From a
+/// dilute gas to the densest liquid growing discs become some 30 times as fast.
 constexpr double jam_heating = 64;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
-/// Collisions of a disc from stop to stop, times threads, up to which one thread whose windows go
-/// on after stops is faster than all of them.
+/// The largest number of collisions per disc between two stops, times the number of threads, for
+/// which one thread is faster than all. Only one thread can continue its windows after stops.
 constexpr double most_hits = 0.25;
 
 } // namespace
@@ -44,13 +44,14 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     return window;
 }
 
-/// The largest speed at the window's start. After a window, its validation has found that for all
-/// ranks. **Collective.**
+/// The largest speed at the window's start. After the first window its value for all ranks is known
+/// from the validation. **Collective.**
 template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() const {
     return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
 }
 
-/// Speeds in the falling frame grow, also those of discs at rest on a floor. **Collective.**
+/// In a frame that falls, speeds grow until the window ends, also those of discs at rest on a
+/// floor. **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -
@@ -58,16 +59,16 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
 }
 
-/// Of growing discs. The interval's first speed is 0 otherwise. **Collective.**
+/// Sets the first speed of the interval for growing discs; it stays 0 for others. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::record_first_speed() {
     const double per_micro_step = dynamics_.size_at(1) - dynamics_.size_at(0);
     if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
     first_speed_ = std::max(largest_of_all(), dynamics_.diameter() * per_micro_step);
 }
 
-/// Whether discs have grown into a jam: they become ever faster and collide ever more often, so
-/// that the step would never end. All speeds of the window count, not only those at its end, so
-/// that every cut into windows and blocks gives the same answer.
+/// Whether growing discs have jammed: they become ever faster and collide ever more often, so that
+/// the step would never end. The largest speed at any time of the window is used, so that the
+/// result does not depend on how time and space are cut into windows and blocks.
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
     if (first_speed_ == 0) return false;
     return std::ranges::any_of(blocks_, [&](const Block& block) {
@@ -75,8 +76,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
     });
 }
 
-/// Ends the run. The message names the place up to which all is well, and not what has shown the
-/// jam, because that depends on windows and threads. **Collective.**
+/// Ends the run. The message contains the step up to which the run is valid, and not the event that
+/// revealed the jam, because that depends on windows and threads. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
     const double safe = jam_watch_.safe_until();
     const double size = dynamics_.size_at(safe - static_cast<double>(this->last_sync()));
@@ -88,8 +89,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether one run of the whole box serves, if the run stops after a time. Threads would need a
-/// window for each stop.
+/// Whether a single run of the whole box is used, if the run next stops after this time. With
+/// several threads each stop would end a window.
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone(double until_stop) const {
     const auto n = static_cast<double>(discs_.n_total());
     const double hits = policy_.collision_rate() * until_stop * tuning_.threads;
@@ -100,7 +101,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone(double
            !block_tuning_.block_side && !block_tuning_.cuts_by_work;
 }
 
-/// The numbers for the choice of the next window that are not learned from windows.
+/// The arguments of the choice of the next window, except those that are learned from windows.
 template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     BlockNeeds needs;
     needs.box = dynamics_.box();
@@ -113,11 +114,13 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.is_one_block = is_alone_;
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
-    needs.crowding = is_alone_ ? 1 : mean_crowding_; // a run of the whole box measures none
+    // a run of the whole box does not measure the crowding
+    needs.crowding = is_alone_ ? 1 : mean_crowding_;
     return needs;
 }
 
-/// Collisions per disc and time in the last window, or a guess for the first one. **Collective.**
+/// Collisions per disc and time in the last window, or an estimate for the first one.
+/// **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
     if (n_windows_ > 0)
@@ -137,7 +140,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
                         dynamics_.diameter());
 }
 
-// These members are called from event_driven_engine.cpp, where the class itself is compiled.
+// These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template BlockWindow EventDrivenEngine<Dynamics>::choose(double);                              \
     template void EventDrivenEngine<Dynamics>::record_first_speed();                               \

@@ -8,13 +8,13 @@ namespace carrom {
 
 namespace {
 
-/// Share of a window's collision rate that is taken for the least of the next one. After random
-/// insertion discs meet half as often at first as a little later, and windows by that rate would be
-/// too long.
+/// The expected collision rate falls at most to this share of its last value in a window. After
+/// random insertion discs first meet half as often as a little later, and windows for that rate
+/// would be too long.
 constexpr double rate_kept = 0.9;
-/// Share of a window's speed bound that is taken for the least of the next one.
+/// The speed bound falls at most to this share of its last value in a window.
 constexpr double bound_kept = 0.99;
-constexpr double weight_of_last = 0.1; ///< of the last window in the mean of rounds
+constexpr double weight_of_last = 0.1; ///< weight of the last window in the running mean of rounds
 
 } // namespace
 
@@ -35,7 +35,7 @@ PlannedWindow WindowPolicy::plan(BlockNeeds needs, double collision_rate, double
     if (!setting_.duration) longest = std::min(longest, caution_.most_hits() / rate_to_expect_);
     PlannedWindow window;
     window.choice = choose_block_window(needs, longest, setting_.duration);
-    // Equal windows up to the target; the last one ends there exactly.
+    // Windows up to the target have equal lengths; the last one ends exactly there.
     const double n_windows = std::ceil(left / window.choice.duration * (1 - 1e-9));
     window.end = n_windows > 1 ? needs.time + left / n_windows : target;
     if (!(window.end > needs.time) || window.end > target)
@@ -43,7 +43,7 @@ PlannedWindow WindowPolicy::plan(BlockNeeds needs, double collision_rate, double
     return window;
 }
 
-/// Adds to `needs` what the windows before have shown, the last one included.
+/// Adds to `needs` the numbers that were learned from all windows up to the last one.
 void WindowPolicy::learn(double collision_rate, BlockNeeds& needs) {
     collision_rate_ = collision_rate;
     rate_to_expect_ = std::max(collision_rate, rate_kept * rate_to_expect_);

@@ -64,16 +64,17 @@ private:
 
     WindowSetting setting_;
     double collision_rate_ = 0;
-    double rate_to_expect_ = 0;   ///< the same rate, but it falls only slowly
-    double last_duration_ = 1;    ///< of the last window
+    double rate_to_expect_ = 0;   ///< the rate used for the choice; it falls only slowly
+    double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of the number of rounds
     double n_rounds_ = 0;         ///< number of repeated rounds in the last window
     Rollback last_;               ///< sums over these rounds, with the latest price
     Caution caution_;
 };
 
-/// The window for a higher speed bound, whose reach is the same because it is shorter. If all discs
-/// were at rest until a wall came, it becomes as long as a flight over a diameter.
+/// The window for a higher speed bound. It is shorter, so that its reach stays the same. If all
+/// discs were at rest until a wall reached them, it becomes as long as a flight over a diameter
+/// takes.
 BlockWindow shortened(BlockWindow window, double speed_bound, double diameter);
 
 } // namespace carrom

@@ -50,8 +50,8 @@ template <class Rounds> __global__ void match(const Rounds rounds, int round) {
          i += gridDim.x * blockDim.x)
         rounds.match(round, i);
 }
-/// Runs in one block. Its threads wait for each other, so that all of them read the same size of a
-/// round and the results of the part before.
+/// Runs all rounds in one block. Its threads wait for each other, so that all of them read the same
+/// size of a round and the results of the part before.
 template <class Rounds> __global__ void finish_rounds(const Rounds rounds, int round) {
     for (;; ++round) {
         __syncthreads();
@@ -75,7 +75,7 @@ struct CudaMachine {
         void operator()(void* memory) const { cudaFree(memory); }
     };
     using Memory = std::unique_ptr<void, Free>;
-    /// Scratch memory for kernels of a library.
+    /// Scratch memory for kernels of CUDA's library.
     struct Scratch {
         Memory memory;
         std::size_t n_bytes = 0;

@@ -91,7 +91,8 @@ private:
         return counters;
     }
 
-    /// Does not wait, because the host does not need the numbers of the last window yet.
+    /// Starts the kernels and does not wait, because the host does not need the results of the last
+    /// window yet.
     void begin(const DeviceWindow& window, bool forgets_speed) {
         world_.window = window.window;
         world_.squared_window_speed = window.speed * window.speed;

@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// Such a number is whole, so it can be cut into pieces exactly.
+    /// A large number is whole, so it can be cut into pieces exactly.
     CARROM_DEVICE void add_large(double scaled) {
         double rest = std::fabs(scaled);
         for (int k = 3; k >= 0; --k) {

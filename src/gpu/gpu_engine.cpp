@@ -57,13 +57,13 @@ template <class Dynamics> void GpuEngine<Dynamics>::put_states() {
     is_host_current_ = true;
 }
 
-/// The discs arrive in the order of the device's memory.
+/// Copies the discs to the host, in the order of the device's memory.
 template <class Dynamics> void GpuEngine<Dynamics>::bring_states() const {
     if (is_host_current_) return;
     const PhaseClock::Scope scope(*copying_time_, Phase::exchange);
     is_host_current_ = true;
     on_host_->forget_halo();
-    on_host_->drop_grid(); // because it was made for the old order
+    on_host_->drop_grid(); // the grid was made for the old order
     std::vector<DiscId> old_ids;
     bool has_columns = false;
     on_host_->columns().for_each([&](SideColumn) { has_columns = true; });
@@ -150,8 +150,8 @@ template <class Dynamics> void GpuEngine<Dynamics>::take_stress() {
     if (this->stress_) stepper_->take_stress(*this->stress_);
 }
 
-/// If a measurement follows images of discs, the host makes the sync, because it needs the flights
-/// one by one.
+/// If a measurement follows images of discs, the host carries out the sync, because it needs each
+/// flight.
 template <class Dynamics> double GpuEngine<Dynamics>::restart_states() {
     if (!this->crossings_.empty()) {
         bring_states();
@@ -182,8 +182,8 @@ template <class Dynamics> void GpuEngine<Dynamics>::finish_sync(double largest_s
                             static_cast<double>(this->sync_every_));
 }
 
-/// Effects that change velocities on the host are errors with a GPU (EffectDeclaration), so the
-/// device has the states of these discs.
+/// The states are already on the device: effects that change velocities on the host are errors with
+/// a GPU (EffectDeclaration).
 template <class Dynamics> void GpuEngine<Dynamics>::take_speed(double largest_speed) {
     largest_speed_ = std::max(largest_speed_, largest_speed);
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method on a device. The discs stay in its memory, and their states come to the
-// host where something reads them: measurements, checkpoints, lines of discs, totals.
+// The time-stepped method on a device. The discs stay in the device's memory. Their states are
+// copied to the host only if something reads them: measurements, checkpoints, lines of discs,
+// totals.
 //
 // The host chooses windows and reads a handful of numbers after each. A device does not divide
-// micro-steps: if discs are fast, a window is one micro-step, and its cells allow for all of it.
+// micro-steps. If discs are fast, a window is one micro-step, and its cells are wide enough for all
+// of it.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +49,9 @@ private:
 
     DeviceFacts facts_;
     std::unique_ptr<Stepper> stepper_;
-    StripDiscs* on_host_ = nullptr; ///< discs_, which functions that only read may have to update
-    PhaseClock* copying_time_ = nullptr; ///< phases_, for the same reason
+    /// `discs_` without const, because const functions copy the device's discs into it
+    StripDiscs* on_host_ = nullptr;
+    PhaseClock* copying_time_ = nullptr; ///< `phases_` without const, for the same reason
     mutable bool is_host_current_ = true;
     double window_speed_ = 0; ///< speed that the window's reach allows for
     /// Bound of speeds in the next window, relative to the largest speed

@@ -150,7 +150,8 @@ template <class D> struct Waiting {
     }
     CARROM_DEVICE void search(int round, std::uint32_t i) const {
         const LocalIndex k = world.waiting[round % 2][i], partner = world.partner[k];
-        if (world.taken[partner] == 0) return; // a disc, because walls have been handled already
+        // the partner is a disc, because walls have been handled already
+        if (world.taken[partner] == 0) return;
         NextEvent next = world.first_event(k, m, true);
         if (next.micro != world.number_of(m)) next = {};
         world.set_event(k, next);

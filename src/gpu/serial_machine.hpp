@@ -36,7 +36,7 @@ struct SerialMachine {
     template <class Kernel> static void for_each(std::uint32_t n, const Kernel& kernel) {
         for (std::uint32_t i = 0; i < n; ++i) kernel(i);
     }
-    /// The number of threads is in the device's memory; it is at most `most`.
+    /// `n` points to the number of threads in the device's memory; it is at most `most`.
     template <class Kernel>
     static void for_each_of(const std::uint32_t* n, std::uint32_t /*most*/, const Kernel& kernel) {
         for_each(*n, kernel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs in the memory of a device, which steps them. Engines use devices only through this header,
-// so that a compiler for GPUs gets as little of the program as possible.
+// Discs in the memory of a device, which carries out their steps. Engines use devices only through
+// this header, so that a compiler for GPUs gets as little of the program as possible.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace carrom {
 /// The arguments of a window. Lengths are the scene's; speeds are per micro-step.
 struct DeviceWindow {
     Window window;
-    double reach = 0; ///< see reach_of
+    double reach = 0; ///< reach of the window (reach_of)
     double speed = 0; ///< speed that the reach allows for; a faster disc cuts the window short
     double flown = 0; ///< time of flights before the last sync that are not in the sums yet
     double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: no stress is summed

@@ -45,11 +45,11 @@ struct DeviceCounters {
     std::uint32_t n_active = 0;  ///< discs with a candidate in the present micro-step
     std::uint32_t n_changed = 0; ///< discs whose first candidate must be found again
     std::uint32_t n_waiting[rounds_of_all + 2] = {};
-    std::uint32_t is_cut = 0;  ///< 1 if discs are too fast for the rest of the window
+    std::uint32_t is_cut = 0;  ///< whether discs are too fast for the rest of the window, 0 or 1
     std::uint32_t n_micro = 0; ///< completed micro-steps of the window
     /// Candidates found and carried out since the run began
     std::uint64_t n_candidates = 0, n_kept = 0;
-    Largest squared_speed; ///< since the last sync, or over all discs
+    Largest squared_speed; ///< largest squared speed since the last sync, or over all discs
 };
 
 /// All data of a window's kernels. All arrays but the last ones are indexed by slot.

@@ -19,7 +19,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double spread_margin = 1000;
 /// The same factor for a single step from known numbers.
 constexpr double step_margin = 20;
-/// The first ones vary the last digits of the output's numbers, the others vary the last bits
+/// This many runs vary the last digits of the output's numbers, the others vary the last bits.
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
@@ -45,7 +45,7 @@ Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& str
              {scene.n_discs, scene.steps, scene.text_output == TextOutput::every_step}),
       digits_before_(scene.n_discs), is_counter_unknown_(scene.n_discs, false),
       counts_points_(counts_points) {
-    if (scene.steps > 0) points_.are_counters_right = false; // until counters have been compared
+    if (scene.steps > 0) points_.are_counters_right = false; // until they are compared
 }
 
 void Grader::record_spread(std::int64_t step, const ExpectedDiscs& expected) {
@@ -108,7 +108,7 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     }
     finest_ = unlimited;
     for (const StudentLine& line : lines()) finest_ = std::min(finest_, line.finest_digit);
-    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show the rounding
+    if (finest_ == unlimited) finest_ = 0; // whole numbers do not show how they were rounded
     finest_ = std::max(finest_, unit_of_float_);
     n_steps_ += 1;
     if (!can_grade(step)) {
@@ -121,7 +121,7 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
     const bool is_right = hold(aim, step);
     if (!is_right && !(counts_points_ && are_possible(step))) return false;
-    if (!is_right) has_left_runs_ = true; // the program's own run differs from here on
+    if (!is_right) has_left_runs_ = true; // the program's own run cannot be compared any more
     go_on_from_lines(step, aim.discs);
     return true;
 }
@@ -138,8 +138,8 @@ void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& c
     written_before_ = step;
 }
 
-/// A step can be computed from the student's lines only if they are of the step before, and precise
-/// enough.
+/// A step can be computed from the student's lines only if these are the lines of the step before
+/// and precise enough.
 bool Grader::can_grade(std::int64_t step) const {
     if (!has_left_runs_) return true;
     return own_before_ && step - written_before_ == 1 &&
@@ -183,7 +183,7 @@ bool Grader::are_possible(std::int64_t step) {
                                line.y >= -slack && line.y <= setting_.box.y + slack;
         const double speed = std::max(std::fabs(line.vx), std::fabs(line.vy));
         const double fastest = counts_points_ ? slack : std::numeric_limits<double>::max();
-        if (is_inside && speed <= fastest) continue; // false also for NaN
+        if (is_inside && speed <= fastest) continue; // this test is false for NaN, too
         if (!verdict_.empty()) return false;
         verdict_ = fmt::format("line {}: step {}, disc {} is outside the box or not finite\n"
                                "rule: lines\n  each number is finite, and each centre in the box\n",
@@ -233,8 +233,8 @@ void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     }
 }
 
-/// One step of the rule from the student's own step before. The other runs begin from states within
-/// the rounding of the student's last digits.
+/// One step of the rule from the student's lines of the step before. The other runs begin from
+/// states within the rounding of the student's last digits.
 Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
@@ -267,7 +267,7 @@ double Grader::difference_to(const std::vector<DiscState>& discs, double clock, 
         std::fabs(line.vx - disc.vx * unit_), std::fabs(line.vy - disc.vy * unit_)};
     double largest = 0;
     for (const double one : differences) {
-        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // true also for NaN
+        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // true for NaN, too
         largest = std::max(largest, one);
     }
     return largest;
@@ -285,8 +285,8 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// If roundings decide, a disc may be at any position that a rounding can produce. Equal times are
-/// not roundings: if a wrong choice between them produces the line, that is the mistake.
+/// If roundings decide which discs collide, a disc may be at any position that a rounding can
+/// produce. Equal times are no rounding, so a wrong choice between them is reported as a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -306,7 +306,7 @@ bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// The last step may come too early or too late.
+/// Compares the counters, also if the last step comes too early or too late.
 bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
     if (!steps_.has_counters() || (step < scene_.steps && steps_.next_line())) return true;
     points_.are_counters_right = false;

@@ -20,7 +20,7 @@ struct StudentLine {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
     double digits[4] = {}; ///< the unit of the last digit of x, y, vx, vy; 0 for a whole number
-    double last_digit = 0; ///< this unit for the number with the fewest digits
+    double last_digit = 0; ///< unit of the last digit of the number with the fewest digits
     /// This unit for the number with the most digits; infinite if all are whole numbers
     double finest_digit = 0;
     bool has_counters = false;

@@ -24,7 +24,8 @@ constexpr const char* stop_at_wall = "stop at a wall";
 constexpr const char* overlap = "overlap";
 constexpr const char* corner = "corner";
 
-/// Smaller deviations come first, because the first one that produces the lines is reported.
+/// Small deviations from the rule come first, because the first mistake that produces the lines is
+/// reported.
 constexpr std::array known_mistakes{
     KnownMistake{Mistake::ties_by_higher_id, order,
                  "of collisions at equal times the one of the higher ids is kept"},
@@ -92,7 +93,7 @@ std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, M
 
 bool agree(const GivenDisc& made, const GivenDisc& given) {
     const auto is_near = [&given](double a, double b) {
-        return std::fabs(a - b) <= given.tolerance; // false also for NaN
+        return std::fabs(a - b) <= given.tolerance; // false for NaN, too
     };
     return is_near(made.x, given.x) && is_near(made.y, given.y) && is_near(made.vx, given.vx) &&
            is_near(made.vy, given.vy);
@@ -198,7 +199,7 @@ bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vecto
 }
 
 bool can_explain(std::uint64_t n_discs, std::int64_t micro_steps) {
-    constexpr double most_pairs = 2e10; // takes a minute or two
+    constexpr double most_pairs = 2e10; // so many pairs take a minute or two
     const auto n = static_cast<double>(n_discs);
     return n * n / 2 * static_cast<double>(micro_steps) *
                static_cast<double>(known_mistakes.size() + 3 * most_subjects) <

@@ -48,8 +48,8 @@ bool follows_rule(const SharedState& state, std::int64_t micro_steps,
 /// The contacts of the disc in the next micro-step by the rule, one line for each candidate.
 std::string facts(const SharedState& state, DiscId id);
 
-/// Whether all lines are the discs at time 0 rounded to single precision, as their digits show.
-/// `unit` is the factor of velocities.
+/// Whether all lines are the discs at time 0 rounded to single precision, as far as their digits
+/// show. `unit` is the factor of velocities.
 bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vector<DiscState>& discs,
                          double unit);
 

@@ -30,7 +30,7 @@ auto place_in_order(const PlainRule::Candidate& c) {
     return std::make_tuple(c.t, c.p, is_wall(c) ? 0 : 1, c.q);
 }
 
-/// The place of a candidate in a wrong order of the mistake.
+/// The key by which a program with this mistake sorts its candidates.
 std::tuple<double, double, double, double> place_by_mistake(const PlainRule::Candidate& c,
                                                             Mistake mistake) {
     const double t = c.t, p = static_cast<double>(c.p), pair = is_wall(c) ? 0 : 1,
@@ -39,7 +39,7 @@ std::tuple<double, double, double, double> place_by_mistake(const PlainRule::Can
     if (mistake == Mistake::pair_before_wall) return {t, -pair, p, q};
     if (mistake == Mistake::order_of_ids) return {p, pair, q, t};
     if (mistake == Mistake::walls_first) return {pair, t, p, q};
-    return {-pair, t, p, q}; // pairs_first
+    return {-pair, t, p, q}; // the mistake pairs_first
 }
 
 bool sorts_otherwise(Mistake mistake) {
@@ -117,8 +117,8 @@ double PlainRule::contact_time(const DiscState& p, const DiscState& q, double m)
     return contact.exists() ? (contact.base - m) + contact.delay : never;
 }
 
-/// The time of the collision of overlapping discs, which the rule lets pass through each other,
-/// with the mistake that makes them collide.
+/// The time of the collision of two overlapping discs. The rule lets them pass through each other;
+/// a program with this mistake makes them collide.
 double PlainRule::overlap_time(const DiscState& p, const DiscState& q, double m) const {
     const double sigma = 2 * setting_.radius;
     const double at = mistake_ == Mistake::overlap_at_end ? m + 1 : m;
@@ -169,8 +169,8 @@ void PlainRule::keep_candidates(double m) {
     }
 }
 
-/// Whether this candidate is the one for the mistake: it happens once, with a pair or a wall of
-/// `subject`.
+/// Whether the mistake affects this candidate: it is the first one of `subject` of the right kind,
+/// and the mistake has not been made yet.
 bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake) {
     const bool is_its_own = candidate.p == subject_ ||
                             (!is_wall(candidate) && candidate.q == subject_);
@@ -275,7 +275,8 @@ void PlainRule::bounce(DiscState& disc, double m, double t) const {
     advance(disc, m + t);
     bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
     bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
-    if (!x_reverses && !y_reverses) { // for every_candidate, after an earlier collision
+    // Happens only with every_candidate, after an earlier collision
+    if (!x_reverses && !y_reverses) {
         const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
             return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;
         };

@@ -41,7 +41,8 @@ enum class Mistake {
     overlap_leaves,
     overlap_at_end,
     corner_on_one_axis,
-    one_disc_only, ///< for this one and the next two, the collision of the disc `subject`
+    /// The mistakes `one_disc_only` and the next two concern one collision of the disc `subject`
+    one_disc_only,
     pair_missed,
     wall_missed,
 };

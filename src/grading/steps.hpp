@@ -37,7 +37,7 @@ public:
     /// Reads all lines of the next step, which must exist. The functions below describe this step.
     void read();
 
-    /// In the order of ids; all lines are of this step if it is whole.
+    /// The lines in the order of ids. If the step is whole, all lines belong to it.
     const std::vector<StudentLine>& lines() const { return lines_; }
     bool is_whole() const { return is_whole_; } ///< each disc has exactly one line
     bool has_counters() const { return n_counters_ == lines_.size(); }
@@ -65,7 +65,7 @@ private:
     StudentOutput output_;
     std::optional<StudentLine> next_;
     std::vector<StudentLine> lines_;
-    std::vector<bool> is_there_; ///< by id: whether the step has a line of the disc
+    std::vector<bool> is_there_; ///< whether the step has a line of the disc, for each id
     bool is_whole_ = false, is_in_order_ = true;
     std::uint64_t n_counters_ = 0;
     std::string problem_;

@@ -13,12 +13,12 @@ namespace carrom {
 
 namespace {
 
-// Proposals of a rank in a batch. If there are too few, the exchange takes longer; if there are
-// many, they take memory.
+// The number of proposals of a rank in a batch. With too few the exchange takes most of the time,
+// with many they need much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
-constexpr std::uint64_t most_rounds = 4096; ///< in a batch
-/// The largest share of discs that a batch should place, because their proposals in later rounds
-/// are useless.
+constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
+/// A batch should place at most this share of the discs, because the proposals of a placed disc in
+/// later rounds of the batch are useless.
 constexpr double most_placed_share = 0.25;
 
 /// The largest number of places that a batch should find, because each rank decides about all of
@@ -65,7 +65,7 @@ std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& u
 void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced) {
     std::ranges::sort(found, {}, &Notice::id);
     const std::size_t n_marks = std::bit_ceil(64 * found.size());
-    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by the last bits of ids
+    std::vector<std::uint8_t> may_be_found(n_marks, 0); // indexed by the last bits of ids
     for (const Notice& notice : found) may_be_found[notice.id % n_marks] = 1;
     std::erase_if(unplaced, [&](std::uint32_t id) {
         return may_be_found[id % n_marks] != 0 &&

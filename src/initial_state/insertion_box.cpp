@@ -26,7 +26,7 @@ void InsertionBox::propose(const Proposers& proposers, std::span<const Notice> u
     concerning.reserve(static_cast<std::size_t>(1.1 * static_cast<double>(n + updates.size())) +
                        1000);
     const double n_of_rank = static_cast<double>(proposers.n_of_all * proposers.n_rounds) /
-                             communicator_.size(); // a number that is the same on all ranks
+                             communicator_.size(); // the same number on all ranks
     const auto n_parts = static_cast<std::uint64_t>(std::min(n_of_rank, share()) / most_at_once) +
                          1;
     RawVector<Notice> made;
@@ -46,7 +46,7 @@ std::vector<Notice> InsertionBox::gather(const std::vector<InputDisc>& given) co
         visit_concerned(x, [&](std::size_t rank) { out[rank].push_back(notice); });
     }
     std::vector<Notice> all = send_to_owners(communicator_, out).items;
-    std::ranges::sort(all, {}, &Notice::id); // so that the grid is the same in every run
+    std::ranges::sort(all, {}, &Notice::id); // sorted, so that the grid is the same in every run
     return all;
 }
 

@@ -49,7 +49,7 @@ public:
           periods_(lying(scene.effects.periods(scene.box))), has_regions_(has_regions(scene)),
           fixed_bodies_(scene.box, scene.radius, scene.effects) {}
 
-    double diameter() const { return diameter_; } ///< of the largest disc
+    double diameter() const { return diameter_; } ///< diameter of the largest disc
     std::uint64_t n_discs() const { return scene_.n_discs; }
     double radius_of(DiscId id) const { return species_.of(id).radius; }
     const Box& box() const { return box_; }
@@ -64,7 +64,7 @@ public:
         return box_.x / communicator_.size() * (communicator_.rank() + 1) + margin();
     }
 
-    /// A grid for points of the strip and of the margin around it.
+    /// Makes a grid that covers the strip and the margin around it.
     PointGrid grid(double n_points) const {
         return {strip_low(), strip_high(), box_.y, diameter_, n_points};
     }
@@ -139,9 +139,8 @@ public:
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
-    /// Calls `visit(place)` for the position of a notice and for those of its images that are near
-    /// discs across a seam, until it returns true. A grid puts positions beyond its ends into its
-    /// last cells.
+    /// Calls `visit(place)` for the position of a notice and for each of its images near the seam,
+    /// until it returns true. A grid puts positions beyond its ends into its last cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double per_row = 0.8660254037844386; ///< the height of a row over a: sqrt(3) / 2
 
-/// The sites of m rows that are free.
+/// The free sites of a lattice of m rows.
 class FreeSites {
 public:
     FreeSites(const SceneParameters& scene, std::uint64_t n_rows, const Communicator& ranks)
@@ -29,7 +29,7 @@ public:
           y0_(is_periodic_y_ ? 0 : height_ / (2 * per_row)),
           columns_(static_cast<std::uint64_t>(box_.x * per_row / height_)),
           width_(box_.x / static_cast<double>(columns_)),
-          // Rounding of places is far below the 2^-30 that is left between the circles.
+          // Half the spacing, less a share of 2^-30 of it, which exceeds the rounding of positions.
           clearance_(height_ / (2 * per_row) * (1 - 0x1p-30)),
           fixed_bodies_(box_, clearance_, scene.effects),
           own_(slab_of_rank(ranks.rank(), n_rows, ranks.size())), free_in_rows_(n_rows) {
@@ -44,7 +44,8 @@ public:
     }
     double clearance() const { return clearance_; }
 
-    /// Calls do_one(k, place) for each free site of the rank's rows, where k counts those of all.
+    /// Calls do_one(k, place) for each free site of the rank's rows; k counts the free sites of all
+    /// ranks.
     template <class DoOne> void visit(const DoOne& do_one) const {
         const auto first = free_in_rows_.begin();
         std::uint64_t k = std::accumulate(first, first + static_cast<std::ptrdiff_t>(own_.begin),
@@ -55,8 +56,8 @@ public:
     }
 
 private:
-    /// Between walls: the height that the first and the last row leave, in heights of a row, less
-    /// the half row that m rows have there in any case.
+    /// Between walls m rows are higher than m row heights by twice this number, in row heights,
+    /// because the first and the last row are half a spacing from the walls.
     static double beside() { return 0.5 / per_row - 0.5; }
 
     Point site(std::uint64_t row, std::uint64_t column) const {
@@ -76,7 +77,7 @@ private:
     Box box_;
     bool is_periodic_x_, is_periodic_y_;
     std::uint64_t rows_;
-    double height_, y0_; ///< of a row, and the place of the first
+    double height_, y0_; ///< height of a row, and y of the first row
     std::uint64_t columns_;
     double width_, clearance_;
     FixedBodies fixed_bodies_;
@@ -84,7 +85,8 @@ private:
     std::vector<std::uint64_t> free_in_rows_;
 };
 
-/// The least number of rows with enough sites. Rows come in pairs, as a period along y needs them.
+/// Finds the smallest number of rows with enough sites. It is even, because a period along y needs
+/// an even number.
 class RowSearch {
 public:
     RowSearch(const SceneParameters& scene, const Communicator& ranks)
@@ -112,7 +114,7 @@ private:
                      height = std::sqrt(area * per_row);
         return std::min(most_, static_cast<std::uint64_t>(scene_.box.y / height / 2 * 0.9));
     }
-    /// 0 where discs do not fit on sites.
+    /// The number of free sites; 0 if a disc is too large for a site.
     std::uint64_t number(std::uint64_t pairs) const {
         const FreeSites sites(scene_, 2 * pairs, ranks_);
         return sites.clearance() > scene_.radius ? sites.number() : 0;
@@ -141,10 +143,10 @@ std::vector<InputDisc> lattice_around_fixed_bodies(const SceneParameters& scene,
     const double free_radius = sites.clearance() - scene.radius;
     std::vector<InputDisc> discs;
     sites.visit([&](std::uint64_t k, const Point& site) {
-        // Disc j of all takes site j n_sites / n, so that n_sites - n sites stay empty.
+        // Disc j takes site j n_sites / n, so that the n_sites - n empty sites are spread evenly.
         const std::uint64_t j = (k * n + n_sites - 1) / n_sites;
         if (j >= n || j * n_sites / n != k) return;
-        const DiscId id = j * stride % n; // below 2^64: ids are below 2^32
+        const DiscId id = j * stride % n; // no overflow, because ids are below 2^32
         const Point place = shaken(site, free_radius, scene.seed, id);
         discs.push_back({id, place.x, place.y, 0, 0});
     });

@@ -6,7 +6,8 @@
 // so that each disc may be moved by a / 2 less its radius in any direction: no overlap, none
 // outside. The least m with enough sites is taken. Sites in excess stay empty, spread evenly.
 //
-// Sites are counted some 20 times, each rank its share of the rows; memory is that of the discs.
+// Sites are counted for some 20 values of m, each rank counting its share of the rows. Memory is
+// that of the discs.
 #pragma once
 
 #include <vector>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of the legacy generator, number for number: C `rand`, seeded; all positions first, x
-// then y, uniform in [r, L-r] and drawn anew on overlap; then for each disc its speed, uniform in
-// L/8r .. L/4, and its angle.
+// The discs of the legacy generator, with exactly the same numbers as in the course program. It
+// draws with C's `rand` from a seed. All positions come first, x before y, uniform in [r, L-r], and
+// are drawn again if discs overlap. Then each disc gets its speed, uniform in L/8r .. L/4, and its
+// angle.
 //
-// The sequence is that of glibc's rand (its reentrant random_r with 128 bytes of
-// state); sine and cosine are the C library's, here and nowhere else in a scene. One
-// rank draws, because each number depends on those before. A grid makes a draw O(1).
+// `rand` is that of glibc (its reentrant random_r with 128 bytes of state). Sine and cosine are
+// those of the C library, which nothing else in a scene uses. One rank draws, because each number
+// depends on those before. A grid makes a draw O(1).
 #pragma once
 
 #include <cstdint>

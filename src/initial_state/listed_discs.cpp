@@ -85,9 +85,9 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     return discs;
 }
 
-/// Reads the lines of `discs.from`: each rank reads its share, and rank 0 also has all others
-/// behind it. Returns nothing if a line has an error, or if not all ranks can read the file; rank 0
-/// is then at its first line again. **Collective.**
+/// Reads the lines of `discs.from`. Each rank reads its share; the stream of rank 0 has all other
+/// lines behind its share. Returns nothing if a line has an error, or if not all ranks can read the
+/// file; the stream of rank 0 is then at its first line again. **Collective.**
 std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, std::istream* lines,
                                                   const Communicator& communicator, int n_threads) {
     if (communicator.any(lines == nullptr)) return std::nullopt;

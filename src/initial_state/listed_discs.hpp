@@ -29,10 +29,10 @@ inline Slab share_of(const SceneParameters& scene, const Communicator& communica
 void hand_out(const std::vector<InputDisc>& chunk, const SceneParameters& scene,
               const Communicator& communicator, std::vector<InputDisc>& discs);
 
-/// The rank's share of the discs in the scene's file, checkpoint or legacy text. `lines` is the
-/// stream on rank 0, at its first disc; for a checkpoint every rank has the stream of its share. A
-/// file that other ranks cannot open is read by rank 0 alone. Problems of lines and ids become an
-/// InputError on every rank. **Collective.**
+/// Returns this rank's share of the discs in the scene's file, checkpoint or legacy text. `lines`
+/// is the stream on rank 0, at its first disc; for a checkpoint every rank has the stream of its
+/// share. If other ranks cannot open a file, rank 0 reads it alone. Problems of lines and ids
+/// become an InputError on every rank. **Collective.**
 std::vector<InputDisc> read_listed_discs(const SceneParameters& scene, std::istream* lines,
                                          const Communicator& communicator, int n_threads);
 

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// A gap that is too narrow by only this share counts as wide enough
+/// A gap that is narrower than a disc by at most this share counts as wide enough
 constexpr double rounding = 1e-9;
 
 /// A segment with a rounded border of a width; a disc is a segment without length.

@@ -207,8 +207,9 @@ private:
     int n_threads_;
     InsertionBox box_;
     PlacedDiscs placed_;
-    std::optional<PointGrid> proposal_grid_; ///< only while rounds are judged one by one
-    std::vector<std::uint32_t> unplaced_;    ///< each rank has other discs
+    /// A grid of proposals, while rounds are judged one by one
+    std::optional<PointGrid> proposal_grid_;
+    std::vector<std::uint32_t> unplaced_; ///< each rank has other discs
     RawVector<Notice> proposals_;
     std::vector<Notice> updates_; ///< discs placed in the last round that other ranks need, too
 };

@@ -19,8 +19,9 @@
 namespace carrom {
 
 /// Returns the scene's discs with places and without velocities, each on the rank whose strip holds
-/// it. `given` are discs that already have positions, in any distribution: those of all groups with
-/// another generator. Throws InputError on every rank if no arrangement is found. **Collective.**
+/// it. `given` are the discs that already have positions, because their groups have another
+/// generator. They may be in any distribution. Throws InputError on every rank if no arrangement is
+/// found. **Collective.**
 std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
                                         const Communicator& communicator, int n_threads = 1,
                                         const std::vector<InputDisc>& given = {});

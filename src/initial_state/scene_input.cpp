@@ -46,8 +46,7 @@ DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
                 file = open_input(discs_path(scene));
                 columns = read_disc_columns(file, scene);
             }
-        } catch (const InputError&) { // the reader of lines reports it together with all other
-                                      // problems
+        } catch (const InputError&) { // the reader of lines reports this error with all others
         }
     }
     broadcast(columns, ranks);

@@ -23,9 +23,9 @@ void broadcast(SceneText& text, const Communicator& ranks);
 DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
                          const Communicator& ranks);
 
-/// initial_places of the scene. `following` is on rank 0 the rest of a legacy text after its
-/// header, or null if no discs follow. This function opens a file of discs. Throws InputError on
-/// every rank. **Collective.**
+/// Returns initial_places of the scene. `following` is on rank 0 the rest of a legacy text after
+/// its header, or null if no discs follow. Opens the file of discs, if there is one. Throws
+/// InputError on every rank. **Collective.**
 std::vector<InputDisc> load_places(const SceneParameters& scene, std::istream* following,
                                    const Communicator& ranks, int n_threads = 1);
 

@@ -175,7 +175,7 @@ void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& 
     for (const DiscGroup& group : scene.groups) {
         const auto first = std::ranges::lower_bound(discs, end, {}, &InputDisc::id);
         const auto last = std::ranges::lower_bound(discs, end += group.count, {}, &InputDisc::id);
-        if (group.count == 0) continue; // because all its discs are frozen
+        if (group.count == 0) continue; // all discs of the group are frozen
         of_group.n_discs = group.count;
         of_group.temperature = scene.temperature;
         of_group.speed = group.speed.value_or(scene.speed);

@@ -29,7 +29,8 @@ bool is_known_type(hid_t type) {
            (kind == H5T_STRING && H5Tis_variable_str(type) == 0);
 }
 
-/// The numbers of a recording are in segments beside it, each as large as its rows need.
+/// Checks the segments beside a recording, which hold its numbers: each must be as large as its
+/// rows need.
 void check_segments_of(const Dataset& dataset, hid_t creation, const std::string& name,
                        std::size_t bytes_per_number) {
     std::size_t n_parts = 0;
@@ -143,7 +144,7 @@ void refuse_other_files(hid_t file, const std::string& path) {
         if (leads_out) throw FileError(name + " is named as a part, and is not below its folder");
         const std::string part = (std::filesystem::path(folder_of(path)) / relative).string();
         if (std::error_code error; !std::filesystem::exists(part, error) && !error)
-            continue; // a function that needs it will report that it is missing
+            continue; // a missing part is reported by the function that needs it
         try {
             check_heaps(part); // the part must be a plain file
             const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
@@ -161,7 +162,8 @@ void refuse_other_files(hid_t file, const std::string& path) {
 
 void check_storage(const Dataset& dataset, const std::string& name) {
     const Properties creation(checked(H5Dget_create_plist(dataset.id()), name));
-    if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) return; // because its parts have been checked
+    // parts of a virtual data set have been checked
+    if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) return;
     const Space whole(checked(H5Dget_space(dataset.id()), name));
     const auto bytes = static_cast<double>(H5Sget_simple_extent_npoints(whole.id())) *
                        static_cast<double>(H5Tget_size(stored_type(dataset.id()).id()));

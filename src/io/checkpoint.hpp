@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run's state at the end of a step, in one HDF5 file from which any number of ranks can go on
+// A run's state at the end of a step, in one HDF5 file from which any number of ranks can continue
 // with the same bits.
 //
 // Discs are in the order of their ids, so the file does not depend on the ranks that wrote it. The
@@ -54,7 +54,7 @@ struct CheckpointHeader {
         pair_collisions = 0;
     std::string state_hash;
     Frame frame; ///< the frame of the discs' coordinates; in the file only if it moves
-    std::vector<Species> species; ///< stored only if they come from a file of discs, because the
+    std::vector<Species> species; ///< stored only if species come from a file of discs: the
                                   ///< scene's text does not contain them
     SideColumnSet columns;        ///< columns beside the states; the state hash includes them
     RecordedSystem shown;         ///< H5MD metadata for other programs; Carrom does not read it
@@ -90,7 +90,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
 
 struct Checkpoint {
     CheckpointHeader header;
-    DiscStates discs;    ///< this rank's share of the ids, see slabs.hpp
+    DiscStates discs;    ///< discs whose ids are in this rank's slab (slabs.hpp)
     SideColumns columns; ///< columns of these discs
     StoredSamples samples;
 };

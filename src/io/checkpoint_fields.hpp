@@ -79,8 +79,8 @@ hid_t type_of(const StateColumn& column);
 void write_header(hid_t group, const CheckpointHeader& header);
 /// Reads a header without species. Throws FileError if something is missing or of another kind.
 CheckpointHeader read_header(hid_t file);
-/// Species in one column each for counts, radii and masses; nothing if there are none.
-/// Throw FileError.
+/// Species as one column each for counts, radii and masses; nothing if there are none. Both
+/// functions throw FileError.
 void write_species(hid_t file, const std::string& path, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs);
 

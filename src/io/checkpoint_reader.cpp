@@ -63,7 +63,7 @@ void check_header(const CheckpointHeader& header) {
 struct Contents {
     CheckpointHeader header;
     Checksums sums;
-    StoredSamples samples; ///< without the discs' first places
+    StoredSamples samples; ///< the samples without the discs' first places
 };
 
 bool is_listed(const Checksums& sums, const std::string& path) {
@@ -144,7 +144,7 @@ Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
     } catch (const MachineError&) {
-        throw; // because the file may be undamaged
+        throw; // the file may be undamaged
     } catch (const FileError& error) {
         const std::string text = error.what();
         throw FileError(text.starts_with("is ") ? text : "is damaged: " + text);
@@ -301,7 +301,8 @@ std::optional<CheckpointHeader> check_damage(const std::string& path,
     on_root(communicator, path, ExitCode::bad_input, [&] {
         refuse_old_format(path);
         inspect_in_child_first([&] {
-            static_cast<void>(read_checked_index(path, false)); // before HDF5 opens segments
+            // Checked here, before HDF5 opens segments
+            static_cast<void>(read_checked_index(path, false));
             is_checkpoint = h5::has(h5::open_file(path, h5::Access::read).id(), run_path) ? 1 : 0;
         });
     });

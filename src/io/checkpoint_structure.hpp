@@ -42,8 +42,8 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
                                      const SideOfPieces& columns);
 
 /// Sums over a state that are known only after all discs: sums of pairs of words, which threads and
-/// ranks may add in any order. They are the collisions of discs with walls (`low`) and with discs
-/// (`high`; a pair counts twice), the state's hash, and the targets' checksums.
+/// ranks may add in any order. The first has the collisions of discs with walls (`low`) and with
+/// discs (`high`; a pair counts twice). Then come the state's hash and the targets' checksums.
 using StateSums = std::vector<StateHash>;
 inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 

@@ -78,7 +78,7 @@ public:
                bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
           places_(is_collective ? std::vector<std::uint64_t>() : find_places()) {
-        on_all_ranks([&] { // from here on all ranks know of a failure
+        on_all_ranks([&] { // after this call all ranks know of a failure
             if (is_writer || is_collective) bytes_.emplace(path_, O_WRONLY);
         });
         if (!is_collective) return;
@@ -102,8 +102,8 @@ public:
         }
     }
 
-    /// Writes all ranks' batches together. A rank that fails leaves HDF5's collective write
-    /// before the others, which then wait in vain; `agree` ends the run. **Collective.**
+    /// Writes all ranks' batches together. A rank that fails leaves HDF5's collective write before
+    /// the others, which then wait for it without end, until `agree` ends the run. **Collective.**
     void write_together(const Batch& batch) {
         for (std::size_t k = 0; k < targets_.size(); ++k)
             on_all_ranks([&] {
@@ -154,9 +154,9 @@ private:
     std::string path_;
     const std::vector<DiscTarget>& targets_;
     const Communicator& communicator_;
-    std::vector<std::uint64_t> places_; ///< for each target
+    std::vector<std::uint64_t> places_; ///< the place of this rank's bytes, for each target
     std::optional<Descriptor> bytes_;
-    h5::SharedFile file_; ///< for collective transfers, with its data sets
+    h5::SharedFile file_; ///< the file of collective transfers, with its data sets
     std::vector<h5::Dataset> datasets_;
     std::string failure_;
     std::uint64_t n_batches_ = 0;
@@ -210,7 +210,8 @@ void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPie
     std::vector<std::jthread> threads; // joined at the end
     try {
         for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
-    } catch (const std::system_error&) { // if no more threads can start, those at work do all of it
+        // no more threads can start, so the running ones do all work
+    } catch (const std::system_error&) {
     }
     first_of_all();
     pack_blocks();

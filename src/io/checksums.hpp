@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checksums of a checkpoint, so that no flipped byte goes unnoticed.
+// Checksums of a checkpoint, which detect every flipped byte.
 //
 // They are stored in the file as a text, /carrom/checksums, with lines like those of sha256sum: one
 // for each data set of discs, one for "all other bytes", one for "the lines above".
@@ -79,9 +79,10 @@ struct Checksums {
 /// throws FileError if the text is not one of Carrom.
 Checksums read_checksums(hid_t file);
 
-/// Whether the file's bytes hold the text of checksums or a name in /carrom/run, wherever its
-/// structure leads. Only checkpoints have these. They are in different pages, but damage of one
-/// link can hide both from HDF5. Reads the whole file. Called on one rank; throws FileError.
+/// Whether the file's bytes contain the text of checksums or a name in /carrom/run anywhere,
+/// whether or not its structure leads there. Only checkpoints contain these. They are in different
+/// pages, but damage of one link can hide both from HDF5. Reads the whole file. Called on one rank;
+/// throws FileError.
 bool has_traces_of_checkpoint(const std::string& path);
 
 /// The checksum of a file without `left_out`. Called on one rank; throws FileError.

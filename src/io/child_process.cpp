@@ -20,10 +20,11 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-constexpr unsigned patience_seconds = 50;  ///< for a process that waits without using a processor
+/// Time limit for a process that waits without using a processor
+constexpr unsigned patience_seconds = 50;
 constexpr time_t least_of_loop = 3;        ///< processor time in seconds; undamaged files need less
 constexpr std::size_t longest_text = 4000; ///< a pipe takes this many bytes at once
-constexpr int code_of_machine = 3;         ///< of a child that ends with a MachineError
+constexpr int code_of_machine = 3;         ///< exit code of a child that ends with a MachineError
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     rlimit limit{};
@@ -32,7 +33,7 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// The child must not act for the program, so it gets no signal handlers and no core file.
+/// The child must not act in place of the program, so it gets no signal handlers and no core file.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);
@@ -73,7 +74,7 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that inspects it");
     const pid_t child = ::fork();
     if (child == 0) {
-        ::close(ends[0]); // so that a file can be opened even if the limit is low
+        ::close(ends[0]); // frees a file handle, because the limit may be low
         inspect_and_exit(inspect, ends[1]);
     }
     ::close(ends[1]);

@@ -87,7 +87,7 @@ void CollisionLog::begin() {
 }
 
 bool CollisionLog::go_on(std::int64_t step) {
-    steps_ = {step, {}}; // if there is no file
+    steps_ = {step, {}}; // there is no file
     if (step > 0) steps_.gaps = {1, step};
     return file_->go_on(std::string(h5md::collisions_path) + column_names[0], step,
                         [&](hid_t file) {

@@ -3,8 +3,8 @@
 //
 // Columns of /carrom/collisions: step (in which the collision happens, from 1), time (in steps,
 // from the start), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. Rank
-// 0 writes the rows that the ranks send in their order; see Trajectory for the reason and for
-// errors.
+// 0 writes the rows, which the ranks send in their order, for the reason that Trajectory gives;
+// errors are as there.
 #pragma once
 
 #include <cstdint>

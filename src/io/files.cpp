@@ -198,7 +198,8 @@ void rename_durably(const std::string& from, const std::string& to) {
     std::string held;
     for (const auto& [number, path] : held_folders())
         if (to.starts_with(path) && from.starts_with(path)) folder = number, held = path;
-    // If another folder has taken this one's name, `from` is in that folder, and is not found here.
+    // If another folder has taken the name of the held folder, `from` is in that other folder, so
+    // the rename fails.
     const std::size_t n = held.size();
     const bool is_done = ::renameat(folder, held.empty() ? from.c_str() : below(from, n), folder,
                                     held.empty() ? to.c_str() : below(to, n)) == 0;

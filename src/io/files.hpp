@@ -39,7 +39,7 @@ public:
 /// A file descriptor that closes itself.
 class Descriptor {
 public:
-    /// Throws FileError if it cannot be opened, or is a directory (without
+    /// Opens the file. Throws FileError if this fails, or if the path is a directory (without
     /// O_DIRECTORY), a pipe or a device.
     Descriptor(const std::string& path, int flags);
     ~Descriptor();
@@ -87,8 +87,8 @@ private:
     int number_;
 };
 
-/// Renames and syncs the folder, so that the new name lasts. Throws if the folder is held and
-/// its path has come to name another one.
+/// Renames, and syncs the folder so that the new name is on disk. Throws if the folder is held and
+/// its path now leads to another folder.
 void rename_durably(const std::string& from, const std::string& to);
 /// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";
@@ -108,10 +108,11 @@ private:
     bool is_mine_;
 };
 
-/// A name that nobody can guess. `remove_unfinished` removes such files after a program was killed.
+/// A name that cannot be predicted. `remove_unfinished` removes such files after a program was
+/// killed.
 std::string name_beside();
 /// Replaces a file by a new one, as a whole or not at all. `write` makes it under a name that
-/// nobody can guess, and syncs it to disk.
+/// cannot be predicted, and syncs it to disk.
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write);
 void replace_file(const std::string& path, const std::string& text);
@@ -121,8 +122,8 @@ std::string folder_of(const std::string& path);
 
 /// The text of an error, with advice if the limit of open files is too low.
 std::string with_remedy(const FileError& error);
-/// The text of an error after `path`, with its remedy. If the machine is the cause, a `code` for
-/// bad input becomes that of a rank that failed.
+/// The text of an error after `path`, with advice. If the machine is the cause, a `code` for bad
+/// input becomes the code of a failed rank.
 std::string described(const FileError& error, const std::string& path, ExitCode& code);
 
 /// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with

@@ -163,9 +163,9 @@ std::size_t FileSummary::place_of(std::string_view column) const {
 
 struct FrameFile::State {
     h5::File file;
-    CheckpointHeader header;           ///< only for a checkpoint
-    std::vector<ColumnSource> sources; ///< only for the columns of a recording
-    std::vector<FileSegment> segments; ///< only for a recording
+    CheckpointHeader header;           ///< the header of a checkpoint
+    std::vector<ColumnSource> sources; ///< the columns of a recording
+    std::vector<FileSegment> segments; ///< the segments of a recording
 };
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {

@@ -27,7 +27,7 @@ struct FileSummary : RecordedSystem {
     std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities
     std::vector<std::int64_t> steps;  ///< the steps of the frames
     std::string state_hash;           ///< hash of a checkpoint; empty for other files
-    std::vector<std::int64_t> gaps;   ///< of a log: the first and last step of each gap
+    std::vector<std::int64_t> gaps;   ///< the first and last step of each gap of a log
 
     /// The index of a column, or the number of columns if there is no such column.
     std::size_t place_of(std::string_view column) const;
@@ -80,8 +80,8 @@ private:
 /// The first difference between two files of one kind, and the largest one.
 struct FileDifference {
     bool is_same = true;
-    std::string first;  ///< for example "step 10, disc 17, vx: 0.25 and 0.5"
-    double largest = 0; ///< over all numbers
+    std::string first;  ///< the first difference, such as "step 10, disc 17, vx: 0.25 and 0.5"
+    double largest = 0; ///< the largest difference of all numbers
     std::string largest_in;
 };
 

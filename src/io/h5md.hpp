@@ -12,7 +12,7 @@
 namespace carrom::h5md {
 
 inline constexpr const char *discs_path = "/particles/discs/",
-                            *collisions_path = "/carrom/collisions/",   ///< not part of H5MD
+                            *collisions_path = "/carrom/collisions/",   ///< a path outside H5MD
                                 *gaps_path = "/carrom/collisions/gaps"; ///< first step, last step,
                                                                         ///< and so on
 inline constexpr const char *step_path = "/particles/discs/box/edges/step",

@@ -22,8 +22,8 @@ void start_io() {
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5dont_atexit();
     H5open(); // before MPI starts, so that HDF5 does not register an action for MPI's end
-    H5Lunregister(H5L_TYPE_EXTERNAL); // forbids links into other files
-    H5PLset_loading_state(0);         // forbids filters that load libraries
+    H5Lunregister(H5L_TYPE_EXTERNAL); // HDF5 must not follow links into other files
+    H5PLset_loading_state(0);         // HDF5 must not load libraries of filters
 }
 
 std::string hdf5_version() {
@@ -38,9 +38,9 @@ namespace carrom::h5 {
 
 namespace {
 
-// Because scenes have at most 2^26 characters
+// Scenes have at most 2^26 characters
 constexpr std::size_t longest_text = std::size_t{1} << 28;
-constexpr unsigned most_links = 64; // of a group in Carrom's files
+constexpr unsigned most_links = 64; // largest number of links in a group of Carrom's files
 
 /// The innermost entries of the error stack contain the system's text.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
@@ -134,7 +134,8 @@ Properties properties(hid_t kind) {
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
     leave_out_times(creation);
-    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED}); // as for groups
+    // the newer format, as for groups
+    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED});
     return creation;
 }
 
@@ -168,14 +169,14 @@ void create_file(const std::string& path, const std::function<void(hid_t file)>&
         build(file.id());
         file.close("cannot be written");
     } catch (...) {
-        file.abandon(); // because closing would try to write again
+        file.abandon(); // closing would try to write again
         throw;
     }
 }
 
 File open_alone(const std::string& path, Access access) {
     be_quiet();
-    const Descriptor plain(path, O_RDONLY); // because HDF5 would wait for the other end of a pipe
+    const Descriptor plain(path, O_RDONLY); // fails for pipes; HDF5 would wait for the other end
     if (access == Access::read && !check_seal(path)) check_heaps(path);
     if (H5Fis_hdf5(path.c_str()) == 0)
         throw FileError(
@@ -195,7 +196,7 @@ File open_file(const std::string& path, Access access) {
 }
 
 SharedFile::SharedFile(const std::string& path, Access access, const Communicator& communicator) {
-    if (native(communicator) == MPI_COMM_NULL) { // because the program runs without MPI
+    if (native(communicator) == MPI_COMM_NULL) { // the program runs without MPI
         file_ = open_file(path, access);
         return;
     }

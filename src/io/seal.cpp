@@ -62,7 +62,7 @@ bool has_end(std::string_view heap) {
         const std::uint64_t length = length_at(object.substr(place_of_size));
         const bool is_free_room = object[0] == 0 && object[1] == 0;
         if (is_free_room && length == 0) return false;
-        if (length > object.size()) return true; // HDF5 detects this itself
+        if (length > object.size()) return true; // HDF5 itself detects this damage
         place += is_free_room ? length
                               : object_header + (length + alignment - 1) / alignment * alignment;
     }

@@ -127,7 +127,7 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
         throw FileError("has other columns than this run records; see output.trajectory.fields");
 }
 
-/// Cuts off the rows behind `n`. The last remaining segment is written to next.
+/// Cuts off the rows behind `n`. The next rows are written to the last remaining segment.
 void SegmentedFile::cut(std::uint64_t n_rows) {
     is_cut_ = n_rows < n_rows_;
     std::vector<FileSegment>& segments = index_.segments;
@@ -255,7 +255,7 @@ void SegmentedFile::refuse_other_file() const {
     if (!seal_ || !is_there()) return;
     try {
         if (seal_of(path_) == seal_) return;
-    } catch (const FileError&) { // it may be removed right now, with its folder
+    } catch (const FileError&) { // another process may be removing it, with its folder
         if (!is_there()) return;
         throw;
     }
@@ -273,7 +273,7 @@ void SegmentedFile::commit_here() {
         });
         seal_index(beside);
         const auto seal = seal_of(beside);
-        refuse_other_file(); // immediately before, because another file may appear at any time
+        refuse_other_file(); // repeated here, because another file may appear at any time
         seal_ = seal;
     });
     is_cut_ = false;

@@ -103,11 +103,11 @@ private:
     Index index_;
     std::uint64_t n_rows_ = 0;
     bool is_cut_ = false;                ///< whether rows were cut off since the last commit
-    ColumnHashers hashers_;              ///< of the last segment
-    std::vector<std::uint64_t> written_; ///< for each column: bytes since the last `add`
+    ColumnHashers hashers_;              ///< hashes of the last segment's columns
+    std::vector<std::uint64_t> written_; ///< bytes of each column since the last `add`
     /// The last segment. It stays open, so that no other file that takes its name is written to.
     std::unique_ptr<Descriptor> open_;
-    std::uint64_t open_size_ = 0; ///< its full size in bytes, which does not change
+    std::uint64_t open_size_ = 0; ///< full size of the last segment in bytes, which does not change
     /// Checksum of the small file, as soon as this object has written it
     std::optional<StateHash> seal_;
     std::string failure_;

@@ -98,7 +98,7 @@ std::optional<Index> read_checked_index(const std::string& path, bool are_rows_w
     for (const FileSegment& segment : index.segments) {
         try {
             const std::string part = segment_path(path, segment.name);
-            std::error_code error; // an inaccessible part is an error when it is opened
+            std::error_code error; // ignored: opening an inaccessible part reports the error
             if (!std::filesystem::exists(part, error) && !error)
                 throw FileError(fmt::format("is not there; copy the folder {}/ together with {}",
                                             folder_of(segment.name),

@@ -6,10 +6,10 @@
 
 namespace carrom {
 
-/// Call it once, before MPI starts. It has three effects. HDF5 does nothing at the program's end;
-/// otherwise it would repeat a failed write, at which HDF5 1.10 crashes, which hides the exit code.
-/// HDF5 accepts files on file systems without locks, unless HDF5_USE_FILE_LOCKING forbids it. A
-/// write beyond the limit of file sizes (ulimit -f) fails like any other, instead of ending the
+/// Call it once, before MPI starts. It has three effects. HDF5 does nothing at the program's end.
+/// Otherwise it would repeat a failed write, at which HDF5 1.10 crashes, so that the exit code is
+/// lost. HDF5 accepts files on file systems without locks, unless HDF5_USE_FILE_LOCKING forbids it.
+/// A write beyond the limit of file sizes (ulimit -f) fails like any other, instead of ending the
 /// process.
 void start_io();
 

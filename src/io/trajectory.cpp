@@ -121,7 +121,8 @@ public:
     void append(const DiscWords& words, std::vector<std::uint64_t>& to) const {
         for (const std::size_t place : places_) to.push_back(words[place]);
     }
-    /// The word of a disc at `collected`; 0 if it is not collected.
+    /// The word at `place` of the disc whose collected words begin at `collected`; 0 if words at
+    /// this place are not collected.
     std::uint64_t word(const std::uint64_t* collected, std::size_t place) const {
         return slots_[place] == none ? 0 : collected[slots_[place]];
     }
@@ -152,7 +153,7 @@ public:
     /// call; nothing on other ranks. **Collective.**
     std::span<const std::uint64_t> next(std::uint64_t begin, std::uint64_t end) {
         const std::size_t width = collected_.n();
-        std::vector<std::uint64_t> mine; // for each disc its id, and then its words
+        std::vector<std::uint64_t> mine; // the id of each disc, and then its words
         for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) {
             mine.push_back(discs_[order_[next_]].id);
             collected_.append(shown(order_[next_]), mine);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of a run at regular steps as H5MD, with discs in the order of their ids.
 //
-// Frames stream through rank 0 in slabs of ids. So they survive kills and can be read during the
-// run (SegmentedFile), but one rank's speed to the disk limits them. An XDMF description for
-// ParaView and VisIt is written beside the file.
+// Frames stream through rank 0 in slabs of ids. So a kill does not damage them, and they can be
+// read during the run (SegmentedFile), but one rank's speed to the disk limits them. An XDMF
+// description for ParaView and VisIt is written beside the file.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,7 @@ public:
                 std::span<const DiscImage> images = {});
 
     /// Makes all frames so far permanent and visible to readers. Writes the XDMF description again
-    /// if it is old. **Collective.**
+    /// if many frames are missing there. **Collective.**
     void commit();
 
     /// Describes all frames in XDMF, for tools based on VTK. **Collective.**

@@ -47,7 +47,8 @@ WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
 
 WriteLock::~WriteLock() {
     if (file_ < 0) return;
-    if (!is_lost()) ::unlink(path_.c_str()); // before another run can get the lock
+    // removes the file before the lock is released, because no other run can have the lock then
+    if (!is_lost()) ::unlink(path_.c_str());
     ::close(file_);
 }
 
@@ -58,7 +59,7 @@ WriteLock::WriteLock(WriteLock&& other) noexcept
       problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)),
       folder_(std::move(other.folder_)) {}
 
-/// Returns true if waiting is useless or unnecessary.
+/// Returns true if further waiting would be useless, or if the lock is held.
 bool WriteLock::try_once() {
     holder_.clear();
     const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,

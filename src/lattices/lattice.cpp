@@ -73,7 +73,7 @@ double free_radius_in(const Shape& shape, double length, double height, double r
         nearest = std::min(nearest, rest / (half + root));
         if (shape.lattice.rows > 2) nearest = std::min(nearest, 2 * height / (2 + shape.y_spans));
     }
-    // In a narrow tube the walls are nearer
+    // In a narrow tube the walls are nearer than other discs
     return std::min({nearest, length, height}) / 2 - radius;
 }
 
@@ -99,7 +99,7 @@ void try_rows_along(Axis axis, std::uint64_t n_discs, const Box& box, double rad
     for (std::uint64_t rows = 1; rows <= most_rows; ++rows) {
         for (const int kind : {0, 1, 2}) {
             if (kind == 2 && (n_discs + rows / 2 + rows - 1) / rows < 2)
-                continue; // because odd rows would be empty
+                continue; // odd rows would be empty
             Shape shape = shape_of(n_discs, rows, kind > 0, kind == 2);
             shape.lattice.axis = axis;
             place(shape, box, radius);
@@ -119,7 +119,7 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, dou
     // tolerance.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;
     widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box.longest(),
-                                   0.0); // because rounding must not make the gap negative
+                                   0.0); // rounding must not make the gap negative
     return widest;
 }
 

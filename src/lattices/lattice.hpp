@@ -4,10 +4,10 @@
 //
 // It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
 // stretched to fill the box, with every number of rows along the longer side and then along the
-// other one. The lattice whose discs may move farthest is chosen. Its sites leave a gap s to the
-// walls and 2 s between discs, so each disc may be moved by up to s in any direction without an
-// overlap. Sites in excess of N stay empty, spread evenly. Finding it costs O(sqrt N) in a square,
-// a site O(1).
+// other one. The lattice with the largest free distance of discs is chosen. Its sites leave a gap s
+// to the walls and 2 s between discs, so each disc may be moved by up to s in any direction without
+// an overlap. Sites in excess of N stay empty, spread evenly. Finding the lattice costs O(sqrt N)
+// in a square, and a site costs O(1).
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Lattice {
     Axis axis = Axis::x;                 ///< rows run along this axis; x below means this axis
     double x0 = 0, y0 = 0;               ///< position of the first site
     double dx = 0, dy = 0;               ///< spacing in a row, and between rows
-    double free_radius = 0;              ///< s: the distance by which each disc may move
+    double free_radius = 0;              ///< s: the distance by which each disc may be moved
 
     std::uint64_t n_sites() const { return rows * columns - (odd_rows_are_shorter ? rows / 2 : 0); }
 };

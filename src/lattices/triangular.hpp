@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A triangular lattice that fits a periodic box without a defect: n columns and an even number m of
-// rows, each shifted by half a spacing against the one before. With the spacing a, one edge is n a,
-// and the other is m a sqrt(3) / 2. So the ratio of the edges is a ratio of two whole numbers times
-// sqrt(3) / 2, and only few numbers of discs fit a given box.
+// A triangular lattice that fits a periodic box without a defect. It has n columns and an even
+// number m of rows, each shifted by half a spacing against the one before. With the spacing a, one
+// edge is n a, and the other is m a sqrt(3) / 2. So the ratio of the edges is a ratio of two whole
+// numbers times sqrt(3) / 2, and only few numbers of discs fit a given box.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace carrom {
 struct TriangularLattice {
     std::uint64_t columns = 0, rows = 0;
     Axis axis = Axis::x;            ///< rows run along this axis
-    double spacing = 0, height = 0; ///< in a row, and between rows
+    double spacing = 0, height = 0; ///< spacing in a row, and distance between rows
 
     /// The distance between nearest sites.
     double nearest() const;

@@ -21,9 +21,9 @@ void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
             {{call, 0, fmt::format("has room for {} numbers; it wants {}", size, wanted)}});
 }
 
-/// Whether a place may be outside of [0, period), which is any length where there is no period.
-/// One comparison does, because the bits of numbers from 0 on have their order, and those of
-/// negative ones are larger.
+/// Whether a place may be outside of [0, period). Without a period the range is unlimited. One
+/// comparison is enough, because the bits of numbers from 0 on have the same order as the numbers,
+/// and those of negative ones are larger.
 bool may_be_outside(double place, double period) {
     const double end = period == 0 ? std::numeric_limits<double>::infinity() : period;
     return std::bit_cast<std::uint64_t>(place) >= std::bit_cast<std::uint64_t>(end);

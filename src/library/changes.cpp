@@ -98,7 +98,7 @@ void apply(const Disc& disc, const Change& change, const DiscState& shown, const
     stored.y = change.of_place ? disc.y - frame.y : y;
     stored.tau = time;
     if (!change.of_velocity) return;
-    if (frame.periods.are_moving()) { // because the box may show an image with another velocity
+    if (frame.periods.are_moving()) { // the box may show an image with another velocity
         stored.vx += (disc.vx / unit - shown.vx) / frame.slowing;
         stored.vy += (disc.vy / unit - shown.vy) / frame.slowing;
     } else {
@@ -135,11 +135,11 @@ std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vect
     return problems;
 }
 
-/// The changes of a call on this rank.
+/// The changes that a call makes on this rank.
 struct Changed {
     bool places = false, any = false;
-    /// Box lengths between the stored positions of moved discs, outside of a periodic box, and
-    /// their positions in it. The new stored positions are in the box, so no sync brings them back.
+    /// Box lengths between the stored positions of moved discs and their positions in a periodic
+    /// box. The new stored positions are in the box, so no sync records these lengths.
     std::vector<Crossing> crossings{};
 };
 

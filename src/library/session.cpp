@@ -40,7 +40,7 @@ Session::Session(int fortran_communicator) {
 }
 
 Session::~Session() {
-    // Because the program may have ended MPI
+    // The program may have ended MPI
     if (!has_mpi_ended()) Departure(state_->ranks).leave();
 }
 
@@ -56,7 +56,7 @@ int Session::run(const std::function<int()>& body) const {
             const int code = body();
             departure.leave();
             return code;
-        } catch (const std::exception& error) { // because other ranks may wait for this one
+        } catch (const std::exception& error) { // other ranks may wait for this one
             departure.leave(error.what());
             throw;
         }

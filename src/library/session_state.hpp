@@ -15,7 +15,7 @@ namespace carrom {
 struct Session::State {
     std::unique_ptr<Mpi> mpi; ///< set if the session has started MPI; destroyed last
     Communicator ranks;
-    Communicator ends = duplicate_of(ranks); ///< by which ranks agree on the end of Session::run
+    Communicator ends = duplicate_of(ranks); ///< used when ranks agree on the end of Session::run
 };
 
 inline const Communicator& ranks_of(const Session& session) { return session.state().ranks; }

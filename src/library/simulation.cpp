@@ -35,7 +35,7 @@ bool may_count_images(const Options& options, const SceneParameters& scene) {
 
 /// **Collective.**
 Tuning tuning_of(const Options& options, const Communicator& ranks) {
-    std::vector<Problem> problems; // these may be on one rank only
+    std::vector<Problem> problems; // problems of this rank; other ranks may have none
     if (options.threads < 0)
         problems.push_back({"Options", 0, fmt::format("{} threads", options.threads)});
     agree_on_problems(ranks, problems);
@@ -75,7 +75,7 @@ Simulation::State::State(SceneParameters checked, RunStart start, const Communic
 }
 
 std::int64_t Simulation::State::ImageReading::next_due(std::int64_t) const {
-    // Any step at which the run stops anyway is enough
+    // The run stops often enough anyway
     return std::numeric_limits<std::int64_t>::max();
 }
 
@@ -101,7 +101,7 @@ void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> mos
                                fmt::format("{} pairs of discs would overlap, the deepest by {:.3g}",
                                            totals.overlapping_pairs, totals.deepest_overlap)}});
     }
-    checkpoints_.reset(); // because it refers to the old run
+    checkpoints_.reset(); // the old checkpoints refer to the old run
     run_ = std::move(next);
     read_images_often();
     if (wanted_checkpoints_) keep_checkpoints(*wanted_checkpoints_);

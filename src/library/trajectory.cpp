@@ -55,7 +55,8 @@ struct TrajectoryWriter::State {
 
     const Run& run() const { return simulation.run(); }
 
-    const Simulation::State& simulation; ///< its run is replaced when discs are changed
+    /// a reference to the State, because its run is replaced when discs are changed
+    const Simulation::State& simulation;
     std::string file;
     carrom::Trajectory trajectory;
     std::int64_t last_step = -1; ///< step of the last frame; the same on all ranks
@@ -75,7 +76,7 @@ TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const 
     state->last_step = state->trajectory.go_on(run.step(), [&run](const CheckpointHeader& there) {
         return first_difference(there, run.scene());
     });
-    run.ranks().broadcast(state->last_step); // rank 0 has read the file
+    run.ranks().broadcast(state->last_step); // only rank 0 has read the file
     state->trajectory.commit();
     return TrajectoryWriter(std::move(state));
 }

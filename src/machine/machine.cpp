@@ -66,7 +66,7 @@ std::string host_name() {
 int sharers_of(std::uint64_t key, const Communicator& ranks) {
     std::vector<std::uint64_t> keys(static_cast<std::size_t>(ranks.size()), 0);
     keys[static_cast<std::size_t>(ranks.rank())] = key;
-    ranks.sum(keys); // each rank contributes its own key and zeros, so every rank gets all keys
+    ranks.sum(keys); // each rank adds its own key and zeros, so the sum has all keys
     return static_cast<int>(std::count(keys.begin(), keys.end(), key));
 }
 

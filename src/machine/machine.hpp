@@ -15,7 +15,7 @@ namespace carrom {
 /// How the program was built, for reports of measurements.
 struct BuildFacts {
     std::string compiler; ///< such as "GNU 12.2.0"
-    std::string flags;    ///< optimisation flags, and flags of all targets
+    std::string flags;    ///< optimisation flags of this build, and flags of all targets
     /// Such as "0123456789ab", from when the build was configured; or "unknown"
     std::string commit;
 };
@@ -28,9 +28,9 @@ std::string vector_target();
 /// The processor's name; empty if the system does not report it.
 std::string processor_name();
 
-/// The number of threads of this rank if the user has not chosen one: OMP_NUM_THREADS, else the
-/// cores it may use, divided by the ranks of its node that may use the same ones; at least 1.
-/// **Collective.**
+/// The number of threads of this rank if the user has not chosen one: OMP_NUM_THREADS, or the cores
+/// that the rank may use, divided by the number of ranks of its node that may use the same cores;
+/// at least 1. **Collective.**
 int default_threads(const Communicator& ranks);
 
 /// Throws CollectiveError if a rank cannot start so many threads, because OpenMP would then end the

@@ -46,8 +46,8 @@ void BlockAverages::begin() {
     blocks_.clear();
 }
 
-/// A time between samples of at most `steps` for which samples fall on different times between two
-/// syncs, if that is possible.
+/// A time between samples of at most `steps`. If possible, it is chosen so that samples fall on
+/// different times between two syncs.
 std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
     for (std::int64_t less = steps; less > steps / 2; --less)
         if (std::gcd(less * system_.micro_steps, system_.sync_every) ==
@@ -91,11 +91,12 @@ void BlockAverages::add(std::int64_t step, const Block& block) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
-    // A run may be longer than planned.
+    // A run may continue beyond its planned end.
     if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 
-/// Samples need not be closer than syncs. If syncs are frequent, samples do not depend on them.
+/// The longest useful time between samples: samples need not be more frequent than syncs. If syncs
+/// are very frequent, samples do not depend on them.
 std::int64_t BlockAverages::most_steps_per_sample() const {
     const std::int64_t apart = std::max(system_.sync_every, usual_interval);
     return (apart + system_.micro_steps - 1) / system_.micro_steps;
@@ -170,7 +171,7 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(step - sample_step_);
     block.motion = integrals_between(system_, before, sample, steps);
-    // These are assumed to change linearly between two samples
+    // These numbers are assumed to change linearly between two samples
     for (const MotionSample* one : {&before, &sample}) {
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);
@@ -189,7 +190,7 @@ template <class Value>
 Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
     Estimate result;
     result.value = value(whole);
-    if (std::isnan(result.value)) return result; // undefined in this scene
+    if (std::isnan(result.value)) return result; // undefined for this scene
     std::vector<double> terms;
     for (const Block& block : blocks_) terms.push_back(value(block));
     const BlockedMean blocked = blocked_mean(terms);

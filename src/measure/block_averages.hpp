@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The averages of every run, with errors from its history in blocks of equal length in time. This
+// The averages of every run. Their errors come from blocks of equal length in time. This
 // measurement is always on, and has its own sampling times.
 //
-// A block is a number of steps. When there are `most_blocks`, each two are joined to one, and later
-// blocks are twice as long. The discs are sampled at fixed steps, which do not depend on syncs.
-// Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp), and so
-// are counts of collisions; mean speed and kurtosis are assumed to change linearly. Samples are 64
-// micro-steps apart in long runs, and closer if a run is too short for an error or if its energy
-// changes. Price of a sample: two passes over the discs, some five nanoseconds a disc.
+// A block is a number of steps. When there are `most_blocks`, every two of them are joined, and
+// later blocks are twice as long. The discs are sampled at fixed steps, which do not depend on
+// syncs. Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
+// and so are counts of collisions. Mean speed and kurtosis are assumed to change linearly. Samples
+// are 64 micro-steps apart in long runs, and closer if a run is too short for an error or if its
+// energy changes. Price of a sample: two passes over the discs, some five nanoseconds a disc.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ public:
     void begin_interval() { interval_->begin(interval_->now()); }
     void sample(const SampledState& state) override;
     void keep(KeptNumbers& kept) override;
-    /// No tables, because a run's report and the library show `averages`.
+    /// No tables, because a run's report and the library use `averages`.
     std::vector<MeasuredTable> tables() const override { return {}; }
 
     /// Averages up to the present step. **Collective.**
@@ -67,7 +67,8 @@ private:
                                 const MotionSample& sample) const;
 
     const AveragedSystem& system_;
-    std::optional<MotionInterval> interval_; ///< since the last sample, once averages have begun
+    /// The interval since the last sample, after averages have begun
+    std::optional<MotionInterval> interval_;
     /// The first step, the first step of the present block, and the step of the last sample
     std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0;
     Block present_;

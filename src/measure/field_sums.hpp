@@ -183,15 +183,16 @@ private:
     Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
     double usual_square_ = 0; ///< the terms of a disc with a lower squared speed have 62 bits
     std::vector<std::uint64_t> counts_;
-    std::vector<ExactSum> sums_;     ///< without the terms in `gathered_`
-    std::vector<Gathered> gathered_; ///< of each cell
+    std::vector<ExactSum> sums_;     ///< the sums without the terms in `gathered_`
+    std::vector<Gathered> gathered_; ///< gathered terms of each cell
 };
 
 /// Calls `act(column, row, from, to)` for each part of the line from (u, v) to (u + du, v + dv), in
 /// widths of cells. `from` and `to` are shares of the line, in order; columns and rows may lie
 /// outside the grid.
 template <class Act> void for_each_part_of_line(double u, double v, double du, double dv, Act act) {
-    const auto cell = [](double place) { // because std::floor is a function call
+    // A function of its own, because std::floor is a function call
+    const auto cell = [](double place) {
         const auto whole = static_cast<std::int64_t>(place);
         return static_cast<double>(whole) > place ? whole - 1 : whole;
     };

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Follows the box lengths by which syncs bring discs back, because they are part of the
+/// Records by how many box lengths syncs bring discs back, because these are part of the
 /// displacement.
 void Flights::follow() {
     if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.system, run_.ranks);

@@ -22,7 +22,7 @@ public:
 
     /// Call it before the first step, or at a restart. **Collective.**
     void follow();
-    /// The discs at positions that no periodic side has changed since the last sync.
+    /// The discs at positions that have not been brought back into the box since the last sync.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Starts all displacements here. **Collective.**
     void begin(std::span<const DiscState> flown);
@@ -41,9 +41,11 @@ private:
     MeasuredRun& run_;
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
-    std::vector<std::array<double, 2>> first_places_; ///< for this rank's run of ids
+    std::vector<std::array<double, 2>>
+        first_places_; ///< first places of the consecutive ids that this rank follows
     std::vector<std::array<double, 2>> first_velocities_;
-    std::optional<ImageCounts> lengths_; ///< of a periodic box, since the beginning
+    /// Counts of box lengths in a periodic box, since the beginning
+    std::optional<ImageCounts> lengths_;
     DiscStates flown_;
 };
 

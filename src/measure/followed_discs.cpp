@@ -48,7 +48,7 @@ const FollowedStates& FollowedDiscs::now() {
     return states_;
 }
 
-/// Because a common motion is not diffusion (see centred_flights.hpp).
+/// A common motion is not diffusion (see centred_flights.hpp).
 void FollowedDiscs::subtract_mean(const std::array<bool, 2>& is_apart) {
     const double length = run_.scene.box.longest() * 0x1p70;
     std::array<ExactSum, 5> sums = {ExactSum(0x1p70), ExactSum(length), ExactSum(length),
@@ -86,7 +86,7 @@ void FollowedDiscs::keep(KeptNumbers& kept) {
     lengths_->go_on(places, &FirstPlace::lengths_x, &FirstPlace::lengths_y);
 }
 
-/// Each rank adds its words to zeros of the others, so that all ranks get all words.
+/// Each rank contributes its own words and zeros for the others, so the sum has all words.
 void FollowedDiscs::keep(KeptNumbers& kept, std::vector<double>& of_discs) const {
     std::vector<std::uint64_t> words;
     if (!kept.is_restored()) {

@@ -28,8 +28,8 @@ public:
     ImageCounts(const ImageCounts&) = delete;
     ImageCounts& operator=(const ImageCounts&) = delete;
 
-    /// Restores the counts from `stored` places; the last two arguments name their members.
-    /// **Collective.**
+    /// Restores the counts from `stored` places; the last two arguments are the members of
+    /// FirstPlace that contain them. **Collective.**
     void go_on(std::span<const FirstPlace> stored, double FirstPlace::* x, double FirstPlace::* y);
 
     /// Counts from 0, from the last sync on.

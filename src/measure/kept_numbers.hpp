@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The data of a measurement in a checkpoint: words of 64 bits. One function of the measurement
-// names its numbers, for storing and for restoring, so that both have the same order.
+// visits its numbers, both to store and to restore them, so that the order is the same.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// A part that begins with its length. `keep` names its numbers. They are in the same list,
+    /// A part that begins with its length; `keep` visits its numbers. They go into the same list,
     /// because a copy of each part would double the memory.
     template <class Keep> void part(const Keep& keep) {
         std::int64_t size = 0;
@@ -64,14 +64,15 @@ public:
         keep(its);
         if (!its.is_right() || !its.is_at_end()) refuse();
     }
-    /// A setting on which the sums depend. If the stored setting differs, the sums are useless.
+    /// Stores a setting on which the sums depend. If it differs when it is restored, the sums are
+    /// useless.
     template <class T> void same(const T& value) {
         T found = value;
         (*this)(found);
         if (found != value) is_other_ = true;
     }
 
-    /// False if stored words are missing or have other settings.
+    /// False if stored words are missing or belong to other settings.
     bool is_right() const { return !is_other_; }
     bool is_at_end() const { return next_ == stored_.size(); }
     void refuse() { is_other_ = true; }

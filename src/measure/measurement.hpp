@@ -64,17 +64,17 @@ struct SampledState {
     std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
     Extent box;
     bool is_first = false; ///< the first sample, before which there is no interval
-    /// Whether effects have acted at this step since the end of the interval before it.
+    /// Whether effects have acted at this step after the last interval ended.
     bool follows_effects = false;
 };
 
-/// A number for each sample that the table "thermo" shows in its last columns.
+/// A number for each sample that is shown in the last columns of the table "thermo".
 struct ThermoColumn {
     std::string name, remark;
     std::function<double(std::size_t)> at_sample;
 };
 
-/// All functions but `tables` and what follows it are **collective**.
+/// All functions before `tables` are **collective**.
 class Measurement {
 public:
     explicit Measurement(MeasuredRun& run) : run_(run) {}
@@ -95,7 +95,7 @@ public:
     /// Whether a sample moves discs in memory. It is then taken after all others.
     virtual bool moves_discs() const { return false; }
 
-    /// Names all numbers that a checkpoint stores; at a restart the same function restores them.
+    /// Visits all numbers that a checkpoint stores. At a restart the same function restores them.
     virtual void keep(KeptNumbers& kept) = 0;
     /// Stores numbers of each disc; most measurements have none.
     virtual void store_discs(StoredSamples& /*stored*/) {}

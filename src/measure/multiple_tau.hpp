@@ -3,11 +3,11 @@
 // Ramirez and others, J. Chem. Phys. 133, 154103 (2010), without its averages over time.
 //
 // Level l keeps every 2^l-th sample, the last `points` of them. The first level has lags of 1 to
-// `points` samples, and each further one those of points / 2 + 1 to `points` times 2^l. Each kept
+// `points` samples. Each further level has lags of points / 2 + 1 to `points` times 2^l. Each kept
 // sample is an origin, so origins overlap. Lags can be as long as the run, memory grows with the
 // logarithm of its length, and a sample is compared with some 1.5 `points` earlier ones on average.
-// Ramirez averages the samples that a level skips, which blurs lags. Here they are left out, so
-// that each lag is exact, because displacements need that.
+// Ramirez averages the samples that a level skips, which blurs lags. Here these samples are left
+// out, because displacements need exact lags.
 #pragma once
 
 #include <bit>
@@ -22,8 +22,8 @@ namespace carrom {
 inline constexpr QuantitySetting correlation_points{"correlation_points", 8};
 Key correlation_points_key();
 void check_correlation_points(const SceneDraft& draft);
-/// Warns of a run that has no lag at all. It is not an error, because a restart may continue to
-/// one.
+/// Warns that a run is too short for any lag. That is not an error, because a restart may continue
+/// the run.
 void warn_without_lags(const SceneDraft& draft);
 
 class MultipleTau {

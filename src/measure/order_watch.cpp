@@ -19,7 +19,8 @@ namespace {
 constexpr std::int64_t wanted_samples = 32;
 /// Between samples discs move by about this many radii.
 constexpr double radii_apart = 8;
-/// More discs would give psi6 hardly more precisely, and would take more time than everything else.
+/// With more discs psi6 would hardly become more precise, and would take more time than everything
+/// else.
 constexpr std::uint64_t most_discs = 4096;
 constexpr double longest_interval = 0x1p40;
 constexpr double golden_ratio = 0.6180339887498949;

@@ -31,7 +31,7 @@ public:
     void forget_pressures() { pressures_.clear(); }
     /// The last sample. Its speeds and counts are unknown after a restart.
     const MotionSample& last() const { return interval_.last(); }
-    double temperature() const; ///< at the last sample
+    double temperature() const; ///< temperature at the last sample
     // Means over the last interval:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
     /// Kinetic energy. It is unknown after a restart, and between sheared sides.

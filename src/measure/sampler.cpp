@@ -66,7 +66,7 @@ void Sampler::go_on_measuring(const StoredSamples& stored) {
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     KeptNumbers kept(stored.sums);
     keep_settings(kept);
-    StoredSamples asked; // its flags select the stored numbers of each disc
+    StoredSamples asked; // the flags of `asked` select the stored numbers of each disc
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;
@@ -103,7 +103,7 @@ void Sampler::sample_if_due() {
     if (run_.scene.measurements) measure_if_due();
 }
 
-/// The state after effects shows only one of the two values at a sync, so the state before is
+/// At a sync the state after effects is only one of two values, so the state before them is
 /// sampled, too.
 void Sampler::sample_before_effects() {
     const std::int64_t step = run_.system.step();
@@ -127,8 +127,8 @@ void Sampler::end_intervals() {
     for (const auto& measurement : measurements_) measurement->end_interval();
 }
 
-/// Whether this is one of every second sample at syncs. It follows from the number of samples
-/// alone, so that it is the same after a restart.
+/// Whether the sample at this sync is taken before effects, which alternates. It follows from the
+/// number of samples alone, so that it is the same after a restart.
 bool Sampler::is_turn_before_effects() const {
     const std::int64_t apart = run_.output.every_steps * run_.scene.micro_steps,
                        samples_between = run_.scene.sync_every /

@@ -64,7 +64,7 @@ private:
     VectorBlocks& cell(std::size_t octave, std::size_t lag);
 
     std::size_t n_kinds_;
-    std::vector<std::vector<VectorBlocks>> octaves_; ///< by octave, then by lag
+    std::vector<std::vector<VectorBlocks>> octaves_; ///< means of each octave and lag
 };
 
 } // namespace carrom

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How ranks learn that one of them has failed: either every rank throws, or none does.
+// Functions by which ranks learn that one of them has failed: either every rank throws, or none
+// does.
 //
-// This is for set-up, input and output, not for the step. Price when all is well: one
-// reduction.
+// They are for set-up, input and output, not for the step. Price without a failure: one reduction.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 namespace carrom {
 
 /// Throws CollectiveError on every rank, with text and code of the lowest rank that is not `ok`, if
-/// there is one. If the other ranks do not come, because they wait for the failed rank in an
-/// operation that it has left, it prints its text after `patience_seconds` and aborts all ranks
-/// with its code. **Collective.**
+/// there is one. Other ranks may wait for the failed rank in an operation that it has left. If they
+/// do not arrive here within `patience_seconds`, the failed rank prints its text and aborts all
+/// ranks with its code. **Collective.**
 void agree(const Communicator& communicator, bool ok, const std::string& text,
            ExitCode code = ExitCode::collective_failure, double patience_seconds = 30);
 

@@ -118,14 +118,14 @@ void Communicator::sum(ExactSum& value) const {
     for (std::size_t k = 0; k < 3; ++k) limbs[k + 1] += limbs[k] >> 32;
     const std::uint64_t low = (limbs[0] & limb) | (limbs[1] << 32);
     const std::uint64_t high = (limbs[2] & limb) | (limbs[3] << 32);
-    // Words can only be added to the sum, so only the other ranks' share is added.
+    // The sum contains this rank's share already, so only the share of other ranks is added.
     value.add_words(low - own_low, high - own_high - (low < own_low ? 1 : 0));
 }
 
 std::uint64_t Communicator::sum_before(std::uint64_t value) const {
     ++handle_->traffic.collectives;
     if (handle_->is_alone()) return 0;
-    std::uint64_t result = 0; // MPI does not set it on rank 0
+    std::uint64_t result = 0; // on rank 0 MPI does not set the result
     MPI_Exscan(&value, &result, 1, MPI_UINT64_T, MPI_SUM, handle_->comm);
     return rank() == 0 ? 0 : result;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ranks of a run and what all of them do together: reductions, broadcasts, gathers. Only this
-// module calls MPI.
+// The ranks of a run and their common operations: reductions, broadcasts, gathers. Only this module
+// calls MPI.
 //
 // Values are sent as bytes, so they must be trivially copyable; all ranks run the same program.
 // Data of any size is split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator
-// share one MPI communicator, which is a duplicate of the world's: its messages never mix with
+// share one MPI communicator. It is a duplicate of the world's, so its messages never mix with
 // those of another owner. Every reduction gives all ranks the same bits for any number of ranks,
 // because floating-point sums are exact.
 #pragma once
@@ -65,7 +65,8 @@ public:
     std::uint64_t sum(std::uint64_t value) const; ///< wraps around
     void sum(std::span<std::uint64_t> values)
         const; ///< element-wise, in place, wraps around; the same length on all ranks
-    void sum(ExactSum& value) const; ///< in place; the same bound on all ranks
+    /// Adds up over all ranks in place; the same bound on all ranks
+    void sum(ExactSum& value) const;
     std::uint64_t sum_before(
         std::uint64_t value) const; ///< sum over the ranks below this one; 0 on rank 0
     bool any(bool value) const;

@@ -2,9 +2,9 @@
 // Messages from any rank to any rank, and from all ranks to rank 0 in bounded memory.
 //
 // send_to_owners announces sizes with one MPI_Alltoall of 8 bytes per pair of ranks, then sends
-// only the messages that are not empty. The announcement grows with the number of ranks (some 30 us
-// at 1000); a consensus without it (Hoefler, Siebert, Lumsdaine 2010) costs a barrier and as much
-// in latency until there are many thousands.
+// only the messages that are not empty. The announcement takes longer with more ranks (some 30 us
+// for 1000). A consensus without it (Hoefler, Siebert, Lumsdaine 2010) costs a barrier, whose
+// latency is as long unless there are many thousands of ranks.
 #pragma once
 
 #include <algorithm>

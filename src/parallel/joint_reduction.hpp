@@ -15,7 +15,7 @@ namespace carrom {
 /// `Counts` is a struct whose members are all std::uint64_t, so that each number has a name.
 template <class Counts> struct JointReduction {
     Counts counts{};    ///< may wrap around when added
-    double largest = 0; ///< not NaN; -0 may become +0
+    double largest = 0; ///< a number that is not NaN; -0 may become +0
 };
 
 /// The contents of a message; counts that a reduction does not have are 0.

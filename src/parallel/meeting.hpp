@@ -31,8 +31,8 @@ public:
     Departure(const Departure&) = delete;
     Departure& operator=(const Departure&) = delete;
 
-    /// From now on this rank makes no collective call. Ranks that wait for it all the same print
-    /// `reason`. Not collective.
+    /// From now on this rank makes no collective call. Ranks that wait for it print `reason`. Not
+    /// collective.
     void leave(const std::string& reason = {});
 
 private:

@@ -47,7 +47,8 @@ std::atomic<int> abort_code_now = 0;
 [[noreturn]] void abort_all(const char* kind, std::string_view text, int code = abort_code) {
     std::fflush(stdout);
     std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank,
-                 static_cast<int>(text.size()), text.data()); // because there may be no memory left
+                 // no allocation, because there may be no memory left
+                 static_cast<int>(text.size()), text.data());
     std::fflush(stderr);
     end_all(code);
 }
@@ -56,11 +57,11 @@ void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
 }
 
-/// Libraries of OpenMP and MPI end a process by `exit` with the codes 1 and 2, which here mean a
-/// difference and a wrong input.
+/// A library called `exit`. Libraries of OpenMP and MPI end a process with the codes 1 and 2, which
+/// here mean a difference and a wrong input.
 void end_after_library() {
     if (exit_now == Exit::regular) return;
-    // Because MPI has not ended regularly
+    // MPI has not ended regularly
     if (exit_now == Exit::of_abort) std::_Exit(abort_code_now);
     abort_all("error",
               "MPI's or OpenMP's library has ended the program, perhaps with a message above; "
@@ -85,7 +86,7 @@ void on_mpi_error(MPI_Comm*, int* code,
 
 struct Outcome {
     int code = 0;
-    std::string text; ///< an error on which all ranks should agree; empty if the body returned
+    std::string text;            ///< text of an error of all ranks; empty if the body returned
     int code_alone = abort_code; ///< the code if other ranks do not reach the same end in time
 };
 
@@ -127,11 +128,11 @@ void choose_settings() {
     // The daemon takes 0.4 s. Open MPI 5 and MPICH start none.
     if (has_launcher()) return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    // All such processes would make a folder of the same name for data shared with others, which
+    // Such processes would all make a folder of the same name for data shared with others, which
     // they do not need. If two start at once, one of them would fail.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-    // Such processes send no messages. If libraries of fast networks are installed, initialising
-    // these takes 0.2 s.
+    // Such processes send no messages, so they need no fast network. Where its libraries are
+    // installed, initialising them takes 0.2 s.
     setenv("OMPI_MCA_pml", "ob1", 0);
 }
 
@@ -193,7 +194,7 @@ std::string mpi_version() {
     int length = 0;
     MPI_Get_library_version(text.data(), &length);
     std::string name(text.data(), static_cast<std::size_t>(length));
-    name.resize(std::min(name.find_first_of(",\n"), name.size())); // followed by details
+    name.resize(std::min(name.find_first_of(",\n"), name.size())); // details follow
     std::replace(name.begin(), name.end(), '\t', ' ');
     return name;
 }
@@ -214,10 +215,10 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
 
 void abort_from_signal(std::string_view text, int code) {
     static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
-    static std::atomic<int> last_code; // any thread may run the handler
+    static std::atomic<int> last_code; // atomic, because any thread may run the handler
     last_code = code;
     std::signal(SIGALRM, [](int) { std::_Exit(last_code); });
-    sigset_t alarms; // they may be blocked in the caller's handler
+    sigset_t alarms; // the caller's handler may run with blocked alarms
     ::sigemptyset(&alarms);
     ::sigaddset(&alarms, SIGALRM);
     ::sigprocmask(SIG_UNBLOCK, &alarms, nullptr);
@@ -234,7 +235,7 @@ Mpi::Mpi(int& argc, char**& argv, Start start) {
 Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 
 Mpi::~Mpi() {
-    // Because the program may have ended MPI
+    // The program may have ended MPI
     if (is_mpi_running && !has_mpi_ended()) MPI_Finalize();
     is_mpi_running = false;
     exit_now = Exit::regular;

@@ -22,7 +22,7 @@ class Mpi {
 public:
     enum class Start {
         always,
-        under_launcher ///< otherwise `Communicator::world()` is this process alone
+        under_launcher ///< without a launcher `Communicator::world()` is this process alone
     };
 
     Mpi(int& argc, char**& argv, Start start = Start::always);

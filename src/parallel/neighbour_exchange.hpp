@@ -3,10 +3,10 @@
 // neighbouring strips.
 //
 // Both sides know that they are neighbours, but the receiver does not know the amount of data. The
-// first few kilobytes are sent with the size in one message whose receive is posted in advance; the
-// rest follows in further messages, straight from and into the arrays. So a tiny exchange costs one
-// short message per neighbour and no probing, and ranks that are not neighbours do not wait for
-// each other.
+// first few kilobytes are sent together with the size in one message, whose receive is posted in
+// advance. The rest follows in further messages, without a copy to a buffer. So a tiny exchange
+// costs one short message per neighbour and no probing, and ranks that are not neighbours do not
+// wait for each other.
 #pragma once
 
 #include <cstddef>

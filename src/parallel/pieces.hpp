@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records with ids 0 .. n-1 that lie in any order on any ranks, brought into order piece by piece.
 //
-// The ids are cut into pieces of a power of two; each rank owns a run of whole pieces. A counting
-// sort finds the piece of each record; then, round after round, each rank gets its next piece in
-// order. So the records never exist twice, and a piece is in cache when its rank uses it. Records
-// are sent for several rounds at once, so that ranks rarely wait for each other. Price: 4 bytes a
-// record, each record read three times on its rank and sent once if it is another's, and room for
-// the records of some pieces.
+// The ids are cut into pieces whose length is a power of two, and each rank owns a run of whole
+// pieces. A counting sort finds the piece of each record. Then, round after round, each rank gets
+// its next piece in order. So the records never exist twice, and a piece is in cache when its rank
+// uses it. Records are sent for several rounds at once, so that ranks rarely wait for each other.
+// Price: 4 bytes a record, and room for the records of some pieces. Each record is read three times
+// on its rank, and sent once if another rank owns it.
 #pragma once
 
 #include <algorithm>
@@ -181,14 +181,14 @@ private:
     IdOf id_of_;
     std::uint64_t n_;
     Pieces pieces_;
-    std::vector<std::uint32_t> order_;          ///< this rank's records, piece after piece
+    std::vector<std::uint32_t> order_;          ///< order of this rank's records, piece after piece
     std::vector<std::uint32_t> first_in_order_; ///< where each piece begins, and the end
     std::uint64_t round_ = 0, begin_ = 0;
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;
     std::vector<std::vector<T>> out_;
-    Received<T> received_;             ///< from each sender in the order of pieces
-    std::vector<std::size_t> n_taken_; ///< by sender: number of items already used
+    Received<T> received_;             ///< records from each sender, in the order of pieces
+    std::vector<std::size_t> n_taken_; ///< number of items already used, for each sender
 };
 
 } // namespace carrom

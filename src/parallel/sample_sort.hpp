@@ -94,7 +94,7 @@ std::vector<T> sample_sort(const Communicator& communicator, std::vector<T> reco
         out[slice].assign(begin, end);
         begin = end;
     }
-    std::vector<T>().swap(records); // because `= {}` would keep the vector's memory
+    std::vector<T>().swap(records); // swap frees the memory, which `= {}` would keep
     return detail::merge_groups(send_to_owners(communicator, out), less);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records with ids 0 .. n-1 in equal shares by id. Arrays that belong to the run, not to a rank,
-// have this layout.
+// Records with ids 0 .. n-1 in equal shares by id. This is the layout of arrays that belong to the
+// run and not to a rank.
 #pragma once
 
 #include <algorithm>

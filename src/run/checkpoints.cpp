@@ -29,7 +29,7 @@ constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
 /// Time in seconds for a step after a request to stop. If there is no copy of an earlier state, the
 /// step gets the time that it probably needs, up to the limit of batch systems.
 constexpr double patience = 1, most_patience = 20;
-constexpr double longest_stretch = 1e15; // in steps
+constexpr double longest_stretch = 1e15; // longest stretch, in steps
 
 } // namespace
 
@@ -139,7 +139,7 @@ std::string Checkpoints::keep(std::int64_t step) {
 void Checkpoints::go_over_to(std::int64_t step) {
     if (last_written_ < 0) return;
     SceneParameters scene = run_.scene();
-    scene.accuracy.reset(); // because the pilot has already chosen
+    scene.accuracy.reset(); // the pilot has already chosen
     Tuning tuning;
     tuning.threads = run_.n_threads();
     tuning.ends_jams = false;
@@ -152,7 +152,7 @@ void Checkpoints::go_over_to(std::int64_t step) {
 }
 
 void Checkpoints::write() {
-    if (removal_.valid()) removal_.get(); // because its space may be needed
+    if (removal_.valid()) removal_.get(); // because the space of the removed file may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
     record_written(path, run_.step());
@@ -164,7 +164,7 @@ void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     std::erase(kept_, path);
     kept_.push_back(path);
     remove_oldest();
-    stretch_watch_.lap(); // so that writing does not count for the stretch
+    stretch_watch_.lap(); // so that the time of writing does not count as time of steps
     seconds_since_written_ = 0;
 }
 

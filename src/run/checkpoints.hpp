@@ -78,8 +78,8 @@ private:
     std::int64_t last_agreed_, last_written_ = -1;
     std::int64_t stretch_ = 1; ///< steps until ranks agree again, measured with rank 0's clock
     Stopwatch stretch_watch_;
-    double seconds_since_written_ = 0; ///< by rank 0's clock
-    double seconds_since_copied_ = 0;  ///< by rank 0's clock
+    double seconds_since_written_ = 0; ///< seconds by rank 0's clock
+    double seconds_since_copied_ = 0;  ///< seconds by rank 0's clock
     std::optional<Copy> copy_;         ///< copy of a state since the last written one, or none
     std::vector<std::string> kept_;    ///< paths of the checkpoints, oldest first
     std::future<void> removal_;        ///< the removal of older checkpoints, on rank 0

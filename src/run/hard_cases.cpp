@@ -93,8 +93,8 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
     const bool is_flow = scene.effects.are_sheared();
     refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(system.discs())) : speed);
     const double blur = blurred_flight(scene, speed);
-    // The width of the band before walls: a larger error would affect bounces and overlaps. Points
-    // only have to stay on their side of a wall.
+    // An error below 1e-8 r, the width of the band before walls, does not affect bounces and
+    // overlaps. Points only have to stay on their side of a wall.
     if (blur <= (scene.are_points ? 0.1 : 1e-8) * scene.radius) return;
     messages.warn(
         "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "

@@ -106,9 +106,9 @@ std::string HeapWarning::text_on_flow(double per_step) const {
                         static_cast<double>(scene_.micro_steps);
     // If discs cannot flow for ever, they come to rest, and bursts of collisions end.
     if (!may_flow_on(scene_.effects) || !(per_step * time > most_where_lasting)) return {};
-    // The flow may still become faster, and its discs fall over each other by about a radius. The
-    // advice stays below the limits beyond which the scene is an error or impacts lose too much
-    // energy.
+    // The advised speed is at least that of discs that fall by a radius over each other, because
+    // the flow may still become faster. It is below the limits at which the scene is an error or
+    // impacts lose too much energy.
     const Acceleration pull = scene_.effects.acceleration();
     const double radius = smallest_radius(scene_),
                  fallen = std::sqrt(2 * std::hypot(pull.x, pull.y) * radius),

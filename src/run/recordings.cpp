@@ -17,7 +17,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_commits = 0.8; ///< so that readers can follow a run
+constexpr double seconds_between_commits = 0.8; ///< short enough for readers that follow a run
 constexpr double largest_share = 0.02;          ///< share of the time, for commits
 
 /// The total order. q + 1 puts the wall, which is the largest number, before every disc.
@@ -115,7 +115,8 @@ bool Recordings::act() {
     if (log_) record_collisions(step);
     add_rows();
     ImageCounts* const counts = run_.images();
-    if (counts) static_cast<void>(counts->counts()); // so that their memory stays small
+    // Counted at each step, so that the memory of crossings stays small
+    if (counts) static_cast<void>(counts->counts());
     if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
         std::vector<ComputedNumbers> computed; // first, because it moves discs in memory
         if (scene_.trajectory->computed != ComputedFieldSet{}) computed = computed_numbers(system);

@@ -62,7 +62,7 @@ private:
     std::optional<CollisionLog> log_;
     GrowingFiles growing_;
     Stopwatch since_asked_;
-    double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< by rank 0's clock
+    double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< seconds by rank 0's clock
     std::vector<Collision> collisions_; ///< collisions of this rank that are not recorded yet
 };
 

@@ -39,7 +39,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
       stop_(scene_, system_, ranks_, start.samples.stop), sampler_(scene_, system_, ranks_),
       watch_(scene_, system_, ranks_), heap_warning_(scene_, system_, ranks_, messages) {
     if (const double more = system_.engine().bytes_for_crowds(); more > 0 && !is_restart_)
-        check_memory(scene_, ranks_, more); // now that positions are known
+        check_memory(scene_, ranks_, more); // checked here, because positions are known only now
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (start.counts_images || (scene_.trajectory && scene_.trajectory->has_image)) {
         images_.emplace(scene_.box, system_, ranks_);

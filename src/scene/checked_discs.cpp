@@ -158,8 +158,8 @@ void check_sizes(const SceneDraft& draft) {
     check_width(draft, smallest);
 }
 
-/// Warns of lost masses, because sums over discs are whole multiples of a unit that suits the
-/// heaviest (core/exact_sum.hpp).
+/// Warns of masses so different that light discs would be lost in sums over discs, which are whole
+/// multiples of a unit for the heaviest one (core/exact_sum.hpp).
 void warn_of_lost_masses(const SceneDraft& draft) {
     constexpr double most = 1e8;
     SceneParameters& scene = draft.scene;
@@ -173,7 +173,7 @@ void warn_of_lost_masses(const SceneDraft& draft) {
         heaviest.mass / lightest.mass, most, most * lightest.mass));
 }
 
-/// Points never collide with each other, so a scene of points must declare that discs do not.
+/// Two points never collide, so a scene of points must set its contacts to "none".
 void check_points(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.are_points) return;
@@ -232,7 +232,7 @@ bool fill_sizes(const SceneDraft& draft) {
 /// The lattice of a periodic box must fit it, and leave enough room for the discs.
 void check_triangular(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    // Reported by rules.cpp
+    // rules.cpp reports it
     if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return;
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     if (!lattice)
@@ -288,7 +288,7 @@ void check_temperature(const SceneDraft& draft) {
     if (!scene.temperature || *scene.temperature == 0) return;
     double lightest = scene.effects.species.empty() ? 1 : INFINITY;
     for (const Species& one : scene.effects.species) lightest = std::min(lightest, one.mass);
-    if (!column_problem(DiscColumn::mass, lightest).empty()) return; // a problem already
+    if (!column_problem(DiscColumn::mass, lightest).empty()) return; // reported already
     const double speed = std::sqrt(2 * (*scene.temperature / lightest));
     std::string text = speed_problem(speed, scene);
     if (!(speed >= smallest_size && speed <= 0x1p-8 * largest_size))

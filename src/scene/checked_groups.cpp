@@ -64,8 +64,8 @@ private:
                            "packing covers more than {}",
                            group.count, body.radius, area / box.area(), largest_packing);
     }
-    /// Only one group may have a lattice or compressed discs in a region, because these do not
-    /// avoid others. Random discs fill the gaps.
+    /// Only one group in a region may have a lattice or compressed discs, because these do not
+    /// leave room for other discs. Random discs fill the gaps.
     std::string problem_of_rivals(std::size_t k) const {
         if (groups_[k].generator == Generator::random) return {};
         for (std::size_t i = 0; i < k; ++i)
@@ -82,7 +82,7 @@ private:
         if (group.temperature) speed = std::sqrt(2 * (*group.temperature / body.mass));
         const bool is_zero = group.temperature == 0.0 || group.speed == 0.0;
         if ((!group.temperature && !group.speed) || is_zero) return {};
-        if (!column_problem(DiscColumn::mass, body.mass).empty()) return {}; // a problem already
+        if (!column_problem(DiscColumn::mass, body.mass).empty()) return {}; // reported already
         if (!(speed >= smallest_size && speed <= 0x1p-8 * largest_size))
             return fmt::format("its {} must be 0, or give speeds from 2^-250 to 2^242, not {}",
                                group.speed ? "speed" : "temperature",

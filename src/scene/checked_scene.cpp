@@ -20,8 +20,8 @@ namespace carrom {
 
 namespace {
 
-/// Makes places in the users' coordinates those of the computation. They refer to the box, whatever
-/// the order of keys.
+/// Converts places from the users' coordinates to those of the computation. The result depends on
+/// the box, so it does not depend on the order of keys.
 void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, Setting*>> right) {
     if (!draft.settings.has("box.origin")) return;
     for (const auto& [key, setting] : right)
@@ -34,7 +34,8 @@ void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, 
             move_places(*key, setting->value, origin.x, origin.y);
 }
 
-/// The origin is near the box, since places lose digits to it, and texts of the course have none.
+/// The origin must be near the box, because places lose digits if it is far away. Texts of the
+/// course have no origin.
 void check_origin(const SceneDraft& draft) {
     constexpr double farthest = 1000;
     const SceneParameters& scene = draft.scene;
@@ -54,7 +55,7 @@ void take_values(const SceneDraft& draft) {
     for (const Table& table : tables()) {
         const auto& all = draft.settings.all();
         if (std::any_of(all.begin(), all.end(), [&table](const Setting& one) {
-                // Because 'discs.radius' is both a key and a table
+                // Needed because 'discs.radius' is both a key and a table
                 const Key* key = find_key(one.key);
                 return key ? key->table() == table.name : one.key == table.name;
             }))

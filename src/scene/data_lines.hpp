@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lines of a list of discs that contain data.
 //
-// A file of discs (`discs.file`) may come from another program. So `#` begins a comment there,
-// commas separate numbers as blanks do, and its first line may name the columns. Lines after a
-// legacy header, and those of `discs.from`, allow none of this. Price: one copy of each line that
+// A file of discs (`discs.file`) may come from another program. So in such a file `#` begins a
+// comment, commas or blanks separate numbers, and the first line may name the columns. Lines after
+// a legacy header, and those of `discs.from`, allow none of this. Price: one copy of each line that
 // has commas.
 #pragma once
 

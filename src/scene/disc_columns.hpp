@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The columns of a file of discs beyond ids, positions and velocities, which `discs.columns` names.
 //
-// The checks of a scene need radii and masses, and every rank needs them, because a dynamics uses
-// them for any disc. So rank 0 reads the file twice: first these columns, then the discs.
-// Successive equal discs form one species; in the worst case each disc is a species of its own.
+// The checks of a scene need radii and masses. All ranks need them, too, because a dynamics uses
+// those of any disc. So rank 0 reads the file twice: first these columns, then the discs.
+// Successive equal discs form one species. In the worst case each disc is a species of its own.
 #pragma once
 
 #include <istream>
@@ -33,7 +33,8 @@ bool lines_have_velocities(const SceneParameters& scene);
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);
-/// Append discs, as a new species or run only if they differ from the last one.
+/// These functions append discs. They begin a new species or run only if the discs differ from the
+/// last ones.
 void add_species(std::vector<Species>& species, const Species& next);
 void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number);
 

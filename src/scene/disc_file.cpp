@@ -150,7 +150,7 @@ private:
     void guess_columns(const std::vector<std::string_view>& words) {
         if (std::ranges::any_of(scene_.disc_columns,
                                 [](DiscColumn column) { return column < DiscColumn::radius; }))
-            return; // because the scene names all columns
+            return; // the scene names all columns, so nothing has to be guessed
         const std::size_t n_behind = scene_.disc_columns.size();
         if (words.size() < n_behind + 2 || words.size() > n_behind + 4) return;
         const std::size_t n = words.size() - n_behind;
@@ -188,7 +188,7 @@ private:
     std::string place_;
     LineReader lines_;
     bool is_header_taken_ = false;
-    std::optional<Columns> columns_; ///< set if the file names them
+    std::optional<Columns> columns_; ///< set if the file names its columns
     SurveyOfDiscs found_;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the columns and the number of discs in a file of discs (`discs.file`).
 //
-// A header line names columns, or a comment that consists of their names. Otherwise the number of
-// words in the first line of data shows whether there are ids and velocities: `id x y vx vy`, `x y
-// vx vy`, `id x y` or `x y`, each followed by the scene's `discs.columns`. Price: reads one block
-// of the file, or all of it if the scene does not give the number of discs.
+// Columns are named by a header line, or by a comment that consists of their names. Otherwise the
+// number of words in the first line of data shows whether there are ids and velocities: `id x y vx
+// vy`, `x y vx vy`, `id x y` or `x y`, each followed by the scene's `discs.columns`. Price: reads
+// one block of the file, or all of it if the scene does not give the number of discs.
 #pragma once
 
 #include <istream>
@@ -19,7 +19,8 @@ namespace carrom {
 struct SurveyOfDiscs {
     /// Settings `key=value` that the scene does not contain itself
     std::vector<std::string> settings;
-    std::vector<Problem> problems; ///< that the file is not a list of discs, or has other columns
+    /// the file is not a list of discs, or has other columns than the scene
+    std::vector<Problem> problems;
 };
 
 /// Surveys the scene's file of discs from its beginning. Called on one rank.

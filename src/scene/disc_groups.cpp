@@ -31,7 +31,8 @@ DiscGroup group_of(const Numbers& n) {
     DiscGroup group;
     if (n[at_count] >= 1 && n[at_count] <= static_cast<double>(largest_count))
         group.count = static_cast<std::uint64_t>(n[at_count]);
-    const double species = n[at_species]; // it has not been checked yet
+    // The number of the species, which has not been checked yet
+    const double species = n[at_species];
     if (species >= 1 && species <= static_cast<double>(largest_count))
         group.species = static_cast<std::size_t>(species) - 1;
     group.temperature = number_at(n, at_temperature);

@@ -209,7 +209,7 @@ std::string DiscReader::missing_ids() const {
         if (has_seen(id)) continue;
         const DiscId first = id;
         while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
-        // Because no larger ids have been found
+        // No larger ids have been found
         if (id + 1 >= seen_.size()) id = scene_.n_discs - 1;
         if (++n_ranges > most_ranges)
             list += ", ...";

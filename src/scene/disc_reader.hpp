@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads discs from lines of text, "id x y vx vy" or other columns (`discs.columns`; those beyond
-// positions and velocities are only checked here, and read by read_disc_columns) in any order of
-// ids, in bounded chunks, so that one rank can read more discs than fit into its memory. Takes up
-// to N bits to test that every id occurs once, and less than a microsecond a line. Threads parse
-// the lines together, and then ids are recorded in the order of lines. Without a column of ids,
-// discs are numbered in the order of lines.
-// Places in lines are the users' (scene/places.hpp); in the lines of `discs.from` they count from
-// the corner of the box already.
+// Reads discs from lines of text in bounded chunks, so that one rank can read more discs than fit
+// into its memory.
+//
+// A line is "id x y vx vy", or has other columns (`discs.columns`), in any order of ids. Columns
+// beyond positions and velocities are only checked here; read_disc_columns reads them. Takes up to
+// N bits to test that every id occurs once, and less than a microsecond a line. Threads parse the
+// lines together, and then ids are recorded in the order of lines. Without a column of ids, discs
+// are numbered in the order of lines. Places in lines have the users' origin (scene/places.hpp),
+// except in the lines of `discs.from`, which count from the corner of the box.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
@@ -31,7 +32,7 @@ public:
     /// This many problems are listed; the rest are counted
     static constexpr std::size_t most_problems = 20;
     static constexpr std::size_t most_wrong_lines =
-        1'000'000; ///< reading ends after this many problems, because the file is not a list of
+        1'000'000; ///< after this many problems reading ends: the file is not a list of
                    ///< discs
 
     /// A function that calls work(first, last) for ranges that together are 0 .. n - 1, on any
@@ -91,14 +92,15 @@ private:
     const SceneParameters& scene_;
     SpeciesTable species_;
     std::string place_;
-    /// False for `discs.from`, whose lines the user never sees: problems then name the discs
+    /// False for `discs.from`, whose lines are not visible to the user, so problems name the discs
+    /// instead
     bool has_lines_;
     std::vector<DiscColumn> columns_;
     std::optional<std::size_t> place_of_id_; ///< position of the id in a line
     DataLines lines_;
-    DiscId next_id_ = 0; ///< for lines without ids
+    DiscId next_id_ = 0; ///< the next id, for lines without ids
     bool are_ids_noted_ = true;
-    std::vector<bool> seen_; ///< by id, up to the largest id so far
+    std::vector<bool> seen_; ///< ids that have occurred, up to the largest one so far
     std::uint64_t n_seen_ = 0;
     std::vector<char> text_;
     std::vector<Line> taken_;

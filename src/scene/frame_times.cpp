@@ -18,7 +18,7 @@ double growing_step(const TrajectoryOutput& output, std::int64_t k) {
         std::pow(10.0, static_cast<double>(k) / static_cast<double>(output.frames_per_decade)));
 }
 
-/// The first k whose step is beyond `step`, which is at least `every_steps`.
+/// The first k whose step is later than `step`, which is at least `every_steps`.
 std::int64_t first_beyond(const TrajectoryOutput& output, std::int64_t step) {
     const double decades = std::log10(static_cast<double>(step) /
                                       static_cast<double>(output.every_steps));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one declaration of each scene key. The reader of scenes and its checks, `--set`, the
-// comparison at a restart, the writer of scenes and the reference page all work from this table.
+// comparison at a restart, the writer of scenes and the reference page all use this table.
 //
 // To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
 // side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule there, or a
@@ -23,7 +23,7 @@ namespace carrom {
 enum class Kind {
     number,
     lengths, ///< a number, or an array of two, [Lx, Ly]
-    point,   ///< a word of the key, or [x, y]
+    point,   ///< two coordinates [x, y], or a word of the key
     integer,
     flag,
     text,
@@ -47,7 +47,7 @@ struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool excludes_low = false;
-    bool allows_zero = false; ///< 0 is allowed, too
+    bool allows_zero = false; ///< whether 0 is allowed, too
     std::string_view why = "";
 };
 
@@ -93,7 +93,7 @@ struct Key {
     std::vector<Field> fields = {};
     /// For Kind::rows: a single row may be written without the outer brackets
     bool is_one_row = false;
-    std::optional<Axis> axis = {}; ///< of a number that is a place: the axis it lies along
+    std::optional<Axis> axis = {}; ///< the axis along which a place lies
 
     // The following members are filled in from the member of SceneParameters.
     Kind kind = Kind::number;
@@ -140,7 +140,7 @@ struct Table {
     std::string_view help = "";
     bool (*is_in)(const SceneParameters&) = [](const SceneParameters&) { return true; };
     void (*create)(SceneParameters&) = [](SceneParameters&) {};
-    bool is_like_another = false; ///< the reference describes another table like it
+    bool is_like_another = false; ///< the reference describes only one of several equal tables
 
     /// Whether a scene may leave out the table because its feature is optional.
     bool is_optional() const { return !is_in(SceneParameters{}); }

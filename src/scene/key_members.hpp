@@ -127,7 +127,7 @@ template <class Member> void assign(Member& member, const Value& value) {
     } else if constexpr (is_list<Member>) {
         member.clear();
         for (const Value& one : std::get<Values>(value.data)) {
-            if (one.is_nothing()) continue; // a wrong row, which has been reported already
+            if (one.is_nothing()) continue; // an invalid row has been reported already
             if constexpr (std::is_enum_v<typename Member::value_type>) {
                 assign(member.emplace_back(), one);
             } else {

@@ -85,7 +85,7 @@ public:
         }
         while (row_ != scene_.effects.contact.rows.end() && row_->end <= first) ++row_;
         if (row_ != scene_.effects.contact.rows.end()) end = std::min(end, row_->end);
-        if (!scene_.groups.empty()) return row; // because groups have the counts and regions
+        if (!scene_.groups.empty()) return row; // groups have the counts and regions
         while (region_ != scene_.regions.end() && region_->end <= first) ++region_;
         if (region_ != scene_.regions.end()) {
             end = std::min(end, region_->end);
@@ -100,7 +100,7 @@ public:
 private:
     const SceneParameters& scene_;
     FirstNumbers numbers_;
-    BySideColumn<std::size_t> next_; // by column
+    BySideColumn<std::size_t> next_; // the next place in each column
     std::vector<RegionRun>::const_iterator region_;
     std::vector<SpeciesRow>::const_iterator row_;
 };

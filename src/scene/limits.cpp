@@ -51,7 +51,7 @@ std::string speed_problem(double speed, const SceneParameters& scene) {
     const double most = most_crossings * scene.box.shortest() *
                         static_cast<double>(scene.micro_steps);
     if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
-    if (std::fabs(speed) > largest_size) return {}; // because velocity_problem reports it
+    if (std::fabs(speed) > largest_size) return {}; // velocity_problem reports it
     return fmt::format("the speed {} crosses the box more than 2^40 times in a micro-step; take "
                        "more time.micro_steps, or at most {:g}",
                        speed, most);
@@ -98,7 +98,7 @@ struct Room {
 /// leaves an open side when its centre is a radius beyond it.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
-    const Extent walls = extent_at(scene.effects, scene.box, 0); // because sides may swing
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // sides may swing
     const double length = along(axis, scene.box), slack = 0x1p-52 * length;
     if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
     const auto inwards = [&](std::size_t side) {

@@ -16,16 +16,16 @@ inline constexpr double smallest_size = 0x1p-250; ///< the limit for speeds
 inline constexpr double largest_size = 0x1p+250;
 inline constexpr std::uint64_t largest_count =
     0xFFFFFFFEu; ///< indices have 32 bits, and one value means "none"
-inline constexpr std::int64_t largest_steps = std::int64_t{1}
-                                              << 53; ///< so that step numbers are exact in a double
+/// Step numbers up to this are exact in a double
+inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53;
 inline constexpr double largest_packing =
     0.9069; ///< just above pi / (2 sqrt 3), the densest packing of the plane
 /// Above about 0.54 random insertion takes too long
 inline constexpr double largest_random_packing = 0.5;
 inline constexpr std::int64_t longest_single_sync =
-    4096; ///< then a float still resolves 1/2048 of a micro-step
+    4096; ///< up to this a float still resolves 1/2048 of a micro-step
 inline constexpr double smallest_single_size = 0x1p-40,
-                        largest_single_size = 0x1p+40; ///< so that fourth powers are floats
+                        largest_single_size = 0x1p+40; ///< fourth powers of such sizes are floats
 inline constexpr double largest_box_in_radii =
     1e6; ///< beyond this the wall band 1e-8 r is less than the rounding of L
 inline constexpr double longest_drag = 4; ///< rate of drag times the time between syncs

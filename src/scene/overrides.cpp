@@ -26,7 +26,7 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     const bool lists_discs = list_discs(given);
     if (lists_discs) settings.remove("discs.generator");
     SceneParameters chosen;
-    chosen.draws_velocities = were_listed; // because then the speed is for listed discs
+    chosen.draws_velocities = were_listed; // the chosen speed is for listed discs
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)
@@ -48,7 +48,7 @@ void take_right_values(const std::vector<Setting>& all,
         if (!key || one.is_wrong || key->has_rows() || find_table(key->table())->is_optional())
             continue;
         Setting setting = one;
-        Problems ignored; // because problems are reported elsewhere
+        Problems ignored; // problems are reported elsewhere
         check_value(*key, setting, ignored);
         if (setting.is_wrong) continue;
         for (SceneParameters* scene : scenes) key->set(*scene, setting.value);

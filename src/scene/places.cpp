@@ -23,7 +23,8 @@ std::optional<Axis> axis_of_name(std::string_view name) {
     return name[0] == 'x' ? Axis::x : Axis::y;
 }
 
-/// The axes of a form's numbers. Of several forms the last one is the longest.
+/// The axes of a form's numbers. If there are several forms, those of the last one, which is the
+/// longest.
 std::vector<std::optional<Axis>> axes_of(std::string_view form, std::size_t n) {
     std::vector<std::optional<Axis>> axes;
     bool goes_on = false;

@@ -16,12 +16,12 @@ namespace carrom {
 
 struct Quantity {
     std::string_view name;
-    std::string_view help;           ///< its text on the page of keys
-    std::vector<Key> keys = {};      ///< its settings; several quantities can share one
+    std::string_view help;           ///< the quantity's text on the page of keys
+    std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
     bool has_history = false;        ///< whether its tables grow with each sample
     bool follows_collisions = false; ///< whether it needs each collision; a GPU does not list them
     std::vector<Rule> rules = {};    ///< features with which it cannot be combined
-    void (*check)(const SceneDraft&) = {}; ///< called for a valid box and valid discs; a check that
+    void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; a check that
                                            ///< quantities share runs once
     void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known
 };

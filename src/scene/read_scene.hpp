@@ -27,7 +27,8 @@ struct SceneText {
     std::string text;
     std::int64_t lines_before_discs = 0; ///< legacy text: number of lines taken from the stream
     bool discs_follow = false;           ///< legacy text: the stream continues with lines of discs
-    /// Set when the scene is known to have them (`discs.columns`); until then sizes are not checked
+    /// The columns of discs, set when the scene is known to have any (`discs.columns`); sizes are
+    /// not checked before
     std::optional<DiscColumns> columns{};
 };
 

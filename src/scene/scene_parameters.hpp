@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One checked description of a run. Every reader ends in `SceneParameters`; after that nothing
-// reads the input's text again.
+// One checked description of a run. Every reader of inputs makes a `SceneParameters`, and nothing
+// reads the text of the input afterwards.
 //
 // Velocities and times are the scene's (per step). The engine divides velocities by `micro_steps`
 // when it takes the discs.
@@ -27,13 +27,13 @@ namespace carrom {
 enum class Method { time_stepped, event_driven };
 /// The precision of stored states and of computation.
 enum class Precision { double_, single };
-/// The formula for contacts: the predicate, or the one of the course program.
+/// The formula for contacts: that of the predicate, or that of the course program.
 enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind {
     maxwell,
     uniform,
-    reversed ///< given velocities with the opposite sign
+    reversed ///< the listed velocities with the opposite sign
 };
 
 /// The lines on standard output: none, steps 0 and S, or every step (the course
@@ -56,7 +56,7 @@ struct NumberRun {
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// In the order of ids; a column whose numbers all start at 0 is empty.
+/// First numbers in the order of ids. A column whose numbers all start at 0 is empty.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
 /// The columns that a line of `discs_file` may have. The columns beside the states come last.
@@ -72,11 +72,11 @@ constexpr SideColumn side_column_of(DiscColumn column) {
                                    static_cast<std::size_t>(DiscColumn::first_side));
 }
 
-/// The point of the box, from its lower left corner, that has the coordinates (0, 0) in what users
-/// write and read. All that computes counts from the corner (scene/places.hpp).
+/// The point of the box, relative to its lower left corner, that has the coordinates (0, 0) for
+/// users. All computations begin at the corner (scene/places.hpp).
 struct Origin {
     double x = 0, y = 0;
-    bool is_centre = false; ///< follows the box; x and y are set once that is known
+    bool is_centre = false; ///< the centre of the box; x and y are set when the box is known
 
     bool is_on() const { return x != 0 || y != 0; }
     friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
@@ -161,7 +161,8 @@ struct MeasurementOutput {
 
     std::string folder; ///< relative to the run's folder
     std::int64_t every_steps = 10, from_step = 0;
-    std::vector<std::string> quantities;                 ///< in the order of the scene
+    /// Names of quantities in the order of the scene
+    std::vector<std::string> quantities;
     std::map<std::string, Number, std::less<>> settings; ///< settings of the quantities, by name
 
     bool measures(std::string_view quantity) const {
@@ -197,9 +198,9 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< settings `key=value` on top of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
-    Origin origin;           ///< of places in texts, messages and tables only
+    Origin origin;           ///< origin of places in texts, messages and tables only
     double radius = 0;       ///< radius of the largest disc
-    bool are_points = false; ///< the scene's radius is 0; `radius` is then point_radius(box)
+    bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
     std::optional<SizeDistribution> sizes; ///< distribution of the radii, which have become species
     std::uint64_t n_discs = 0;
 
@@ -219,7 +220,7 @@ struct SceneParameters {
     double compression_rate = 0.01;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
-    std::optional<StartRegion> region; ///< for discs without a region of their own
+    std::optional<StartRegion> region; ///< region for discs without a region of their own
     /// Regions of species or groups, by ids; empty if there are none
     std::vector<RegionRun> regions;
     bool has_shares = false; ///< shares are given in `discs.species`
@@ -256,7 +257,7 @@ struct SceneParameters {
     Effects effects; ///< times in steps
 
     TextOutput text_output = TextOutput::none;
-    std::string folder; ///< for all outputs, relative to the working folder; empty: none
+    std::string folder; ///< folder of all outputs, relative to the working folder; empty: none
     std::optional<CheckpointOutput> checkpoint; ///< set for every run with a folder
     std::optional<TrajectoryOutput> trajectory;
     std::string length_unit, time_unit; ///< `[output.units]`, for HDF5 files; empty: unknown

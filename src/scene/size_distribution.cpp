@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double widest_deviations = 3; ///< from the middle to the default limits
+constexpr double widest_deviations = 3; ///< default limits, in standard deviations from the middle
 /// If limits are further away than this, the cells of the range would be too coarse for the
 /// density. So the range is cut where the density vanishes.
 constexpr double widest_range = 64, end_of_density = 12;
@@ -52,7 +52,7 @@ Measure measure_of(const SizeDistribution& sizes) {
     const double s = sizes.polydispersity;
     if (sizes.kind != SizeKind::lognormal) return {1, s, false, sizes.kind == SizeKind::uniform};
     // The variance is that of the logarithm; with this middle the mean of the radii is 1.
-    if (s < narrow) { // by the series of log(1 + s^2)
+    if (s < narrow) { // uses the series of log(1 + s^2)
         const double per_square = 1 - s * s * (0.5 - s * s / 3);
         return {-s * s * per_square / 2, s * std::sqrt(per_square), true, false};
     }
@@ -89,7 +89,7 @@ double share_within_limits(const SizeDistribution& sizes) {
     };
     const double low = score(sizes.smallest, -reach), high = score(sizes.largest, reach);
     if (measure.is_flat) return (std::min(high, reach) - std::max(low, -reach)) / (2 * reach);
-    // The smaller of the two tails are subtracted, because they have more digits.
+    // Subtracts tails on the side where both are small, because small numbers have more digits.
     const auto tail = [](double z) { return std::erfc(z / std::numbers::sqrt2) / 2; };
     return low > 0 ? tail(low) - tail(high) : tail(-high) - tail(-low);
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Radii that follow a distribution: `discs.radius` as a table.
 //
-// Radii are not drawn: the distribution is cut into parts of equal probability, and each part is a
+// Radii are not drawn. The distribution is cut into parts of equal probability, and each part is a
 // species with the radius in its middle. So two seeds have the same radii and differ only by
 // positions and velocities. With a thousand parts the distribution differs from the exact one by
 // less than a thousandth. Each disc's radius and mass are found by its id, 2 bytes a disc on every
 // rank (species.hpp).
 //
 // Quantiles are computed from a sum of the density, with + - * / and sqrt only, so they have the
-// same bits on every machine. Quantiles from a library's error function would differ between
-// machines, and so would radii.
+// same bits on every machine. A library's error function would give quantiles, and so radii, that
+// differ between machines.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct SizeDistribution {
     /// Standard deviation relative to the mean, before limits cut the distribution
     double polydispersity = 0;
     std::optional<double> smallest, largest; ///< limits relative to the mean
-    /// Area: relative to a disc of the mean radius, whose mass is 1
+    /// The unit of mass. For `area` the mass of a disc of the mean radius is 1
     MassKind mass = MassKind::area;
 };
 

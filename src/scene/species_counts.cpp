@@ -19,7 +19,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 4> sources = {
      {"packing", species_row::packing},
      {"share", species_row::share},
      {"share_of_area", species_row::share_of_area}}};
-constexpr double largest_fault = 1e-9; ///< of the sum of shares
+constexpr double largest_fault = 1e-9; ///< largest deviation of the sum of shares from 1
 
 /// Why the number of discs of a row cannot be computed, or empty.
 std::string problem_of(const Numbers& row) {
@@ -140,7 +140,8 @@ private:
                                has_count ? ", not both" : ""));
             return 0;
         }
-        if (has_count) return static_cast<double>(draft_.scene.n_discs); // 0 if it is invalid
+        // The scene's number of discs is 0 if the given count is invalid
+        if (has_count) return static_cast<double>(draft_.scene.n_discs);
         if (packing->is_wrong) return 0;
         double square = 0; // mean of r^2
         for (std::size_t k = 0; k < rows_.size(); ++k)
@@ -162,7 +163,7 @@ private:
                                row[0], largest_count);
         });
         const bool are_right = draft_.problems.size() == n_problems;
-        for (Numbers* row : rows_) // so that no other check reports the counts again
+        for (Numbers* row : rows_) // marks the counts, so that no other check reports them again
             if (!are_right) (*row)[0] = not_given;
         return are_right;
     }
@@ -181,10 +182,10 @@ double count_of_packing(double packing, double area, double radius) {
 void fill_species_counts(const SceneDraft& draft) {
     Setting* setting = draft.settings.find_to_complete("discs.species");
     if (!setting || !std::holds_alternative<Values>(setting->value.data)) return;
-    if (draft.settings.has("discs.groups")) return; // because groups give the counts
+    if (draft.settings.has("discs.groups")) return; // groups give the counts
     setting->is_wrong = !SpeciesCounts(draft, *setting).fill();
     if (setting->is_wrong)
-        draft.scene.effects.species.clear(); // because the known counts are incomplete
+        draft.scene.effects.species.clear(); // the known counts are incomplete
     else
         find_key("discs.species")->set(draft.scene, setting->value);
 }

@@ -15,7 +15,7 @@ namespace {
 
 /// Limits the parts of a key, for each of which the parser recurses; scenes need three.
 constexpr int most_parts = 32;
-constexpr std::size_t most_unknown = 20; ///< this many are listed; the rest are counted
+constexpr std::size_t most_unknown = 20; ///< so many unknown keys are listed; the rest are counted
 
 std::int64_t line_of(const toml::source_region& source) {
     return static_cast<std::int64_t>(source.begin.line);

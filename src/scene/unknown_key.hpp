@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages about unknown keys, with the name that was most likely meant.
+// Messages about unknown keys, with the name that was probably meant.
 #pragma once
 
 #include <span>

@@ -76,9 +76,9 @@ private:
         return scene;
     }
 
-    /// Discs begin and end with a root mean square speed of 1. The rate of growth determines how
-    /// far they fly in the step. Returns the growth that is left before discs jam: the nearer they
-    /// are to it, the faster they heat up. If gaps shrink from a to b, speeds grow by a / b.
+    /// Runs one stretch. Discs begin and end with a root mean square speed of 1. The rate of growth
+    /// determines how far they fly in the step. Returns by what share radii can still grow before
+    /// discs jam, which follows from the heating: if gaps shrink from a to b, speeds grow by a / b.
     double run_stretch() {
         const double speed = 2 * scene_.radius * size_ * growth_ / scene_.compression_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;

@@ -25,11 +25,11 @@ constexpr std::size_t discs_in_part = 1 << 16;
 /// the box. Without it all discs would be copied when the halo grows.
 constexpr double halo_per_root = 128;
 
-/// Moves the discs into many lists and frees the original list. A parameter alone might keep it
-/// until the end of the caller's expression.
+/// Moves the discs into many lists and frees the original list. A caller's argument might otherwise
+/// keep it in memory until the end of the expression.
 std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     std::vector<std::vector<InputDisc>> parts;
-    // Allocated first, so that it is below them in memory
+    // Allocated first, so that this list lies below the parts in memory
     parts.reserve(discs.size() / discs_in_part + 1);
     for (auto begin = discs.begin(); begin != discs.end();
          begin += static_cast<std::ptrdiff_t>(parts.back().size()))
@@ -39,7 +39,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Frees inputs while it makes states, because both together would be the largest memory of a run.
+/// Frees inputs while it makes states. Both together would be the peak of the run's memory.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -49,7 +49,8 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
-    for (; !parts.empty(); parts.pop_back()) { // from the end, so that the heap can shrink
+    // Frees inputs from the end, so that the heap can shrink
+    for (; !parts.empty(); parts.pop_back()) {
         for (const InputDisc& input : parts.back()) {
             DiscState& disc = state.discs.emplace_back(DiscState{});
             disc.id = input.id;
@@ -142,7 +143,7 @@ DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
       averaged_system_(
           std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
     // Terms are some 2^45 units, and sums are up to 2^80 units. The largest terms are those of
-    // whole flights. Rare larger terms are added in another way.
+    // whole flights. Larger terms are rare, and are added in a slower way.
     const double speed = usual_speed(scene, engine_->own(), communicator),
                  flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
@@ -154,7 +155,7 @@ DiscSystem::~DiscSystem() = default;
 void DiscSystem::advance_towards(std::int64_t last_step) {
     if (check_ && step() < last_step)
         advance_checked();
-    else // up to the first step after a sync
+    else // advances to the first step that ends after a sync
         engine_->advance_towards(last_step);
 }
 

@@ -122,7 +122,7 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< sums to which the engine adds
     std::unique_ptr<StateCheck> check_;
-    mutable DiscStates shown_;              ///< the result of `shown()` where discs fall
+    mutable DiscStates shown_;              ///< the result of `shown()` if discs fall
     mutable DiscStates stored_;             ///< the result of `discs()` if discs have left the box
     mutable SideColumns stored_columns_;    ///< the same for their side columns
     std::vector<Collision>* log_ = nullptr; ///< the user's log; the check has a log of its own

@@ -58,8 +58,8 @@ std::vector<Level> levels_of(std::span<const double> terms) {
     return levels;
 }
 
-/// Jonsson's choice: the shortest blocks for which these and all longer ones have no more
-/// correlation between neighbours than expected by chance.
+/// The shortest blocks for which neighbours, and neighbours of all longer blocks, have no more
+/// correlation than expected by chance (Jonsson's choice).
 const Level& independent_level(std::span<const Level> levels) {
     double sum = 0;
     std::size_t chosen = levels.size() - 1;
@@ -107,7 +107,8 @@ bool are_eighths_in_order(std::span<const double> terms) {
     constexpr std::size_t n_parts = 8;
     const std::size_t length = terms.size() / n_parts;
     if (length < 2) return false;
-    int rising = 0, falling = 0, pairs = 0; // equal means, as of rare events, are neither
+    int rising = 0, falling = 0,
+        pairs = 0; // equal means, as of rare events, count as neither rising nor falling
     for (std::size_t last = 1; last < n_parts; ++last) {
         for (std::size_t first = 0; first < last; ++first) {
             ++pairs;

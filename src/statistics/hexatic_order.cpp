@@ -77,9 +77,9 @@ private:
         return x >= box_.x_low && x <= box_.x_high && y >= box_.y_low && y <= box_.y_high;
     }
 
-    /// Discs that are further away than its root do not cut the cell, even if they are the largest
-    /// ones: the squares of radii differ by `smaller`. With a corner at the distance c, one at the
-    /// distance d cuts nothing if (d - c)^2 - c^2 is above that.
+    /// Discs that are further away than the root of this number do not cut the cell, even if they
+    /// are the largest ones: the squares of radii differ by `smaller`. With a corner at the
+    /// distance c, a disc at the distance d cuts nothing if (d - c)^2 - c^2 is above that.
     double squared_reach_of_cell(double smaller) const {
         const double squared = cell_.squared_radius();
         if (smaller == 0) return 4 * squared;
@@ -141,7 +141,7 @@ private:
     Extent box_; ///< infinite along periodic axes
     CellSizes sizes_;
     double reach_;
-    double squared_range_ = 0; ///< of the present search
+    double squared_range_ = 0; ///< squared range of the present search
     std::vector<Seen> seen_;
     VoronoiCell cell_;
 };

@@ -113,7 +113,7 @@ void add_integrals(const StressSums& mine, const Communicator& communicator, Mot
 }
 
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample) {
-    if (flights.weight == 0) return; // immediately after a sync
+    if (flights.weight == 0) return; // the weight is 0 immediately after a sync
     // A stored velocity is (v - frame's) / slowing.
     const double unit = sample.speed_unit, slowing = frame.slowing;
     const double ax = flights.shift_x * slowing - frame.vx,
@@ -222,7 +222,7 @@ MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSamp
                                   after.stress.xy - before.stress.xy,
                                   after.stress.yy - before.stress.yy};
     result.stress += result.kinetic;
-    if (!system.has_flow) result.stress += -1.0 * all; // because it is already in the sums
+    if (!system.has_flow) result.stress += -1.0 * all; // in a flow this part is already in the sums
     return result;
 }
 

@@ -58,7 +58,7 @@ MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* s
 
 /// Adds the integrals in `mine`, summed over all ranks, to `sample`. **Collective.**
 void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample);
-/// Adds the integrals over flights since the last sync, seen in `frame`.
+/// Adds the integrals over flights since the last sync in the coordinates of `frame`.
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample);
 
 /// Constants of the scene that averages need.
@@ -72,7 +72,7 @@ struct AveragedSystem {
     /// The treatment of the common velocity along each axis
     Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat;
     bool has_flow = false; ///< the kinetic part is relative to a flow, and measured by samples
-    /// The kinetic energy is conserved; otherwise samples are closer in time
+    /// Whether the kinetic energy is conserved; if not, samples are closer in time
     bool keeps_energy = true;
     std::int64_t last_step = 0; ///< the last step that the run certainly reaches
 };

@@ -30,10 +30,10 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
 /// which must not exceed the shorter side. (From the distribution of each component's difference,
 /// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
-/// The same share in a box with periodic sides and walls along the side b, for nearest images, up
-/// to half a period.
+/// The share of such pairs in a box with periodic sides and walls along the side b, for nearest
+/// images, up to half a period.
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
-/// The same share in a box without walls.
+/// The share of such pairs in a box without walls, for nearest images.
 double share_of_ideal_pairs_around(double area, double distance);
 
 } // namespace carrom

@@ -34,7 +34,7 @@ public:
 private:
     struct Corner {
         double x = 0, y = 0;
-        /// Whose bisector is the side from here to the next corner, counterclockwise
+        /// The point whose bisector is the side from here to the next corner, counterclockwise
         int point = no_point;
     };
 

@@ -128,8 +128,8 @@ private:
     std::uint64_t departed(std::ptrdiff_t k) const {
         return share_.departed[static_cast<std::size_t>(k)];
     }
-    /// The file has been checked, so any damage is new. Other ranks do not have this error, so it
-    /// must not look like an error of all ranks.
+    /// The file has been checked before, so it was damaged since then. Other ranks do not have this
+    /// error, so it must not look like an error of all ranks.
     void read(std::uint64_t begin, std::uint64_t end) {
         try {
             file_.read(frame_, begin, end, rows_);

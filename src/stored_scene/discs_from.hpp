@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `discs.from`: the discs of another run's checkpoint or frame, as the lines that a file of discs
-// would have. So they are checked and sent to their ranks like all listed discs. The lines are made
-// while they are read, some thousands at a time, so that no rank has to store all of them. Each
-// rank can read the lines of its own share. Discs that have left their box through an open side are
-// left out, and the others get new ids in the order of their old ones.
+// `discs.from`: reads the discs of another run's checkpoint or frame as lines of a file of discs.
+// So they are checked and sent to their ranks like all listed discs. The lines are made while they
+// are read, some thousands at a time, so that no rank has to store all of them. Each rank can read
+// the lines of its own share. Discs that have left their box through an open side are left out, and
+// the others get new ids in the order of their old ones.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,11 @@ struct FileOfDiscs {
 /// The lines that a rank reads.
 struct ShareOfDiscs {
     Slab ids;                            ///< new ids
-    std::vector<std::uint64_t> departed; ///< see FileOfDiscs
+    std::vector<std::uint64_t> departed; ///< as FileOfDiscs::departed
 };
 
-/// Places keep the coordinates that the other run shows. So they differ from the places in the file
-/// if `origin` of the scene is another one: by a sum that rounds, and by nothing if it is the same.
+/// Places keep the coordinates that the other run shows. If the scene has another `origin`, they
+/// differ from the places in the file by a sum that rounds; otherwise they are equal.
 ///
 /// Finds the frame of `step`, or the last one. `wanted` are columns beside the states, which are
 /// read if the file has them. The lines are those of `share`, or of all discs without it. Call

@@ -15,21 +15,22 @@ namespace carrom {
 struct BoundaryResolution::Conflict {
     double time;
     DiscId p;
-    std::uint64_t second; ///< 0 for a wall, so that it comes first, else 1 + the id of Q
+    std::uint64_t second; ///< 0 for a wall, so that a wall comes first; else 1 + the id of Q
     std::int32_t rank;
     std::uint32_t number;
-    std::uint32_t n_copies; ///< how many ranks hold it unless one has struck it
+    std::uint32_t n_copies; ///< number of ranks that hold the candidate if no rank has rejected it
 
     auto key() const { return std::tuple(time, p, second); }
 };
 
-/// What a rank reports of a candidate with one of its discs and one of another rank.
+/// What a rank reports about a candidate that has one of its discs and one disc of another rank.
 struct BoundaryResolution::Statement {
     double time;
     DiscId p, q;
-    std::uint32_t number;      ///< among the undecided candidates of the rank that reports it
-    std::uint16_t is_first;    ///< for the own disc, among the candidates that are left
-    std::uint16_t is_mine = 0; ///< found here, not received
+    /// Number in the list of undecided candidates of the rank that reports it
+    std::uint32_t number;
+    std::uint16_t is_first; ///< 1 if the candidate is the first remaining one of this rank's disc
+    std::uint16_t is_mine = 0; ///< 1 if this rank made the statement, 0 if it was received
 
     auto key() const { return std::tuple(time, p, q); }
 };
@@ -63,7 +64,8 @@ void BoundaryResolution::resolve_boundary(const Population& population,
         mine.push_back({c.time, population.discs[c.p].id, population.discs[c.q].id,
                         static_cast<std::uint32_t>(k), is_first_[k]});
     }
-    // The owner of the other disc is not known here, so all neighbours get these few statements.
+    // This rank does not know which neighbour owns the other disc, so it sends its few statements
+    // to all neighbours.
     Received<Statement> received;
     with_neighbours_.exchange(neighbours, std::vector(neighbours.size(), mine), received);
     for (Statement& statement : mine) statement.is_mine = 1;
@@ -77,7 +79,8 @@ void BoundaryResolution::resolve_boundary(const Population& population,
         bool are_first = true;
         for (end = begin; end < mine.size() && mine[end].key() == mine[begin].key(); ++end)
             are_first = are_first && mine[end].is_first != 0;
-        const bool is_named_by_both = end - begin >= 2; // else one of the ranks has struck it
+        // if false, one of the two ranks has rejected the candidate
+        const bool is_named_by_both = end - begin >= 2;
         for (std::size_t k = begin; k < end; ++k) {
             if (mine[k].is_mine == 0 || (is_named_by_both && !are_first)) continue;
             is_struck[mine[k].number] = 1;
@@ -105,12 +108,12 @@ void BoundaryResolution::find_first(const Population& population, const Candidat
     }
 }
 
-/// Decides what follows on this rank from the discs that are taken and the candidates struck,
-/// which are dropped.
+/// Keeps and rejects what this rank can decide, now that more discs are taken and the `is_struck`
+/// candidates are rejected.
 void BoundaryResolution::walk_own(const Population& population,
                                   const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
                                   Candidates& kept) {
-    seen_.clear(); // discs that wait for another rank
+    seen_.clear(); // discs with a candidate that another rank has to decide
     std::size_t n_left = 0;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate c = undecided[k];
@@ -182,7 +185,7 @@ std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(
     for (std::size_t begin = 0, end = 0; begin < slice.size(); begin = end) {
         const Conflict& c = slice[begin];
         while (end < slice.size() && slice[end].key() == c.key()) ++end;
-        if (end - begin != c.n_copies) continue; // one of the ranks has struck it
+        if (end - begin != c.n_copies) continue; // one of the ranks has rejected the candidate
         const bool is_wall = c.second == 0;
         if (is_taken.contains(c.p) || (!is_wall && is_taken.contains(c.second - 1))) continue;
         is_taken.insert(c.p);

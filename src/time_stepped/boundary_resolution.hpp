@@ -36,8 +36,8 @@ public:
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
                           Candidates& undecided, Candidates& kept);
 
-    /// Decides all of this rank's `undecided` candidates, and appends those that happen to `kept`.
-    /// `n_conflicts` is their number over all ranks. **Collective.**
+    /// Decides all `undecided` candidates of this rank, and appends those that happen to `kept`.
+    /// `n_conflicts` is the number of undecided candidates on all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
                 Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
@@ -58,7 +58,8 @@ private:
 
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
-    std::vector<std::uint8_t> is_first_; ///< for each undecided candidate
+    std::vector<std::uint8_t>
+        is_first_; ///< whether each undecided candidate is the first one of all its discs
     DiscSet seen_, taken_;
 };
 

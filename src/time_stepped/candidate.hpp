@@ -35,8 +35,8 @@ public:
     CARROM_DEVICE bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
-            return discs_[a.p].id < discs_[b.p].id; // both may be images of one disc, with equal
-                                                    // ids
+            // Ids may be equal, because both discs may be images of one disc.
+            return discs_[a.p].id < discs_[b.p].id;
         if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
         return discs_[a.q].id < discs_[b.q].id;
     }

@@ -7,7 +7,7 @@
 
 #include "core/stop_request.hpp"
 
-using std::isnan; // Highway 1.0 calls it so where it has no vectors
+using std::isnan; // Highway 1.0 calls isnan without hn:: where it has no vectors
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "time_stepped/contact_filter.cpp"
@@ -21,7 +21,7 @@ namespace carrom::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One flight in every lane of a vector.
+/// One flight, copied into every lane of vectors.
 template <class D> struct Broadcast {
     HeldVector<D> x, y, vx, vy, touching;
 
@@ -48,15 +48,15 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
                               vector_of(d, flight.touching));
     const auto b_end = hn::Add(b, a); // b at the window's end
     const auto c_end = hn::Add(hn::Add(b, b_end), c);
-    // Each condition is a number that is not positive if it holds, so that one
-    // comparison serves all of them.
+    // Each condition is a number that is at most 0 if the condition holds. So one comparison tests
+    // all of them.
     const auto passes_by = hn::MulAdd(b, hn::Abs(b),
                                       hn::Mul(a, c)); // if c > 0: approaches, and b^2 >= a c
     const auto too_late = hn::Min(hn::Neg(b_end), c_end);
     const auto misses = hn::Min(c, hn::Max(passes_by, too_late));
     const auto keep = hn::Le(misses, hn::Zero(d));
-    // Read back as wide as it was written, because a wider load would wait until the
-    // store has reached the cache.
+    // Reads the mask in the width in which it was written. A wider load would wait for the store to
+    // reach the cache.
     using Bits =
         std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t,
                            std::conditional_t<hn::MaxLanes(d) <= 16, std::uint16_t, std::uint64_t>>;
@@ -97,16 +97,17 @@ float passing_squared(const CellGrid& grid, float touching_squared) {
     return passing * passing * (1 + 0x1p-20f);
 }
 
-/// A vector of flights, from slot `other` on, with a flight that does not pass by that
-/// of `first`.
+/// A vector of flights from slot `other` on. At least one of them passes the flight of `first` so
+/// closely that the discs may touch.
 struct NearPass {
     std::uint32_t first, other, n_inside;
 };
 
-/// Finds those among the flights of `cell` and the vectors of `run`: (d x w)^2 <= touching^2 w.w,
-/// with d and w as above. That costs half as much as to find when they are near, and few vectors
-/// are left where discs fly much further than they are wide. No branch depends on what it finds.
-/// Writes to `out` behind the first n, which has room for all; returns how many there are.
+/// Finds the vectors of `run` in which a flight passes one of the flights of `cell` so closely that
+/// the discs may touch: (d x w)^2 <= touching^2 w.w, with d and w as above. This test costs half as
+/// much as testing the times, and rejects most vectors if discs fly much further than they are
+/// wide. It has no branch that depends on the data. Writes to `out` behind the first n entries,
+/// which has room for all, and returns the new number.
 template <class D>
 HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell,
                                         SlotRange run, float passing_squared, NearPass* out,
@@ -130,7 +131,8 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
     return n;
 }
 
-/// The partners of so many discs of a cell are listed at a time. A box of one cell has all in it.
+/// The partners of at most this many discs of a cell are listed at a time, because a box of a
+/// single cell has all discs in it.
 constexpr std::uint32_t discs_in_piece = 256;
 
 /// FilterColumn for discs that fly much further than they are wide.
@@ -207,7 +209,7 @@ HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int colum
     return n_pairs;
 }
 
-/// Does what write_pairs does for the halo's discs of `run`, which are slots of the halo.
+/// Does the same as write_pairs for discs of the halo; `run` contains slots of the halo.
 template <class D>
 HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                         const CellGrid& grid, SlotRange run,
@@ -231,7 +233,8 @@ HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float 
         if (!grid.has_halo_in(other)) continue;
         for (int row = 0; row < n_rows; ++row) {
             const SlotRange run = grid.halo_run(other, row - reach, row + reach);
-            if (run.begin == run.end) { // as in all rows but those at the ends of a periodic box
+            // true in all rows except those at the ends of a periodic box
+            if (run.begin == run.end) {
                 const int next = grid.next_halo_row(other, row + reach + 1);
                 if (next == n_rows) break;
                 row = next - reach - 1;
@@ -292,7 +295,7 @@ HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D
     }
     for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column) {
         const SlotRange run = grid.halo_run(column, cells.first_row, cells.last_row);
-        if (run.begin == run.end) continue; // nearly all have none
+        if (run.begin == run.end) continue; // nearly all cells have no halo disc
         n_pairs = write_halo_pairs(d, flight, first, grid, run, pairs, n_pairs);
     }
     return n_pairs;

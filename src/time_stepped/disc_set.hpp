@@ -17,7 +17,8 @@ class DiscSet {
 public:
     void clear() {
         n_ = 0;
-        if (++round_ == 0) { // otherwise slots of 2^32 rounds ago would count as used
+        // round_ starts again after 2^32 rounds, so old slots would count as used
+        if (++round_ == 0) {
             slots_.assign(slots_.size(), {});
             round_ = 1;
         }
@@ -40,8 +41,8 @@ private:
         std::uint32_t round = 0;
     };
 
-    /// The slot of the disc, or the free slot where it would be inserted. At least half of all
-    /// slots are free.
+    /// The slot that contains the disc, or the free slot where it would be inserted. At least half
+    /// of all slots are free.
     std::size_t place_of(LocalIndex disc) const {
         // Of 2^32; scatters consecutive numbers
         constexpr std::uint32_t golden_section = 0x9E3779B9;

@@ -5,7 +5,8 @@
 namespace carrom {
 
 namespace {
-constexpr std::size_t least_for_threads = 1000; ///< fewer cost more in threads than they save
+/// for fewer updates, starting threads costs more than it saves
+constexpr std::size_t least_for_threads = 1000;
 } // namespace
 
 /// Two ranks may know of a candidate. It is counted by the owner of its first disc.
@@ -41,7 +42,7 @@ void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     hits_.insert(hits_.end(), updates_.begin(), updates_.end());
 }
 
-// These members are called from time_stepped_engine.cpp, where the class itself is compiled.
+// These members are called from time_stepped_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate>)     \
         const;                                                                                     \

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that are much larger than most. If cells were as wide as these need, each small disc would
-// try all others within a large disc's reach. So cells are made for most discs, and the few large
-// ones search on their own. Which discs count as large affects the run's time, not its bits.
+// Discs that are much larger than most. If cells were wide enough for them, each small disc would
+// be compared with all others within the reach of a large one. So cells are made for most discs,
+// and the few large ones search on their own. Which discs count as large affects the run's time,
+// not its bits.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 
 namespace carrom {
 
-/// The largest radius for which cells should be made. There are few larger discs, or none. `area`
-/// is the area of the box.
+/// The largest radius for which cells should be made. Few discs or none are larger. `area` is the
+/// area of the box.
 double usual_radius_of(std::span<const Species> species, double radius, double area);
 
 /// The large discs of a rank and its halo, with copies of their flights in one array.

@@ -27,15 +27,16 @@ void write(std::uint32_t& mark, std::uint32_t value) {
     std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
 }
 
-/// Puts candidate `number` into `mark` if it comes before the one there. If threads do
-/// so at once, an offer may be lost.
+/// Writes `number` to `mark` if this candidate comes before the one whose number is there. If
+/// several threads write at the same time, one number may be lost.
 void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
            const TotalOrder& before) {
     const std::uint32_t seen = read(mark);
     if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
 }
 
-/// Offers again when all threads are done, for the few offers that were lost.
+/// Repeats `offer` with an atomic exchange when all threads are done, for the few numbers that were
+/// lost.
 void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
             const TotalOrder& before) {
     std::atomic_ref<std::uint32_t> place(mark);
@@ -47,7 +48,7 @@ void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate
 
 } // namespace
 
-/// All discs are free before and after a call, so nothing needs to be kept.
+/// All discs are free before and after a call, so old marks need not be copied.
 void LocalResolution::make_room_for(std::size_t n_discs) {
     if (first_.size() >= n_discs) return;
     first_.clear();
@@ -113,7 +114,7 @@ std::size_t LocalResolution::round_alone(const Population& population, Candidate
     return verdicts.kept.size() - old_kept;
 }
 
-/// Makes room for what all threads have kept and left, and assigns each thread its part.
+/// Makes room for all kept and live candidates, and gives each thread its part of the lists.
 void LocalResolution::join_lists(Candidates& live, Verdicts& verdicts) {
     std::size_t kept_end = verdicts.kept.size(), live_end = 0;
     for (std::size_t thread = 0; thread < kept_by_thread_.size(); ++thread) {
@@ -143,7 +144,8 @@ std::size_t LocalResolution::round_together(const Population& population, Candid
             offer(first_[candidate.p], number, live, before);
             if (!candidate.is_wall()) offer(first_[candidate.q], number, live, before);
         }
-        // An exchange that compares costs as much as all else that is done for a candidate.
+        // Only this second pass uses atomic exchanges, and only for numbers that were lost, because
+        // an exchange costs as much as all other work for a candidate.
 #pragma omp for schedule(static)
         for (std::int64_t k = 0; k < n_live; ++k) {
             const Candidate& candidate = live[static_cast<std::size_t>(k)];

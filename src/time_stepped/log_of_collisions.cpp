@@ -24,7 +24,8 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
-        if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0; // nothing has pushed it
+        // the disc has left without a collision
+        if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0;
         const double dx = (results[c.p].vx - unhit_[i].vx) * k,
                      dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
@@ -60,7 +61,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
     this->pair_followers_.hand_over();
 }
 
-// The functions that the engine's own file calls. The class itself is compiled there.
+// These members are called from time_stepped_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void TimeSteppedEngine<Dynamics>::record_velocities(std::span<const DiscState>);      \
     template void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState>, int);

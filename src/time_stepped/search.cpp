@@ -15,16 +15,17 @@ namespace carrom {
 
 namespace {
 
-/// The flights around a disc are prefetched so many discs before it is searched.
+/// Number of discs between the prefetch of the flights around a disc and its search
 constexpr std::size_t around_ahead = 4;
-/// Discs whose partners are listed before any of them is judged.
+/// The partners of this many discs are listed before their contacts are predicted.
 constexpr std::size_t hits_per_batch = 128;
-/// States of pairs are prefetched so many pairs ahead, because they are far apart in memory.
+/// Number of pairs between the prefetch of states and their use. States of a pair are far apart in
+/// memory.
 constexpr std::size_t pairs_ahead = 8;
-/// After this many pairs comes a check whether the run is asked to stop.
+/// A request to stop is tested once in this many pairs.
 constexpr std::size_t pairs_between_checks = 65536;
 
-/// Adds what was predicted for the micro-steps from `from` on.
+/// Adds a candidate that was predicted from the states at the beginning of micro-step `from`.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
     lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].add(
         candidate, window.state_after(from - 1));
@@ -34,8 +35,8 @@ void prefetch(std::span<const DiscState> discs, LocalIndex index) {
     __builtin_prefetch(&discs[index]);
 }
 
-/// Calls ask(pair) some time before judge(pair), for the first n pairs. Omits the rest
-/// if a request to stop is overdue.
+/// Calls `ask` for a pair some pairs before `judge`, for the first n pairs. Omits the rest if a
+/// request to stop is overdue.
 template <class Ask, class Judge>
 void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
                     const Judge& judge) {
@@ -68,7 +69,8 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
     sections.clear();
 }
 
-/// Gives the list's memory away: the next window needs it again, and later lists grow before.
+/// Moves the list out, so that its memory is freed before later lists grow. The next window
+/// allocates it again.
 Candidates SearchLists::take(std::size_t bucket, std::span<const WindowState> states) {
     MicroStepList& list = by_micro[bucket];
     most_candidates = std::max(most_candidates, list.candidates.size());
@@ -76,10 +78,10 @@ Candidates SearchLists::take(std::size_t bucket, std::span<const WindowState> st
     return std::exchange(list.candidates, {});
 }
 
-/// The bounds of the rejection in single precision: of pairs by distance, and of walls by
-/// the position at the window's end, in cells along the grid's axis (x) and across it.
+/// Bounds of the rejection in single precision. Pairs are rejected by their distance. Walls are
+/// rejected by the position at the window's end, in cells along the grid's axis (x) and across it.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
-    float touching_squared, touching_large_squared; ///< large: of a large disc and any other
+    float touching_squared, touching_large_squared; ///< the second one for pairs with a large disc
     float x_low, x_high, y_low, y_high;
 
     Bounds(const Dynamics& dynamics, const CellGrid& grid, double usual_radius)
@@ -176,7 +178,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
                                       const Window& window, const Bounds& bounds, int column,
                                       SearchLists& lists) const {
-    if (is_stop_overdue()) return; // the engine gives up the step then
+    if (is_stop_overdue()) return; // the engine will repeat or give up the step
     lists.n_pairs = dynamics_.has_pairs()
                         ? filter_column(grid, column, bounds.touching_squared, lists.pairs)
                         : 0;
@@ -199,16 +201,16 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
     }
 }
 
-/// How far from a disc's path the cell of a disc of the usual radius that it touches can be. The
-/// two are the sum of their radii apart then, and the other disc is at most half a reach less its
-/// radius from its cell.
+/// Half the width of the stretch along a disc's path, in cells, that contains the cells of all
+/// discs of the usual radius that it touches. When they touch, the centres are the sum of both
+/// radii apart, and the other disc is at most half a reach less its radius from its cell.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach, double radius) const {
     return grid.cells_of(reach / 2 + radius + dynamics_.slack());
 }
 
-/// Predicts disc k of those set apart with all discs in cells, unless it is large, and with all
-/// discs set apart that come after it, unless both are large.
+/// Predicts contacts of disc k of those set apart. Its partners are all discs in cells, unless it
+/// is large, and all later discs set apart, unless both are large.
 template <class Dynamics>
 void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid,
                                      const Window& window, const Bounds& bounds, double reach,
@@ -233,8 +235,8 @@ void Search<Dynamics>::predict_apart(const Population& population, const CellGri
     }
 }
 
-/// Predicts large disc k with walls, with all discs in cells that are not large, and with all large
-/// discs that come after it.
+/// Predicts contacts of large disc k with walls, with all discs in cells that are not large, and
+/// with all later large discs.
 template <class Dynamics>
 void Search<Dynamics>::predict_large(const Population& population, const CellGrid& grid,
                                      const Window& window, const Bounds& bounds, double reach,
@@ -282,7 +284,8 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
                 lists.pairs, lists.n_pairs,
                 [&](const DiscPair& pair) { prefetch(population.discs, pair.second); },
                 [&](const DiscPair& pair) {
-                    // A pair of hit discs is predicted only once.
+                    // If both discs were hit, the pair is listed twice, so only one of the two
+                    // entries is predicted.
                     if (states[pair.second] != now || pair.first < pair.second)
                         predict_pair(population, window, from, pair.first, pair.second, lists);
                 });
@@ -296,7 +299,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
     }
 }
 
-/// Fills `lists.pairs` with the pairs of each disc of `hit` and the discs that it might touch.
+/// Fills `lists.pairs` with the discs of `hit`, each with the discs that it might touch.
 template <class Dynamics>
 void Search<Dynamics>::find_pairs_around(const Population& population, const CellGrid& grid,
                                          const Bounds& bounds, float from, double reach,
@@ -305,7 +308,7 @@ void Search<Dynamics>::find_pairs_around(const Population& population, const Cel
     lists.n_pairs = 0;
     const float half = half_reach(grid, reach, usual_radius_);
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
-        // A disc needs a dozen cache lines: prefetch the cells first, then the flights
+        // A disc needs a dozen cache lines, so its cells are prefetched first, and then the flights
         // in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
@@ -318,8 +321,8 @@ void Search<Dynamics>::find_pairs_around(const Population& population, const Cel
     }
 }
 
-/// Appends the pairs of a disc that was hit, if there are large discs. They are searched in their
-/// list, and all others in cells.
+/// Appends the pairs of a disc that was hit, if there are large discs. Large partners are searched
+/// in their own list, all others in cells.
 template <class Dynamics>
 void Search<Dynamics>::find_pairs_with_large(const Population& population, const CellGrid& grid,
                                              const Bounds& bounds, float from, double reach,

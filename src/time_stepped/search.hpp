@@ -47,7 +47,7 @@ struct MicroStepList {
 struct SearchLists {
     std::vector<MicroStepList> by_micro; ///< one list for each micro-step of the window
     std::size_t most_candidates = 0;     ///< the largest number of candidates in a list so far
-    std::vector<DiscPair> pairs;         ///< only the first n_pairs count
+    std::vector<DiscPair> pairs;         ///< pairs, of which only the first n_pairs count
     std::size_t n_pairs = 0;
 
     /// Moves the candidates that are still valid out of the list.
@@ -109,7 +109,7 @@ private:
     int n_threads_;
     double usual_radius_;
     LargeDiscs large_;
-    std::vector<SearchLists> lists_; ///< by thread
+    std::vector<SearchLists> lists_; ///< lists of each thread
 };
 
 #define CARROM_DECLARE(Dynamics) extern template class Search<Dynamics>;

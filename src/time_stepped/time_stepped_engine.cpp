@@ -15,11 +15,11 @@ namespace carrom {
 
 namespace {
 
-/// By how much discs may become faster in a window before it is cut short: in
-/// equilibrium, and after a window that was cut.
+/// Factors by which speeds may grow in a window before it is cut short. The first holds in
+/// equilibrium, the second after a window that was cut.
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
-/// Reduces the number of threads, because threads with little to do cost more than they save.
+/// Uses fewer threads for few discs, because threads with little work cost more than they save.
 Tuning with_useful_threads(Tuning tuning, const SceneParameters& scene, const Communicator& ranks) {
     const auto per_thread = std::max<std::uint64_t>(1, tuning.discs_per_thread),
                n_ranks = static_cast<std::uint64_t>(ranks.size());
@@ -49,8 +49,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_to(std::int6
     while (n_micro_done_ < target) run_window(left(target), left(horizon));
 }
 
-/// Runs at most `n_left` micro-steps of a window, or until discs are too fast for it. The window
-/// has at most `n_to_horizon` of them.
+/// Runs micro-steps of a window until `n_left` of them are done, the window ends, or discs are too
+/// fast for it. The window has at most `n_to_horizon` micro-steps.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::run_window(int n_left, int n_to_horizon) {
     if (std::exchange(this->is_in_window_, false))
@@ -78,7 +78,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::begin_window(int n_l
                         reach_of(usual_needs(), window_.duration(), usual_speed_));
 }
 
-/// After the last part of a micro-step its results become the states.
+/// Ends a window. If it was the last part of a micro-step, the results become the states.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::end_window(bool is_cut) {
     speed_allowance_ = is_cut ? allowance_after_cut
                               : std::max(least_allowance, (1 + speed_allowance_) / 2);
@@ -90,15 +90,15 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::end_window(bool is_c
     part_ = 0;
 }
 
-/// Chooses a window. Brings every disc to its strip, the halo to every strip, and all
-/// discs into cells for it.
+/// Chooses a window, and brings discs to their strips, halo discs to the ranks that need them, and
+/// all of them into cells.
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n_left) {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
     if (part_ == 0) {
         this->set_departed_aside();
         survey_images();
         agree_on_speed();
-        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks have agreed on it
+        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // the same on all ranks
             spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_, tuning_.threads);
         if (n_windows_ == 0) hits_per_micro_step_ = guess_of_hits(window_needs());
     }
@@ -124,8 +124,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
     Base::add_to(totals);
 }
 
-/// Sets the reach of halo discs to `reach`, and makes cells for `usual_reach`. Discs
-/// that are too fast for these cells will be set apart.
+/// Makes cells for `usual_reach`, and sets the reach of halo discs to `reach`. Discs that are too
+/// fast for the cells will be set apart.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
@@ -172,7 +172,7 @@ template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs(
             spread_.largest > 0 ? &spread_ : nullptr};
 }
 
-/// The needs of the discs that cells fit.
+/// The needs of a window as in window_needs, for discs up to the size for which cells are made.
 template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::usual_needs() const {
     WindowNeeds needs = window_needs();
     needs.radius = search_.usual_radius() + dynamics_.slack();
@@ -186,8 +186,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
     this->refuse_long_flights(std::max(travel_speed_, largest_speed_));
 }
 
-/// If images move, a disc that comes to another row of boxes has another speed there
-/// without a collision. It may come there before the window's anchor.
+/// If images move, a disc that crosses into another row of boxes has another speed there without a
+/// collision. It may cross before the window's anchor, so the speed of the images is added.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_images() {
     if constexpr (Dynamics::has_moving_images) {
         const double fastest = this->squared_speed_of_own(time_);
@@ -202,8 +202,9 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate() {
     migrate_at(time_);
 }
 
-/// Discs went to their cells by their old flights. They are where the new flights take them. These
-/// began when states changed, not before `unchanged_until_`. Between parts no state changes.
+/// A disc was sorted by its old flight, but is now where the new flight takes it. So `flown`
+/// includes the old flight and the new one, which began at a change of state, not before
+/// `unchanged_until_`. Between the parts of a micro-step no state changes.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double time) {
     const double from = part_ > 0 ? redistributed_time_ : unchanged_until_;
     const double flown = (time - from) + std::fabs(redistributed_time_ - from);
@@ -214,13 +215,13 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double ti
     if (part_ == 0) unchanged_until_ = time_;
 }
 
-/// Decides and applies micro-step m. Returns false, with nothing done, if discs have
-/// become faster than the window allows for.
+/// Decides and applies micro-step m. Returns false, before anything changes, if discs have become
+/// faster than the window allows for.
 template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
     std::uint64_t n_candidates = 0;
-    { // the list is freed before others grow
+    { // a block, so that the list is freed before others grow
         Candidates live = search_.collect(window, m, states_);
         n_candidates = count_ours(live);
         if (in_parts_) strike_taken(live);
@@ -254,8 +255,8 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     return true;
 }
 
-/// Removes the candidates with a disc that an earlier part of this micro-step has
-/// taken. They still count as candidates.
+/// Removes the candidates of discs that have collided in an earlier part of this micro-step. They
+/// are still counted as candidates.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::strike_taken(Candidates& live) const {
     const auto is_taken = [&](LocalIndex index) {
         return outcomes_[index].version() != population().discs[index].version();
@@ -274,7 +275,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
         largest_speed_ = std::max(largest_speed_, fastest);
         speed_exceeded_ = largest_speed_ > window_speed_;
     }
-    if (m + 1 >= window.end_micro()) return; // the window does not need these states any more
+    if (m + 1 >= window.end_micro()) return; // the window ends, so no search needs these states
     update_halo(window, m);
     const PhaseClock::Scope scope(phases_, Phase::search);
     const double reach = reach_of(usual_needs(), window.duration());
@@ -292,8 +293,9 @@ template <class Dynamics>
     }
 }
 
-/// Returns the square of the largest speed afterwards; mirror walls do not change it. If
-/// two ranks carry out the collision, the owner of the first disc adds it to the sums.
+/// Returns the square of the largest speed after the collision, or 0 for mirror walls, which do not
+/// change speeds. If two ranks carry out the collision, the owner of the first disc adds it to the
+/// sums.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(const Candidate& c, int m,
                                                                           DiscStates& results,
@@ -310,7 +312,7 @@ template <class Dynamics>
     DiscState& q = results[c.q];
     const PairStress<Dynamics> before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
-    // A spin does not affect the search, so it need not wait for the end of a cut micro-step.
+    // Spins do not affect the search, so they change at once even in a divided micro-step.
     dynamics_.collide(p, q, m + c.time, Dynamics::never, {spin_of(c.p), spin_of(c.q)});
     StepWalls(dynamics_).stop(p, m, c.time);
     StepWalls(dynamics_).stop(q, m, c.time);
@@ -325,14 +327,14 @@ template <class Dynamics>
                 *this->work_ += work;
             }
     }
-    if constexpr (Dynamics::has_moving_images) // other ranks count their own discs
+    if constexpr (Dynamics::has_moving_images) // discs of other ranks are counted there
         return std::max(c.p < discs_.n_own() ? dynamics_.squared_speed(p) : 0,
                         c.q < discs_.n_own() ? dynamics_.squared_speed(q) : 0);
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
 
-/// Carries out the kept candidates and returns the largest speed afterwards. Notes the
-/// discs for another search, unless the window ends here.
+/// Carries out the kept candidates and returns the largest speed afterwards. Records the discs for
+/// another search, unless the window ends here.
 template <class Dynamics>
 double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m, DiscStates& results) {
     constexpr std::int64_t prefetch_distance = 16;
@@ -368,7 +370,7 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m, Dis
     return std::sqrt(fastest);
 }
 
-/// The next migration still allows for the largest speed before the sync.
+/// The next migration also needs the largest speed before the sync, by which discs were sorted.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double largest_speed) {
     unchanged_until_ -= time_;
     if constexpr (Dynamics::has_moving_images) search_.change_dynamics(dynamics_);
@@ -380,7 +382,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double l
                             static_cast<double>(this->sync_every_));
 }
 
-/// Discs fly by their new velocities to where they are sorted.
+/// Discs fly with their new velocities to the place by which they are sorted next.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::take_speed(double largest_speed) {
     refreshed_speed_ = communicator_.max(largest_speed);
     largest_speed_ = std::max(largest_speed_, refreshed_speed_);

@@ -77,7 +77,7 @@ private:
         else
             discs_.grid().update_flight(index, disc);
     }
-    /// Null where discs do not turn.
+    /// The disc's spin; null where discs do not turn.
     double* spin_of(LocalIndex index) {
         return dynamics_.has_spin() ? &discs_.columns()[SideColumn::spin][index] : nullptr;
     }
@@ -91,7 +91,7 @@ private:
     /// The next part of the present micro-step, and the number of parts
     int part_ = 0, n_parts_ = 1;
 
-    double refreshed_speed_ = 0; ///< the largest speed at the last sync, until it is used; then 0
+    double refreshed_speed_ = 0; ///< largest speed at the last sync, and 0 after it was used
     /// Time of the first change of a state since the last migration, or before
     double unchanged_until_ = 0;
 
@@ -101,7 +101,7 @@ private:
     double hits_per_micro_step_ = 0;
     double window_speed_ = 0; ///< the speed that the window's reach allows for
     double usual_speed_ = 0;  ///< the speed that the window's cells allow for
-    SpeedSpread spread_;      ///< at the start of the last micro-step that was divided
+    SpeedSpread spread_;      ///< speeds at the start of the last micro-step that was divided
     bool speed_exceeded_ = false;
 
     Search<Dynamics> search_;
@@ -112,7 +112,7 @@ private:
     std::vector<LocalIndex> updates_;
     DiscStates unhit_; ///< for the log: first discs of the kept candidates, before the collision
     DiscStates unhit_partners_;     ///< second discs before the collision, if pairs are recorded
-    RawVector<WindowState> states_; ///< for each disc
+    RawVector<WindowState> states_; ///< the window's state of each disc
 
     // Candidates whose first disc is an own disc.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;

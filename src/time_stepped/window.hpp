@@ -14,14 +14,14 @@ namespace carrom {
 /// The number of a disc's state: 0 at the window's start, n + 1 after the window's micro-step n,
 /// counted from 0. Comparing it needs one byte for each disc instead of a cache line.
 using WindowState = std::uint8_t;
-inline constexpr int longest_window = 254; ///< in micro-steps
+inline constexpr int longest_window = 254; ///< longest window in micro-steps
 
 /// Micro-steps are counted from the last sync. The ends of a part are times within the micro-step;
 /// the end of a part is exactly the beginning of the next one.
 struct Window {
     int first_micro = 0;
     int n_micro = 1;
-    double part_begin = 0; ///< 0 unless the micro-step is divided
+    double part_begin = 0; ///< begin of the part; 0 unless the micro-step is divided
     double part_end = 1;   ///< the last part of a micro-step includes its end
 
     CARROM_DEVICE bool is_last_part() const { return part_end == 1; }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libFuzzer on the reader of checkpoints, from a whole one with bytes replaced: random bytes would
-// end at the checksums.
+// libFuzzer on the reader of checkpoints. It replaces bytes of an undamaged file, because random
+// bytes would fail at the checksums.
 //
 // Input: a first byte, then edits of 4 bytes and more: a place among those that are not empty (3
-// bytes), a length or what to do (1), the new bytes. An odd first byte stands for a forged file:
-// only values change, those of the header and of the discs, and it gets right checksums, so that
-// HDF5 and the reader's own checks are reached. (Forged metadata are tried by damaged_files.cpp.) A
-// file must end in a checkpoint that keeps its promises, or in an error of code 2; one that is not
-// forged and differs must be refused. docs/understanding/hard-cases.md says how to run it.
+// bytes), a length or a kind of edit (1), the new bytes. An odd first byte means a forged file:
+// only values of the header and of the discs change, and the checksums are made right, so that HDF5
+// and the reader's own checks are reached. (damaged_files.cpp has forged metadata.) A file must
+// give a valid checkpoint, or an error of code 2; one that differs and is not forged must be an
+// error. docs/understanding/hard-cases.md has the commands.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +46,8 @@ std::vector<char> whole_checkpoint(const Communicator& world) {
     return test::bytes_of(path());
 }
 
-/// Where something stands: most of a small file is the room between its datasets.
+/// The places of bytes that are not empty, because most of a small file is the space between its
+/// data sets.
 std::vector<std::size_t> places_in(const std::vector<char>& bytes) {
     constexpr std::size_t margin = 8;
     std::vector<std::size_t> places;
@@ -60,7 +61,7 @@ std::vector<std::size_t> places_in(const std::vector<char>& bytes) {
     return places;
 }
 
-/// Where the values of the header and of the discs stand.
+/// The places of the values of the header and of the discs.
 std::vector<std::size_t> places_of_values() {
     std::vector<std::size_t> places;
     const h5::File file = h5::open_file(path(), h5::Access::read);
@@ -78,7 +79,7 @@ std::vector<std::size_t> places_of_values() {
     return places;
 }
 
-/// The file as the input wants it.
+/// The file with the edits of the input.
 std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>& places,
                          std::span<const std::uint8_t> input, bool may_be_cut) {
     while (input.size() >= 4) {
@@ -87,7 +88,7 @@ std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>
                    places.size()];
         const std::uint8_t what = input[3];
         input = input.subspan(4);
-        if (place >= bytes.size()) continue; // cut off already
+        if (place >= bytes.size()) continue; // beyond the end of a file that was cut
         if (what == cut_short && may_be_cut) {
             bytes.resize(place);
             continue;
@@ -122,7 +123,8 @@ struct Ground {
 
     Ground(int& argc, char**& argv) : mpi(argc, argv) {
         demand(whole[places_of_values.front()] ==
-               '0'); // of the program's version: the places are those of the values
+               // a file with the program's version, because the places are those of its values
+               '0');
     }
 };
 

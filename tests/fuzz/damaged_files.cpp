@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads files whose bytes have been replaced anywhere, HDF5's own metadata included, each in a
-// process of its own with 4 GB of memory and ten seconds: checkpoints with right checksums, as a
-// forger would make them, trajectories, logs of collisions, and recordings that a run is to go on
-// with.
-//
-//   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; the numbers of those that have
-//   failed are told damaged_files 1 SEED KIND              this one, which stays where it is said
-//   to be
-//
-// A file must be read or refused; a crash within HDF5 must end in a refusal too, and is counted. No
-// crash, no other exception, no more memory or time than that: exit code 1 otherwise.
+// Reads files in which bytes anywhere have been replaced, also in HDF5's own metadata: checkpoints
+// with right checksums, as a forger would make them, trajectories, logs of collisions, and
+// recordings that a run continues. Each is read in a process of its own with 4 GB of memory and ten
+// seconds.
+//   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; prints the numbers of those
+//                                          that have failed
+//   damaged_files 1 SEED KIND              this file only, which is left at the printed path
+// Each file must be read or be an error. A crash within HDF5 must also end in an error, and is
+// counted. Exit code 1 after a crash, another exception, or more memory or time than that.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -45,7 +43,7 @@ constexpr rlim_t most_memory = rlim_t{4} << 30;
 constexpr rlim_t most_seconds = 10;
 enum Ending { is_read = 0, is_refused = 2, is_refused_in_a_crash = 3, has_thrown = 50 };
 
-/// Of the process that was started, in those that it starts as well.
+/// The file of the first process, also used by those that it starts.
 const std::string& path() {
     static const std::string name = "/dev/shm/carrom_damaged_" + std::to_string(::getpid()) + ".h5";
     return name;
@@ -72,7 +70,8 @@ struct Kind {
     std::function<void(const std::string&)> read;
 };
 
-/// Where something stands: most of a small file is the room between its data sets.
+/// The places of bytes that are not empty, because most of a small file is the space between its
+/// data sets.
 std::vector<std::size_t> places_in(const Kind& kind) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < kind.whole.size(); ++i) {
@@ -85,8 +84,8 @@ std::vector<std::size_t> places_in(const Kind& kind) {
     return places;
 }
 
-/// One to four places get a random byte, a flipped bit, eight bytes of a number that is likely to
-/// hurt, or bytes from elsewhere.
+/// Replaces one to four places by a random byte, a flipped bit, eight bytes of a number that may
+/// cause errors, or bytes from elsewhere.
 std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& places,
                           Random& random) {
     std::vector<char> bytes = kind.whole;
@@ -116,7 +115,7 @@ std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& plac
     return bytes;
 }
 
-/// In a process of its own, which ends here.
+/// Reads the file in a process of its own, which ends here.
 [[noreturn]] void read_and_exit(const Kind& kind) {
     const rlimit memory = {most_memory, most_memory}, time = {most_seconds, most_seconds};
     ::setrlimit(RLIMIT_AS, &memory);
@@ -135,7 +134,7 @@ std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& plac
     }
 }
 
-/// How many of `count` damaged files are neither read nor refused.
+/// Counts which of `count` damaged files neither can be read nor are an error.
 int try_kind(const Kind& kind, std::uint64_t seed, std::uint64_t count) {
     const std::vector<std::size_t> places = places_in(kind);
     int n_bad = 0, n_read = 0, n_crashed = 0;
@@ -143,7 +142,7 @@ int try_kind(const Kind& kind, std::uint64_t seed, std::uint64_t count) {
     for (std::uint64_t i = seed; i < seed + count; ++i) {
         Random random(i);
         const std::vector<char> bytes = damaged(kind, places, random);
-        ::unlink((path() + ".undo").c_str()); // of one that has failed
+        ::unlink((path() + ".undo").c_str()); // left by a process that failed
         if (kind.forger)
             kind.forger->write(path(), bytes);
         else
@@ -172,8 +171,7 @@ int try_kind(const Kind& kind, std::uint64_t seed, std::uint64_t count) {
 
 } // namespace
 
-/// In the place of MPI's, which a process that has only been forked cannot have: what a crash
-/// within HDF5 ends in.
+/// Replaces MPI_Abort, which a forked process does not have. A crash within HDF5 ends here.
 extern "C" int MPI_Abort(MPI_Comm, int code) {
     ::_exit(code == static_cast<int>(ExitCode::bad_input) ? is_refused_in_a_crash : code);
 }

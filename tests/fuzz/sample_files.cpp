@@ -13,7 +13,7 @@
 #include "io/checksums.hpp"
 #include "io/collision_log.hpp"
 
-/// The hash that HDF5 puts behind its metadata; not in its public headers.
+/// HDF5's hash of its metadata, which its public headers do not contain.
 extern "C" std::uint32_t H5_checksum_metadata(const void* bytes, std::size_t length,
                                               std::uint32_t start);
 

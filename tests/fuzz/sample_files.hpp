@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small files of each kind to be damaged, and how a damaged checkpoint is given the checksums that
-// a writer of just these bytes would have given it.
+// Small files of each kind for tests of damage, and right checksums for damaged checkpoints.
 #pragma once
 
 #include <string>
@@ -25,7 +24,8 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
 TrajectoryLayout sample_layout(bool is_double);
 void write_sample_trajectory(const std::string& path, bool is_double, const Communicator& world);
 
-/// Twenty collisions. **Collective.**
+/// Gives damaged copies of a checkpoint right checksums: HDF5's own ones of its metadata, and
+/// Carrom's. All remain at their places. Not collective.
 void write_sample_log(const std::string& path, const Communicator& world);
 
 /// Gives damaged copies of a checkpoint right checksums: HDF5's own over its metadata, and those of
@@ -33,7 +33,7 @@ void write_sample_log(const std::string& path, const Communicator& world);
 class Forger {
 public:
     explicit Forger(const std::string& whole);
-    /// Replaces the file by `bytes`, which are as many as before, with other checksums.
+    /// Replaces the file by `bytes`, with other checksums; their number must be the same as before.
     void write(const std::string& path, std::vector<char> bytes) const;
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libFuzzer on both readers of scenes. The first byte chooses: TOML, or the legacy text format.
 //
-// Every text must end in a scene that keeps its promises or in an InputError that names a problem;
-// a crash, a hang, any other exception and whatever the sanitizers find is a bug. How to run it is
-// told in docs/understanding/hard-cases.md.
+// Every text must give a valid scene, or an InputError that names a problem. A crash, a hang, any
+// other exception and every finding of the sanitizers is a bug. docs/understanding/hard-cases.md
+// has the commands.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,8 @@ void demand(bool claim) {
 }
 
 void check(const carrom::SceneParameters& scene) {
-    demand(!carrom::measured_quantities().empty()); // scenes know them
+    // declares the quantities to the readers of scenes
+    demand(!carrom::measured_quantities().empty());
     demand(scene.n_discs > 0 && scene.steps >= 0 && scene.micro_steps > 0 && scene.sync_every > 0);
     demand(std::isfinite(scene.box.x) && scene.radius > 0 && scene.box.x >= 2 * scene.radius);
     for (const carrom::InputDisc& disc : scene.listed_discs) {

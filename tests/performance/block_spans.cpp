@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well threads would share the blocks of the event-driven method, counted and not timed: two
-// cores can tell what 128 would have to do. The work of a block's run is its collisions plus 0.14
-// for each disc that it sees, which is what they take on one core. Threads take blocks in turn, as
-// OpenMP's dynamic schedule does; a round ends when the last thread has finished, and rounds that
-// a rollback repeats count too. The speed-up is the work of one thread, with the windows and blocks
-// that it would choose, over the spans of many. The share of idle time is 1 - work / (threads
-// span). Sorting into cells, halos and commits are not in these numbers.
-//
+// How well threads would share the blocks of the event-driven method, counted and not timed, so
+// that two cores are enough to study 128 threads. The work of a block's run is its collisions plus
+// 0.14 for each disc in it, which is proportional to its time on one core. Threads take blocks in
+// turn, as in OpenMP's dynamic schedule. A round ends when the last thread has finished, and
+// repeated rounds count, too. The speed-up is the work of one thread, with the windows and blocks
+// that it would choose, divided by the time of many threads. The share of idle time is 1 - work /
+// (threads time). Sorting into cells, halos and commits are not included.
 //   block_spans [DISCS [THREADS [SCENE]]]        a million discs, 64 threads, all scenes
-//
 // Scene 0 is a gas of packing 0.5 that fills its box, scene 1 the same gas in one hundredth of a
 // box. In scene 2 half of it is there, and the other half is spread over the rest.
 #include <algorithm>
@@ -40,7 +38,7 @@ double work_of(const BlockWork& block) {
     return static_cast<double>(block.n_carried) + per_disc * static_cast<double>(block.n_seen);
 }
 
-/// The time until `n_threads` have done the blocks, each taking the next one when it is free.
+/// The time in which `n_threads` finish the blocks, if each takes the next one when it is free.
 double span_of(const std::vector<BlockWork>& round, int n_threads) {
     std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
     for (int k = 0; k < n_threads; ++k) free_at.push(0);

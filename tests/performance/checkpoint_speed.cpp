@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What HDF5 and MPI-IO cost: checkpoints as the program writes them, beside the same file with its
-// numbers written by plain positioned writes. Both pack the same discs, take the same checksums and
-// bring all to disk. They take turns, so that a disk that others use too treats both alike.
-//
+// The cost of HDF5 and MPI-IO: checkpoints as the program writes them, compared with the same file
+// whose numbers are written by plain positioned writes. Both pack the same discs, compute the same
+// checksums and bring all bytes to disk. They take turns, so that other users of the disk slow both
+// down equally.
 //   mpirun -np 2 build/tests/checkpoint_speed FOLDER [DISCS [ROUNDS [THREADS]]]
-//
 // Prints seconds of each round, and the median of the ratios. Needs 80 bytes a disc on disk, and 64
 // in memory.
 #include <algorithm>
@@ -107,7 +106,7 @@ StateSums write_numbers(const std::string& path, const std::vector<DiscTarget>& 
     return sums;
 }
 
-/// The same bytes as `write_checkpoint`. **Collective.**
+/// Writes the same bytes as `write_checkpoint`. **Collective.**
 void write_plainly(const std::string& path, CheckpointHeader header,
                    std::span<const DiscState> discs, int n_threads,
                    const Communicator& communicator) {
@@ -128,7 +127,7 @@ void write_plainly(const std::string& path, CheckpointHeader header,
     });
 }
 
-/// In the order of ids, so that sorting hides no difference.
+/// Discs in the order of ids, so that sorting takes no time.
 std::vector<DiscState> own_discs(std::uint64_t n_discs, const Communicator& communicator) {
     const std::uint64_t begin = slab_begin(communicator.rank(), n_discs, communicator.size());
     std::vector<DiscState> discs(slab_begin(communicator.rank() + 1, n_discs, communicator.size()) -
@@ -154,7 +153,7 @@ double seconds_of(const Write& write, const std::string& path, const Communicato
     const std::chrono::duration<double> seconds = Clock::now() - start;
     if (communicator.is_root()) {
         ::unlink(path.c_str());
-        ::sync(); // nothing is left for the next one to wait for
+        ::sync(); // the next measurement need not wait for these writes
     }
     return seconds.count();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gases that crowd in a corner of their box, for studies of how work is shared. The box is ten
-// times as wide and high as that of an even gas, which lies in its corner.
+// Gases that are clustered in a corner of their box, for studies of shared work. The box is ten
+// times as wide and high as that of the homogeneous gas, which lies in its corner.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace carrom {
 
 enum class Crowd { none, all, half };
 
-constexpr double stretch = 10; ///< of the box's sides where discs crowd
+constexpr double stretch = 10; ///< factor of the box's sides if discs are clustered
 
-/// Where half of the discs crowd, every second disc of the even gas goes to a place ten times as
-/// far away, and those that would fall into the corner again are left out. `corner` is the box of
-/// the even gas.
+/// Returns a clustered gas. If half of the discs are clustered, every second disc of the
+/// homogeneous gas goes to a place ten times as far away, and discs that would then be in the
+/// corner are left out. `corner` is the box of the homogeneous gas.
 inline std::vector<InputDisc> crowded(std::vector<InputDisc> discs, const Box& corner,
                                       Crowd crowd) {
     if (crowd != Crowd::half) return discs;
@@ -36,12 +36,12 @@ inline std::vector<InputDisc> crowded(std::vector<InputDisc> discs, const Box& c
     return kept;
 }
 
-/// The box of a gas of which some discs crowd.
+/// The box of a clustered gas.
 inline Box box_around(const Box& corner, Crowd crowd) {
     return crowd == Crowd::none ? corner : Box{stretch * corner.x, stretch * corner.y};
 }
 
-/// A disc as it begins, with its velocity per micro-step.
+/// A disc at the start, with its velocity per micro-step.
 inline DiscState first_state(const InputDisc& input, const SceneParameters& scene) {
     DiscState disc;
     disc.id = input.id;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What random insertion costs, counted and not timed: calls that involve all ranks, messages,
-// bytes, and a hash of the places, which must not depend on ranks or threads. Instructions are
-// counted by valgrind: --tool=callgrind --collect-atstart=no
-// '--toggle-collect=carrom::insert_at_random*'.
-//
+// The cost of random insertion, counted and not timed: calls that involve all ranks, messages,
+// bytes, and a hash of the positions, which must not depend on ranks or threads. Valgrind counts
+// instructions: --tool=callgrind --collect-atstart=no '--toggle-collect=carrom::insert_at_random*'.
 //   insertion_costs [DISCS [PACKING [THREADS]]]        100000 discs at 0.5, one thread
 #include <cstdio>
 #include <cstdlib>

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Micro-benchmarks of the kernels, one core each: what a pair, a disc or a collision costs in them
-// alone.
-//
+// Micro-benchmarks of the kernels, one core each: the cost of a pair, a disc or a collision.
 //   carrom_benchmarks [--benchmark_filter=...] [--benchmark_format=json] ...
-//
-// Gases of packing 0.2 with speeds evenly up to half a radius per step, 1e4 discs (in the second
-// level of cache) and 1e6. Items are what is named; the counters flops and bytes are what the
-// source says of an item: each operation of the formula (a fused one is two), each number that is
-// read or written once. page.py makes the roofline of them.
+// Gases of packing 0.2 with speeds evenly up to half a radius per step, 1e4 discs (which fit the
+// second level of cache) and 1e6. Each benchmark names its items. The counters flops and bytes are
+// derived from the source: each operation of the formula (a fused one is two), each number that is
+// read or written once. page.py draws the roofline of them.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -34,8 +31,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846, packing = 0.2, largest_speed = 0.5;
 
-/// Discs of radius 1 on a square lattice, each moved a little: no two overlap. In the order of
-/// rows.
+/// Discs of radius 1 on a square lattice, in the order of rows, each moved a little without
+/// overlaps.
 struct Gas {
     double size;
     std::vector<DiscState> discs;
@@ -71,7 +68,8 @@ struct Gas {
 constexpr int window_steps = 3;
 double reach_of_window() { return 2 + 2 * largest_speed * window_steps; }
 
-/// Rates from items of one iteration, and what the source says an item takes.
+/// Sets rates from the items of one iteration, and from the flops and bytes that the source has for
+/// an item.
 void print_message(benchmark::State& state, double items, double flops, double bytes) {
     state.SetItemsProcessed(
         static_cast<std::int64_t>(items * static_cast<double>(state.iterations())));
@@ -79,8 +77,8 @@ void print_message(benchmark::State& state, double items, double flops, double b
     state.counters["bytes"] = bytes;
 }
 
-/// Item: a pair about to collide, so that the predicate goes to its end: 50 operations (a root or a
-/// quotient is one), two discs.
+/// Item: a pair about to collide, for which the predicate is computed to its end: 50 operations (a
+/// root or a quotient is one), two discs.
 void contact_predicate(benchmark::State& state) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> even(-1, 1);
@@ -102,7 +100,7 @@ void contact_predicate(benchmark::State& state) {
 }
 BENCHMARK(contact_predicate);
 
-/// How many pairs filter_column tests, over all columns: those of the half stencil.
+/// The number of pairs that filter_column tests, over all columns: those of the half stencil.
 double tested_pairs(const CellGrid& grid) {
     double pairs = 0;
     const int reach = grid.geometry().n_reach;
@@ -122,7 +120,7 @@ double tested_pairs(const CellGrid& grid) {
     return pairs;
 }
 
-/// Item: a pair in the stencil: 27 operations in single precision, and the four numbers of the
+/// Item: a pair in the stencil, with 27 operations in single precision, and the four numbers of the
 /// second disc.
 void vector_filter(benchmark::State& state) {
     Gas gas(state.range(0));
@@ -141,9 +139,9 @@ void vector_filter(benchmark::State& state) {
 }
 BENCHMARK(vector_filter)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a disc: its cell and flight take 14 operations; its state is read twice and written once,
+/// Item: a disc. Its cell and flight take 14 operations; its state is read twice and written once,
 /// 24 bytes of order and flight are written, and the counts of its cell are changed twice. Discs
-/// fly a window on and back by turns, as far as in a run.
+/// fly a window forwards and backwards in turns, as far as in a run.
 void cell_grid_sort(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
@@ -160,7 +158,8 @@ void cell_grid_sort(benchmark::State& state) {
 }
 BENCHMARK(cell_grid_sort)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a candidate; copying the list to be used up counts. No arithmetic: comparisons.
+/// Item: a candidate, including the copy of the list that the resolution uses up. Only comparisons,
+/// no arithmetic.
 void local_resolution(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
@@ -183,14 +182,14 @@ void local_resolution(benchmark::State& state) {
 }
 BENCHMARK(local_resolution)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMicrosecond);
 
-/// What a contested candidate is to the sort.
+/// A contested candidate as the sort gets it.
 struct Record {
     double time;
     DiscId p, q;
 };
 
-/// Item: a record: sorted among 8 ranks' worth on its own, then merged, as a rank does before and
-/// after records travel.
+/// Item: a record, sorted alone among those of 8 ranks and then merged, as a rank does before and
+/// after records are sent.
 void sort_records(benchmark::State& state) {
     constexpr std::size_t n_ranks = 8;
     std::mt19937_64 random(5);
@@ -215,8 +214,8 @@ void sort_records(benchmark::State& state) {
 }
 BENCHMARK(sort_records)->Arg(8'000)->Arg(800'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a collision of the event-driven method, in one block without a halo, of as many discs as a
-/// block has with its halo.
+/// Item: a collision of the event-driven method, in one block without a halo, with as many discs as
+/// a block usually has with its halo.
 void block_run(benchmark::State& state) {
     Gas gas(state.range(0));
     const PlainDynamics dynamics(gas.size, 1);
@@ -250,7 +249,8 @@ void block_run(benchmark::State& state) {
 }
 BENCHMARK(block_run)->Arg(3'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a disc: read once, 48 bytes of its state hashed to 128 bits and added. No floating point.
+/// Item: a disc, read once; 48 bytes of its state are hashed to 128 bits and added. No floating
+/// point.
 void state_hash(benchmark::State& state) {
     const Gas gas(state.range(0));
     for (auto _ : state) benchmark::DoNotOptimize(hash_of(gas.discs));
@@ -258,8 +258,8 @@ void state_hash(benchmark::State& state) {
 }
 BENCHMARK(state_hash)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a disc taken apart into the columns of a checkpoint, a piece at a time, by ids that lie at
-/// random.
+/// Item: a disc, converted to the columns of a checkpoint, piece by piece, with ids in random
+/// order.
 void pack_columns(benchmark::State& state) {
     const Gas gas(state.range(0));
     std::vector<LocalIndex> places(gas.discs.size());

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene on one thread, in one call or with a look at all positions after every few steps,
-// as a program does that analyses a run while it goes on. look_costs.py counts the instructions
-// below `step_and_look`.
-//
-//   look_costs SCENE STEPS EVERY [KEY=VALUE ...]    EVERY: steps from look to look; 0: no look
+// Steps a scene on one thread. All steps are one call, or all positions are read after every few
+// steps, as a program does that analyses a run. look_costs.py counts the instructions below
+// `step_and_look`.
+//   look_costs SCENE STEPS EVERY [KEY=VALUE ...]    EVERY: steps between reads; 0: no reads
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +15,8 @@ using namespace carrom;
 
 namespace {
 
-constexpr std::int64_t steps_before = 64; ///< after these the gas is even, and its rate is known
+/// then the gas is homogeneous, and its collision rate is known
+constexpr std::int64_t steps_before = 64;
 
 void step_to(Simulation& simulation, std::int64_t last, std::int64_t every,
              std::vector<double>& xy) {
@@ -29,7 +29,7 @@ void step_to(Simulation& simulation, std::int64_t last, std::int64_t every,
 
 } // namespace
 
-/// What is counted. Not inlined, so that it has a name.
+/// The part whose instructions are counted. Not inlined, so that it has a name.
 [[gnu::noinline]] void step_and_look(Simulation& simulation, std::int64_t last, std::int64_t every,
                                      std::vector<double>& xy) {
     step_to(simulation, last, every, xy);
@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
                 {{"look_costs", 0, "needs a scene, steps, and steps from look to look"}});
         Scene scene = Scene::from_file(session, argv[1]);
         const std::int64_t last = steps_before + std::atoll(argv[2]), every = std::atoll(argv[3]);
-        scene.set("time.steps", 2 * last); // steps do not end where looks do
+        // Twice as many steps, so that the run does not end with the last read
+        scene.set("time.steps", 2 * last);
         for (int k = 4; k < argc; ++k) {
             const std::string setting = argv[k];
             const std::size_t sign = setting.find('=');

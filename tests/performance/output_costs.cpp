@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a checkpoint and a frame of a trajectory cost on many ranks, counted and not timed:
-// messages, bytes, calls that involve all ranks, and how often all ranks together open the file
-// that is written. The discs of a rank have ids from all over, as in a run.
-//
+// The cost of a checkpoint and of a frame of a trajectory on many ranks, counted and not timed:
+// messages, bytes, calls that involve all ranks, and how often all ranks together open the written
+// file. Each rank has discs with ids of the whole range, as in a run.
 //   output_costs DISCS FOLDER        the files in FOLDER are removed again
 #include <atomic>
 #include <cstdarg>
@@ -42,8 +41,7 @@ unsigned mode_of(int flags, std::va_list arguments) {
 
 } // namespace
 
-// The program's own functions of these names come before those of the C library, also for HDF5 and
-// for MPI-IO.
+// These functions replace those of the C library, also for HDF5 and for MPI-IO.
 extern "C" int open(const char* path, int flags, ...) {
     std::va_list arguments;
     va_start(arguments, flags);
@@ -63,7 +61,7 @@ using namespace carrom;
 
 namespace {
 
-/// Each rank has every so-many-th disc.
+/// Each rank has every n-th disc, for n ranks.
 std::vector<DiscState> own_discs(std::uint64_t n_discs, const Communicator& world) {
     std::vector<DiscState> discs;
     for (auto id = static_cast<std::uint64_t>(world.rank()); id < n_discs;
@@ -76,7 +74,7 @@ std::vector<DiscState> own_discs(std::uint64_t n_discs, const Communicator& worl
     return discs;
 }
 
-/// Prints what `write` costs. **Collective.**
+/// Prints the cost of `write`. **Collective.**
 template <class Write>
 void count(const char* name, std::uint64_t n_discs, const Communicator& world, const Write& write) {
     n_opened = n_opened_to_write = 0;

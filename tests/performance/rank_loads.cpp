@@ -54,7 +54,7 @@ double sum_of(double work, const Communicator& world) {
     return static_cast<double>(world.sum(static_cast<std::uint64_t>(100 * work))) / 100;
 }
 
-/// Largest over mean of ranks. **Collective.**
+/// The largest value of a rank divided by the mean. **Collective.**
 double unevenness(double work, const Communicator& world) {
     return world.max(work) * world.size() / sum_of(work, world);
 }
@@ -70,7 +70,7 @@ SceneParameters gas(std::size_t n_discs) {
         "gas.toml");
 }
 
-/// **Collective.**
+/// Prints the row of a scene. **Collective.**
 void study(std::size_t n_discs, Crowd crowd, std::optional<int> ranks_across,
            const Communicator& world) {
     SceneParameters scene = gas(n_discs);

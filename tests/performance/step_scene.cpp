@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene from its start to its end, with the averages that every run takes, and does nothing
-// else: no output, no progress that depends on the clock. So the same scene is the same
-// instructions every time, to count (instructions.py), and this program needs no HDF5.
-//
+// Steps a scene from its start to its end, with the averages of every run, and does nothing else:
+// no output, and no progress that depends on the clock. So the same scene takes the same
+// instructions every time, which instructions.py counts. This program needs no HDF5.
 //   step_scene SCENE [THREADS]
 #include <cstdio>
 #include <cstdlib>
@@ -28,7 +27,7 @@ int main(int argc, char** argv) {
                                "of threads of a rank"}});
         Tuning tuning;
         if (argc == 3) tuning.threads = std::atoi(argv[2]);
-        std::ifstream file = open_input(argv[1]); // every rank reads
+        std::ifstream file = open_input(argv[1]); // on every rank
         const SceneParameters scene = read_scene(read_scene_text(file, argv[1]));
         DiscSystem system(scene, initial_state(scene, nullptr, world, tuning.threads), world,
                           tuning);

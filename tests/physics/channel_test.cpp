@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flows between thermal walls against Enskog's viscosity (Gass, J. Chem. Phys. 54, 1898 (1971)),
-// which sheared sides have, too (tests/mpi/periodic/shear_physics_test.cpp).
+// Flows between thermal walls compared with Enskog's viscosity (Gass, J. Chem. Phys. 54, 1898
+// (1971)), as are flows between sheared sides (tests/mpi/periodic/shear_physics_test.cpp).
 #include <cmath>
 #include <numbers>
 
@@ -14,10 +14,10 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr double kt = 0.01, height = 80; // of discs of radius 1
-constexpr std::size_t n_discs = 407;     // a packing fraction of 0.2
+constexpr double kt = 0.01, height = 80; // height for discs of radius 1
+constexpr std::size_t n_discs = 407;     // number of discs for a packing fraction of 0.2
 
-/// Along x between thermal walls, which slide with -u below and u above.
+/// Flow along x between thermal walls that slide with -u at the bottom and u at the top.
 TestScene channel(double u, double pull) {
     TestScene scene = crystal(n_discs, n_discs * std::numbers::pi / (height * height), 71);
     Random random(72);
@@ -31,16 +31,17 @@ TestScene channel(double u, double pull) {
     return scene;
 }
 
-/// In the middle seven tenths of the channel, with places from its middle: means of powers of y and
-/// of vx.
+/// Means of powers of y and of vx over the middle seven tenths of the channel, with y from its
+/// middle.
 struct Middle {
     double n = 0, y2 = 0, y4 = 0, v = 0, vy = 0, vy2 = 0, squares = 0, samples = 0;
 
     double density() const { return n / samples / (0.7 * height * height); }
-    /// Of vx = a + b y, and of vx = a + b y^2.
+    /// The fits vx = a + b y, and vx = a + b y^2.
     double slope() const { return vy / y2; }
     double curvature() const { return (vy2 / n - v / n * (y2 / n)) / (y4 / n - y2 / n * (y2 / n)); }
-    double viscosity_unit() const { return std::sqrt(squares / n) / 2; } ///< sqrt(kT) / diameter
+    /// unit: sqrt(kT) / diameter
+    double viscosity_unit() const { return std::sqrt(squares / n) / 2; }
 };
 
 Middle sample(DiscSystem& system, std::int64_t early, std::int64_t last, std::int64_t apart,
@@ -58,7 +59,7 @@ Middle sample(DiscSystem& system, std::int64_t early, std::int64_t last, std::in
             all.v += disc.vx;
             all.vy += disc.vx * y;
             all.vy2 += disc.vx * y * y;
-            all.squares += disc.vy * disc.vy; // across the flow: kT
+            all.squares += disc.vy * disc.vy; // kT from the velocity across the flow
         }
     }
     return all;
@@ -72,10 +73,10 @@ double enskog_viscosity(double density) {
 
 } // namespace
 
-// Gravity pulls with n g on each layer, so the parabola has the curvature n g / (2 viscosity). The
-// slowest mode of the channel decays in H^2 / (pi^2 nu), some 2000 steps: 100,000 steps have 50 of
-// them. With velocities of 0.1 each the error of the curvature is some 3 %; four of these are
-// allowed.
+// Gravity pulls each layer with n g, so the parabola has the curvature n g / (2 viscosity). The
+// slowest mode of the channel decays in H^2 / (pi^2 nu), some 2000 steps, so 100,000 steps have 50
+// decay times. With velocities of 0.1 in each of them the error of the curvature is some 3 %; four
+// times that is allowed.
 TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille") {
     const Communicator world = Communicator::world();
     const double pull = 3e-5;
@@ -88,8 +89,9 @@ TEST_CASE("physics: between thermal walls gravity drives the flow of Poiseuille"
     CHECK(viscosity == Approx(enskog_viscosity(middle.density())).epsilon(0.12));
 }
 
-// The stress is the same at each height. Within a radius of a wall collisions with the wall carry
-// it, and the pressure tensor has none of these: it is that of the rest of the box.
+// The stress is the same at each height. Within a radius of a wall it is carried by collisions with
+// the wall, which the pressure tensor does not include. So the tensor is that of the rest of the
+// box.
 TEST_CASE("physics: between walls that slide the flow of Couette has Enskog's viscosity") {
     const Communicator world = Communicator::world();
     const TestScene scene = channel(0.07, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of the compressibility factor of hard discs without walls.
+// Known values of the compressibility factor of hard discs without walls.
 #pragma once
 
 #include <cmath>

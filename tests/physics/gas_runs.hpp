@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gases in a walled box in the event-driven method, brought to equilibrium, and what is measured of
-// them.
+// Gases in a walled box in the event-driven method, brought to equilibrium and measured.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +14,10 @@ namespace carrom::test {
 /// step, on rank 0.
 TestScene crystal(std::size_t n, double packing, std::uint64_t seed);
 
-/// Ready to run in the event-driven method.
+/// A system of the scene in the event-driven method.
 DiscSystem event_driven_system(const TestScene& scene, const Communicator& world);
 
-/// Steps until so many collisions, of pairs and with walls, have happened in all since the start.
+/// Steps until there have been this many collisions, of pairs and with walls, since the start.
 /// **Collective.**
 void run_until(DiscSystem& system, double n_collisions, std::span<StepAction* const> actions = {});
 
@@ -30,12 +29,12 @@ struct GasProperties {
     Estimate kurtosis;
 };
 
-/// Of a gas that has had `n_early` collisions to come to equilibrium, over about `n_collisions`
-/// more. **Collective.**
+/// Measures a gas over about `n_collisions`, after `n_early` collisions to reach equilibrium.
+/// **Collective.**
 GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions,
                           const Communicator& world);
 
-/// How many standard errors two estimates are apart; `known` has none.
+/// The difference of two estimates in standard errors; `known` is exact.
 double deviation(const Estimate& a, const Estimate& b);
 double deviation(const Estimate& measured, double known);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collision rates and pressures of hard discs between hard walls against exact results and
-// equations of state. Sources and measured figures: docs/understanding/validation.md.
+// Collision rates and pressures of hard discs between hard walls, compared with exact results and
+// equations of state. docs/understanding/validation.md has sources and figures.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -32,7 +32,7 @@ TwoDiscRates two_disc_rates(double box_size, double sigma, double total_speed) {
             scale * (8 * a * a * a - 4 * pi * a * d * d + 16.0 / 3 * d * d * d)};
 }
 
-/// The value at 1/sqrt(N) = 0 of the parabola through three sizes, or of the best one through more.
+/// The value at 1/sqrt(N) = 0 of a parabola through three sizes, or of the best fit to more.
 Estimate extrapolated(const std::vector<double>& sizes, const std::vector<Estimate>& values) {
     // Normal equations of a weighted fit by 1, u, u^2; the error is that of the first coefficient.
     std::array<std::array<double, 4>, 3> m{};
@@ -67,7 +67,8 @@ void check_two_discs(double n_collisions) {
         const Averages averages = averaging.averages();
         const TwoDiscRates known = two_disc_rates(scene.setting.box_size, 2,
                                                   std::sqrt(2 * after.kinetic_energy));
-        const Estimate disc = averages.collision_frequency; // of one disc, and so of the pair
+        // the rate of one disc is also that of the pair
+        const Estimate disc = averages.collision_frequency;
         const double wall_rate = static_cast<double>(after.wall_collisions -
                                                      before.wall_collisions) /
                                  static_cast<double>(averages.steps);
@@ -79,7 +80,7 @@ void check_two_discs(double n_collisions) {
         CHECK(deviation(wall, known.wall) < 4);
         CHECK(disc.error <
               6 / std::sqrt(n_collisions) *
-                  disc.value); // thrice that of as many independent collisions of the pair
+                  disc.value); // three times the error for independent collisions of the pair
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Speeds of hard discs between hard walls: the microcanonical distribution, and how others come to
-// it.
+// Speeds of hard discs between hard walls: the microcanonical distribution, and the relaxation
+// towards it.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -39,7 +39,8 @@ double kolmogorov_distance(std::vector<double> values, double n) {
     return largest;
 }
 
-/// One disc of each of `n_samples` states, five collisions a disc apart: v^2 over the sum of all.
+/// Takes one disc of each of `n_samples` states, five collisions a disc apart: v^2 divided by the
+/// sum over all discs.
 void check_distribution(std::size_t n, double n_samples) {
     const Communicator world = Communicator::world();
     DiscSystem system = event_driven_system(crystal(n, 0.3, 11), world);
@@ -62,7 +63,7 @@ void check_distribution(std::size_t n, double n_samples) {
                             std::sqrt(n_samples);
     fmt::print("| {} | {} | {:.3f} |\n", n, n_samples, distance);
     CHECK(shares.size() == static_cast<std::size_t>(n_samples));
-    CHECK(distance < 1.95); // passed by one sample in a thousand (Kolmogorov)
+    CHECK(distance < 1.95); // one sample in a thousand exceeds this (Kolmogorov)
 }
 
 void check_kurtosis(std::size_t n, double n_collisions) {
@@ -75,8 +76,8 @@ void check_kurtosis(std::size_t n, double n_collisions) {
     CHECK(gas.kurtosis.error < 0.1);
 }
 
-/// Velocities with speeds spread evenly between 1 and 2, as the legacy generator has them but for a
-/// factor.
+/// Velocities with speeds spread evenly between 1 and 2, as the legacy generator makes them except
+/// for a factor.
 std::vector<std::pair<double, double>> legacy_velocities(std::size_t n, Random& random) {
     std::vector<std::pair<double, double>> velocities;
     for (std::size_t i = 0; i < n; ++i) {
@@ -87,9 +88,9 @@ std::vector<std::pair<double, double>> legacy_velocities(std::size_t n, Random& 
     return velocities;
 }
 
-/// The kurtosis after so many collisions per disc, each in `per_disc`, if discs that meet know
-/// nothing of each other: Boltzmann's equation without space, by Bird's direct simulation (partners
-/// at random, accepted as they are fast).
+/// The kurtosis after `per_disc` collisions per disc, if colliding discs are uncorrelated. That is
+/// Boltzmann's equation without space, solved by Bird's direct simulation: random partners,
+/// accepted in proportion to their relative speed.
 std::vector<double> kurtosis_without_correlations(std::size_t n,
                                                   const std::vector<double>& per_disc) {
     Random random(14);
@@ -106,7 +107,7 @@ std::vector<double> kurtosis_without_correlations(std::size_t n,
             DiscState& p = discs[random.index(n)];
             DiscState& q = discs[random.index(n)];
             const double wx = q.vx - p.vx, wy = q.vy - p.vy, speed = std::sqrt(wx * wx + wy * wy);
-            if (!(random.uniform(0, 12) < speed)) continue; // none is ever as fast as 12
+            if (!(random.uniform(0, 12) < speed)) continue; // no relative speed reaches 12
             const double miss = random.uniform(-1, 1), head_on = std::sqrt(1 - miss * miss);
             const double ex = (wx * head_on - wy * miss) / speed,
                          ey = (wy * head_on + wx * miss) / speed;
@@ -122,8 +123,8 @@ std::vector<double> kurtosis_without_correlations(std::size_t n,
     return kurtoses;
 }
 
-/// From the course program's speeds, of kurtosis 1.1388, to equilibrium as Boltzmann's equation
-/// says.
+/// Starts from the course program's speeds, with a kurtosis of 1.1388, and compares the relaxation
+/// to equilibrium with Boltzmann's equation.
 void check_relaxation(std::size_t n, double packing) {
     TestScene scene = crystal(n, packing, 12);
     Random random(13);
@@ -148,7 +149,8 @@ void check_relaxation(std::size_t n, double packing) {
             system.advance_towards(system.step() + 1);
         last = kurtosis_of(system.discs());
         fmt::print("| {} | {:.4f} | {:.4f} |\n", numbers[k], last, known[k]);
-        CHECK(std::fabs(last - known[k]) < 4 * 1.2 * noise); // both have some
+        // 1.2 times the bound of one number, because both have errors
+        CHECK(std::fabs(last - known[k]) < 4 * 1.2 * noise);
     }
     fmt::print("noise of one state near equilibrium {:.4f}\n", noise);
     CHECK(std::fabs(last - final) < 4 * noise);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs with a thermostat against kinetic theory.
+// Discs with a thermostat compared with kinetic theory.
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -18,12 +18,12 @@ namespace {
 TestScene periodic_gas(std::size_t n, double packing, std::uint64_t seed) {
     TestScene scene = crystal(n, packing, seed);
     for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
-    scene.setting.sync_every = 1; // thermostats act once a step
+    scene.setting.sync_every = 1; // thermostats act in every step
     return scene;
 }
 
-/// Means over `n_samples` states, `apart` steps from each other: kT and <v^4> / (2 <v^2>^2) - 1,
-/// which is 0 for Maxwell's distribution.
+/// Means over `n_samples` states, `apart` steps from each other: kT, and the cumulant <v^4> / (2
+/// <v^2>^2) - 1, which is 0 for Maxwell's distribution.
 struct Speeds {
     double temperature = 0, a2 = 0;
 };
@@ -49,21 +49,22 @@ Speeds measured_speeds(DiscSystem& system, std::int64_t early, std::int64_t apar
 
 } // namespace
 
-// A collision of pairs takes (1 - e^2) kT in the mean of a Maxwellian gas (m <g_n^2> / 4 with
-// <g_n^2> = 4 kT / m), and a disc has 2 sqrt(pi) n sigma g(sigma) sqrt(kT / m) of them in a time,
-// of which it has half a share each. With kicks d(kT)/dt = m xi^2 - (1 - e^2) n sigma g sqrt(pi /
-// m) (kT)^(3/2) (1 + 3 a2 / 16), which is 0 in the end. The fourth cumulant a2 is that of van Noije
-// and Ernst, Granular Matter 1, 57 (1998), for d = 2; it follows where kicks and collisions balance
-// in the fourth moment, too, to first order in a2.
+// In a Maxwellian gas a collision takes (1 - e^2) kT on average (m <g_n^2> / 4 with <g_n^2> = 4 kT
+// / m). A disc has 2 sqrt(pi) n sigma g(sigma) sqrt(kT / m) collisions per time, and half of each
+// loss. With kicks d(kT)/dt = m xi^2 - (1 - e^2) n sigma g sqrt(pi / m) (kT)^(3/2) (1 + 3 a2 / 16),
+// which is 0 in the steady state. The fourth cumulant a2 is that of van Noije and Ernst, Granular
+// Matter 1, 57 (1998), for d = 2. It follows from the balance of kicks and collisions in the fourth
+// moment, to first order in a2.
 void check_kicked_gas(std::initializer_list<double> restitutions) {
     const Communicator world = Communicator::world();
     const std::size_t n = 3000;
-    const double packing = 0.0025, radius = 1; // at 0.02 cumulants are larger by 0.005
+    // At a packing of 0.02 cumulants would be larger by 0.005
+    const double packing = 0.0025, radius = 1;
     for (const double e : restitutions) {
         const double a2 = 16 * (1 - e) * (1 - 2 * e * e) / (185 - 153 * e + 30 * (1 - e) * e * e);
         const double g = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
         const double density = packing / (std::numbers::pi * radius * radius);
-        const double kt = 4; // what the strength is chosen for
+        const double kt = 4; // the temperature for which the strength is chosen
         const double loss = (1 - e * e) * density * 2 * radius * g * std::sqrt(std::numbers::pi);
         const double strength = loss * std::pow(kt, 1.5) * (1 + 3 * a2 / 16);
         TestScene scene = periodic_gas(n, packing, 31);
@@ -74,7 +75,7 @@ void check_kicked_gas(std::initializer_list<double> restitutions) {
         const Speeds speeds = measured_speeds(system, 1600, 240, 120);
         fmt::print("e = {}: kT {:.4f} of {}, a2 {:.4f}, theory {:.4f}\n", e, speeds.temperature, kt,
                    speeds.a2, a2);
-        // Samples come just after a kick; between two kicks the mean is half a kick less.
+        // Samples are taken just after a kick. The mean between two kicks is lower by half a kick.
         CHECK(speeds.temperature - 8 * strength / 2 == Approx(kt).epsilon(0.02));
         CHECK(std::fabs(speeds.a2 - a2) < 4 / 600.0); // four standard errors of 360,000 speeds
     }
@@ -96,12 +97,13 @@ TEST_CASE("physics: Andersen and Langevin thermostats bring discs to Maxwell's d
         DiscSystem system = event_driven_system(scene, world);
         const Speeds speeds = measured_speeds(system, 40, 10, 30);
         const Totals totals = system.totals();
-        // Four standard errors of 90,000 speeds: 1 / sqrt(n) of both.
+        // Four standard errors of 90,000 speeds: both have the error 1 / sqrt(n).
         CHECK(speeds.temperature == Approx(4).epsilon(4 / 300.0));
         CHECK(std::fabs(speeds.a2) < 4 / 300.0);
-        // Places are those of discs without a thermostat: the density at contact, which collisions
-        // count, is that of the virial series at a packing fraction of 0.3, Z = 2.0632 (Clisby and
-        // McCoy 2006). The first 40 of 340 steps begin from a crystal, hence 3 %.
+        // Positions are distributed as without a thermostat. So the density at contact, on which
+        // the collision rate depends, follows from the virial series at a packing fraction of 0.3,
+        // Z = 2.0632 (Clisby and McCoy 2006). The first 40 of 340 steps start from a crystal, hence
+        // 3 %.
         const double frequency = 4 / std::sqrt(std::numbers::pi) * (2.0632 - 1) / 2 *
                                  std::sqrt(speeds.temperature);
         CHECK(static_cast<double>(totals.pair_collisions) ==
@@ -109,9 +111,9 @@ TEST_CASE("physics: Andersen and Langevin thermostats bring discs to Maxwell's d
     }
 }
 
-// Discs that do not meet: D = kT / (m gamma), but that the friction acts at syncs, a time t apart.
-// Velocities keep their share c = exp(-gamma t) from flight to flight, so the mean square
-// displacement grows by 4 D with D = kT t (1 + c) / (2 (1 - c)).
+// Discs that never collide have D = kT / (m gamma), with a correction because the friction acts at
+// syncs, a time t apart. Velocities keep the share c = exp(-gamma t) from flight to flight, so the
+// mean square displacement grows by 4 D with D = kT t (1 + c) / (2 (1 - c)).
 TEST_CASE("physics: Langevin discs that are alone diffuse by kT / gamma") {
     const Communicator world = Communicator::world();
     const std::size_t n = 10000;
@@ -131,7 +133,7 @@ TEST_CASE("physics: Langevin discs that are alone diffuse by kT / gamma") {
     while (system.step() < last) system.advance_towards(last);
     double square = 0;
     for (const DiscState& disc : system.shown()) {
-        // They go some 30 at most, in a box of 1772.
+        // They move by some 30 at most, in a box of 1772.
         const double dx = std::remainder(disc.x_at(system.clock()) - x[disc.id], size),
                      dy = std::remainder(disc.y_at(system.clock()) - y[disc.id], size);
         square += dx * dx + dy * dy;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pressure tensor: against equations of state in periodic boxes, against the walls' pressure,
-// and against sums over logged collisions. docs/understanding/pressure.md derives what is held
-// here.
+// The pressure tensor compared with equations of state in periodic boxes, with the walls' pressure,
+// and with sums over logged collisions. docs/understanding/pressure.md derives the formulas.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,7 +24,7 @@ void make_periodic(TestScene& scene) {
     for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
 }
 
-/// Equilibrated, and averaged over about so many collisions.
+/// Averages over about this many collisions, in equilibrium.
 Averages averages_of(TestScene scene, double n_early, double n_collisions,
                      const Communicator& world) {
     scene.steps = 1 << 20;
@@ -36,7 +35,7 @@ Averages averages_of(TestScene scene, double n_early, double n_collisions,
     return averaging.averages();
 }
 
-/// What N discs in a periodic box are to have: the bulk's Z, and the first term in 1/N.
+/// The expected Z of N discs in a periodic box: the bulk's Z, and the first term in 1/N.
 KnownFactor periodic_factor(double eta, double n) {
     const auto pressure = [](double x) { return x * known_factor(x).value; };
     constexpr double h = 1e-3;
@@ -51,7 +50,7 @@ void check_periodic(double eta, std::size_t n, double n_collisions, double large
     const Communicator world = Communicator::world();
     TestScene scene = crystal(n, eta, 5 + n);
     make_periodic(scene);
-    for (InputDisc& disc : scene.discs) disc.vx += 0.5; // a drift is no heat
+    for (InputDisc& disc : scene.discs) disc.vx += 0.5; // a drift does not count as heat
     const Averages averages = averages_of(scene, 60 * static_cast<double>(n), n_collisions, world);
     const Estimate z = averages.compressibility;
     const KnownFactor known = periodic_factor(eta, static_cast<double>(n));
@@ -60,7 +59,7 @@ void check_periodic(double eta, std::size_t n, double n_collisions, double large
     INFO("eta = " << eta << ", N = " << n);
     CHECK(std::fabs(z.value - known.value) < 4 * z.error + known.error);
     CHECK(z.error < largest_error * z.value);
-    // The trace is half of what the parts are, and nothing shears the gas.
+    // The pressure is half the trace of the tensor, and there is no shear stress.
     const TensorEstimate& p = averages.pressure_tensor;
     CHECK(averages.pressure.value == Approx((p.xx.value + p.yy.value) / 2).epsilon(1e-13));
     CHECK(std::fabs(p.xy.value) < 4 * p.xy.error);
@@ -71,7 +70,7 @@ void check_periodic(double eta, std::size_t n, double n_collisions, double large
               .epsilon(1e-12));
 }
 
-/// The impulses of discs on each side.
+/// The sums of discs' impulses on each side.
 struct NormalImpulses : WallFollower {
     void take(std::span<const WallEvent> events) override {
         for (const WallEvent& event : events) sums[event.side] += event.normal;
@@ -79,7 +78,7 @@ struct NormalImpulses : WallFollower {
     std::array<double, 4> sums{};
 };
 
-/// The means of both walls along x, and along y, over the averaged time.
+/// Compares with the means of both walls along x, and along y, over the averaged time.
 void check_walls(TestScene scene, double n_collisions) {
     const Communicator world = Communicator::world();
     scene.steps = 1 << 20;
@@ -149,17 +148,17 @@ double mass_of(const TestScene& scene, DiscId id) {
     return 1;
 }
 
-/// A step in which no disc collides twice, and what its integrals must be.
+/// A step in which no disc collides twice, and the expected change of the integrals.
 struct Step {
     State before, after;
-    double end = 0; ///< in steps
+    double end = 0; ///< end of the step, in steps
     Tensor stress, kinetic;
-    double size = 0; ///< of terms
+    double size = 0; ///< typical size of a term
     int n_pairs = 0;
 };
 
-/// Each disc flies with its velocity before the step until its collision, and on with that after
-/// it.
+/// Each disc flies with its velocity before the step until its collision, and then with the
+/// velocity after the step.
 void add_flights(const TestScene& scene, const std::vector<Collision>& log, Step& step) {
     for (const DiscState& disc : step.before.discs) {
         const double mass = mass_of(scene, disc.id);
@@ -177,8 +176,8 @@ void add_flights(const TestScene& scene, const std::vector<Collision>& log, Step
     step.stress += step.kinetic;
 }
 
-/// A disc that has collided once in a step tells the impulse by its velocities before and after,
-/// and its place at the logged time by the state before.
+/// For a disc that has collided once in a step, the impulse follows from its velocities before and
+/// after, and the place of the collision from the logged time and the state before.
 void add_pairs(const TestScene& scene, const std::vector<Collision>& log, Step& step) {
     const Periods periods = scene.setting.effects.periods(scene.setting.box_size);
     const auto nearest = [](double d, double period) {
@@ -210,7 +209,7 @@ bool has_second_hits(const std::vector<Collision>& log, std::size_t n_discs) {
     return std::any_of(n_hits.begin(), n_hits.end(), [](int n) { return n > 1; });
 }
 
-/// Steps one by one.
+/// Compares single steps.
 void check_against_log(const TestScene& scene, Method method) {
     const Communicator world = Communicator::world();
     SceneParameters all = scene_of(scene);
@@ -271,7 +270,8 @@ TEST_CASE("physics: the pressure in a periodic box is that of the equation of st
 }
 
 TEST_CASE("physics: few discs in a periodic box have the pressure of so few") {
-    // 1/N makes 0.027 here, and a kinetic part without the lost degree of freedom 0.016 more.
+    // Here 1/N makes 0.027, and a kinetic part without the lost degree of freedom would make 0.016
+    // more.
     check_periodic(0.5, 64, 2e6, 1.5e-3);
     check_periodic(0.3, 36, 1e6, 1.5e-3);
 }

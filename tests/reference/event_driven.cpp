@@ -93,8 +93,8 @@ void EventDrivenReference::predict_fixed_body(DiscId p) {
     push(event);
 }
 
-/// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame
-/// that falls since the sync.
+/// The position of the low or the high wall of an axis for a disc's centre, and its velocity, in
+/// the frame that falls since the sync.
 EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axis, bool is_high,
                                                          double time) const {
     const double k = static_cast<double>(setting_.micro_steps), g = gravity(axis);
@@ -121,7 +121,7 @@ double EventDrivenReference::gravity(DiscId axis) const {
            (k * k);
 }
 
-/// The first time at which the disc is at one of the two walls, or beyond, and comes nearer.
+/// The first time at which the disc is at one of the two walls, or beyond, and approaches it.
 EventDrivenReference::Meeting EventDrivenReference::meeting(const DiscState& disc,
                                                             DiscId axis) const {
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -166,13 +166,13 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const DiscState& dis
     return first;
 }
 
-/// Infinite for a disc that has not collided since the sync.
+/// The time since the disc's last collision; infinite if it has not collided since the sync.
 double EventDrivenReference::time_since_collision(DiscId id, double time) const {
     const double last = history_of_[id].time;
     return last < 0 ? std::numeric_limits<double>::infinity() : time - last;
 }
 
-/// The speed at which the surfaces of two discs that touch approach, in sums of first radii.
+/// The speed at which the surfaces of two touching discs approach, in sums of their first radii.
 double EventDrivenReference::approach(const DiscState& p, const DiscState& q, Copy copy) const {
     const Tiles tiles = setting_.tiles(last_sync());
     const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
@@ -182,8 +182,7 @@ double EventDrivenReference::approach(const DiscState& p, const DiscState& q, Co
     return std::fabs((wx * ex + wy * ey) / (ex * ex + ey * ey) - grows) * radii;
 }
 
-/// Turns the velocity round at the wall that it has come to; `disc` is there, and its last
-/// collision was `since` ago.
+/// Reverses the velocity at the wall that the disc has reached; its last collision was `since` ago.
 void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, double time,
                                    double since) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
@@ -222,7 +221,7 @@ void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, d
     v = is_high ? wall.speed - away : wall.speed + away;
 }
 
-/// A frame that is at rest in the box begins to fall.
+/// Begins a frame that is at rest in the box at this time and falls from then on.
 void EventDrivenReference::restart_frame(DiscState& disc, double time) const {
     const double gx = gravity(Event::wall_x), gy = gravity(Event::wall_y);
     if (gx == 0 && gy == 0) return;
@@ -256,7 +255,8 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
         inspect(copy);
 }
 
-/// Later events than the next sync are dropped: the sync rewrites the states that they follow from.
+/// Events later than the next sync are dropped, because the sync rewrites the states from which
+/// they follow.
 void EventDrivenReference::push(Event event) {
     if (!(event.time <= static_cast<double>(setting_.sync_every))) return;
     const auto raise = [&event, this](DiscId id) {
@@ -271,7 +271,7 @@ void EventDrivenReference::push(Event event) {
     if (heap_.size() > most_predictions_) forget_invalid();
 }
 
-/// Fast discs among many have many predictions: without this they would fill the memory.
+/// Removes void predictions. Otherwise those of fast discs would fill the memory.
 void EventDrivenReference::forget_invalid() {
     std::erase_if(heap_, [this](const Prediction& prediction) { return !is_valid(prediction); });
     std::make_heap(heap_.begin(), heap_.end(), comes_later);

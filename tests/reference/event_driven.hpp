@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method said plainly (docs/understanding/method.md, section 3.3): every collision
-// at its time, one after another.
+// A plain implementation of the event-driven method (docs/understanding/method.md, section 3.3):
+// every collision at its time, one after another.
 //
-// One heap, brute-force prediction: after each collision its discs are predicted anew against all
-// others. The order is time, generation, id of P, wall before pair, id of Q, x before y. Price: N
-// predicates per collision and N^2/2 a sync.
+// It has one heap, and predicts by brute force: after each collision its discs are compared with
+// all others. The order is time, generation, id of P, wall before pair, id of Q, x before y. Price:
+// N predicates per collision and N^2/2 a sync.
 //
-// Four readings where the page is silent. The two sides of a corner that are met at one time follow
-// each other with nothing between them, so that x and y are alike. A pair that has just collided
-// cannot collide again at the same time until one of the two has met something else: in a touching
-// cluster rounding can leave b = -1e-18, which the impulse is too small to mend, and the pair would
-// collide for ever. (Later it may: that needs no memory beyond the stored states.) A sync forgets
-// generations and partners, for they are no part of the stored state. And more than `most_events`
-// collisions throw std::runtime_error: a disc that fills its box has them without end.
+// Four rules that the page does not contain. The two sides of a corner that are met at one time
+// follow each other without other events in between, so that x and y are equivalent. A pair that
+// has just collided cannot collide again at the same time until one of the two has had another
+// collision. (In a touching cluster rounding can leave b = -1e-18, which is too small for the
+// impulse to change, so the pair would collide for ever. Later it may collide again.) A sync
+// forgets generations and partners, because they are not part of the stored state. And more than
+// `most_events` collisions throw std::runtime_error, because a disc that fills its box collides
+// without end.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +27,8 @@
 
 namespace carrom::reference {
 
-/// One collision that happened. `time` counts from sync number `sync`; for walls, `q` is wall_x or
-/// wall_y, for obstacles the body.
+/// A collision. `time` counts from sync number `sync`. For walls, `q` is wall_x or wall_y, for
+/// obstacles the body.
 struct Event {
     static constexpr DiscId wall_x = 0, wall_y = 1;
 
@@ -52,7 +53,7 @@ public:
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
     std::span<const DiscState> discs() const { return discs_; }
-    /// By id, angles per micro-step; empty where discs are not rough.
+    /// Spins by id, angles per micro-step; empty unless discs are rough.
     std::span<const double> spins() const { return spins_; }
     double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }
     std::uint64_t wall_collisions() const { return wall_collisions_; }
@@ -64,19 +65,19 @@ private:
         Event event;
         std::uint64_t p_version = 0, q_version = 0;
     };
-    /// What a disc's last collision since the sync was; version counts all its collisions.
+    /// A disc's last collision since the sync; `version` counts all its collisions.
     struct EventHistory {
         static constexpr DiscId no_partner = ~DiscId{0};
         double time = -1;
         DiscId partner = no_partner;
-        std::size_t body = ~std::size_t{0}; ///< an obstacle
-        Copy copy{};                        ///< and which image of it
+        std::size_t body = ~std::size_t{0}; ///< the obstacle
+        Copy copy{};                        ///< the obstacle's image
         std::uint32_t generation = 0;
         std::uint64_t version = 0;
     };
 
     struct Wall {
-        double place = 0, speed = 0; ///< of an oscillating one its line's
+        double place = 0, speed = 0; ///< of an oscillating wall its line's
     };
     struct Meeting {
         double time = 0;
@@ -116,7 +117,7 @@ private:
     void note(DiscId id, DiscId partner, const Event& event);
 
     bool discs_grow() const { return setting_.effects.growth != 0; }
-    /// Of radii, per micro-step, over the first ones.
+    /// Growth of radii per micro-step, relative to the first ones.
     double growth_rate() const {
         return setting_.effects.growth / static_cast<double>(setting_.micro_steps);
     }
@@ -127,7 +128,8 @@ private:
     std::vector<double> spins_;
     std::vector<EventHistory> history_of_;
     std::vector<Prediction> heap_;
-    std::size_t most_predictions_ = 1000000; ///< in the heap, before it is gone through
+    /// size of the heap at which void predictions are removed
+    std::size_t most_predictions_ = 1000000;
     std::int64_t micro_step_ = 0;
     std::uint64_t wall_collisions_ = 0, pair_collisions_ = 0;
     std::size_t most_events_;

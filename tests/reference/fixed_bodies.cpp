@@ -28,7 +28,7 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
     }
 }
 
-/// All those that the flight comes near, and more.
+/// The images that the flight may come near, and a few more.
 std::vector<Copy> FixedBodies::copies(const DiscState& disc, const Body& body, double until) const {
     const auto range = [&](bool is_periodic, double length, double from, double to, double g) {
         if (!is_periodic) return std::pair(0, 0);
@@ -48,8 +48,8 @@ std::vector<Copy> FixedBodies::copies(const DiscState& disc, const Body& body, d
     return all;
 }
 
-/// Where the disc would be in the box at its own time, and how fast; then the distance from there
-/// on.
+/// Computes the disc's place and velocity in the box at its own time, and then the distance from
+/// there.
 double FixedBodies::meeting_time(const DiscState& disc, const Body& body, Copy copy) const {
     const Box box = setting_.box();
     const double reach = body.radius + setting_.radius_of(disc.id);
@@ -66,7 +66,7 @@ double FixedBodies::meeting_time(const DiscState& disc, const Body& body, Copy c
         const Contact found = contact(disc, fixed, reach, never, copy, {box});
         return found.delay < 0 ? never : found.base + found.delay;
     }
-    // Off the line to its left, along it, and what changes both.
+    // Distance from the line to its left, position along it, and their rates of change.
     const double off = body.ux * y - body.uy * x, off_rate = body.ux * vy - body.uy * vx,
                  off_pull = body.ux * gy_ - body.uy * gx_;
     const double along = body.ux * x + body.uy * y, along_rate = body.ux * vx + body.uy * vy,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Obstacles said plainly: bodies one by one, their formulas written a second time, from
-// docs/understanding/effects.md, section 10.
+// A plain implementation of obstacles: one body after another, with formulas written a second time
+// from docs/understanding/effects.md, section 10.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Body {
 struct BodyMeeting {
     double time = 0;
     std::size_t body = 0;
-    Copy copy{}; ///< which image of the body it is, in a box with periodic sides
+    Copy copy{}; ///< the body's image in a box with periodic sides
 };
 
 class FixedBodies {
@@ -28,11 +28,11 @@ public:
     explicit FixedBodies(const Setting& setting);
 
     bool are_none() const { return species_.empty(); }
-    /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite
-    /// if there is none. Images of bodies are searched as far as the disc gets until `until`.
+    /// The first meeting from `from` on, without that with `left` at the disc's own time. Infinite
+    /// if there is none. Images of bodies are searched as far as the disc flies until `until`.
     BodyMeeting first_meeting(const DiscState& disc, double from, double until,
                               const BodyMeeting& left) const;
-    /// Turns the velocity of a disc round that is at the body at `time`.
+    /// Reverses the normal velocity of a disc that is at the body at `time`.
     void reflect(DiscState& disc, const BodyMeeting& at, double time, double since) const;
 
     static constexpr std::size_t none = ~std::size_t{0};

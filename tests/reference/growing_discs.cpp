@@ -8,7 +8,7 @@
 
 namespace carrom::reference {
 
-/// How much larger radii are than at first, at `time` since the last sync.
+/// The factor by which radii are larger than at first, at `time` since the last sync.
 double EventDrivenReference::growth_at(double time) const {
     const auto last_sync = static_cast<double>(micro_step_ / setting_.sync_every *
                                                setting_.sync_every);
@@ -61,8 +61,8 @@ EventDrivenReference::Meeting EventDrivenReference::growing_meeting(const DiscSt
     return first;
 }
 
-/// Of discs that touch: their surfaces part along the line of centres with the share `restitution`
-/// of the speed at which they met.
+/// For touching discs: their surfaces separate along the line of centres with `restitution` times
+/// the speed at which they met.
 void EventDrivenReference::push_growing(DiscState& p, DiscState& q, double restitution,
                                         Copy copy) const {
     const double ex = (q.x - p.x) + copy.x * setting_.box().x,

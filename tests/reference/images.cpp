@@ -9,14 +9,14 @@ namespace carrom::reference {
 
 std::vector<Copy> copies_near(const Setting& setting, const DiscState& p, const DiscState& q,
                               double begin, double end, const Tiles& tiles) {
-    // Of discs that grow: to twice their radius.
+    // Growing discs are searched up to twice their radius.
     const double sigma = (setting.effects.growth == 0 ? 2 : 4) * setting.radius;
     const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
     const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) *
                             (end - begin) +
                         1.01 * sigma;
     const auto range = [](bool is_periodic, double length, double distance,
-                          double reach) { // of n with |distance + n L| within reach
+                          double reach) { // the range of n with |distance + n L| within reach
         if (!is_periodic) return std::pair(0, 0);
         return std::pair(static_cast<int>(std::floor((-reach - distance) / length)),
                          static_cast<int>(std::ceil((reach - distance) / length)));
@@ -37,7 +37,8 @@ std::vector<Copy> copies_near(const Setting& setting, const DiscState& p, const 
 
 namespace {
 
-/// `place` less whole lengths, which `up` counts with the other sign: exactly rounded once.
+/// `place` minus whole lengths, which `up` counts with the opposite sign; exact except for one
+/// rounding.
 double inside_of(double place, double length, double& up) {
     if (place >= 0 && place < length) return place;
     const double lengths = std::floor(place / length);
@@ -56,7 +57,7 @@ double inside_of(double place, double length, double& up) {
 
 } // namespace
 
-/// The row above has gone speed * sync; the product's rounding error counts, too.
+/// The row above has moved by speed * sync, including the product's rounding error.
 Tiles Setting::tiles(std::int64_t sync) const {
     Tiles tiles{box()};
     if (!effects.are_sheared()) return tiles;
@@ -71,7 +72,7 @@ Tiles Setting::tiles(std::int64_t sync) const {
 void bring_inside(const Setting& setting, DiscState& disc, const Tiles& tiles) {
     double up = 0, unused = 0;
     if (setting.effects.is_periodic_y()) disc.y = inside_of(disc.y, setting.box().y, up);
-    if (setting.effects.are_sheared() && up != 0) { // it is now the image so many rows up
+    if (setting.effects.are_sheared() && up != 0) { // the image is now in a row so many rows up
         disc.x = disc.x + up * (tiles.slid + tiles.speed * disc.tau);
         disc.vx = disc.vx + up * tiles.speed;
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method with the formulas of the program it comes from: a check of one_rule.hpp
-// by other arithmetic.
+// The time-stepped method with the formulas of the course program: a check of time_stepped.hpp by
+// other arithmetic.
 //
 // Every position is advanced to the end of every micro-step, contact times are (-B - sqrt(B^2 -
 // 4AC)) / 2A from the positions at its start, and velocities are split into normal and tangential
-// parts. Order, corners, band and stops are the same. It agrees with one_rule.hpp to rounding until
-// chaos takes over, and exactly where every number is exact in binary. It has no tolerance:
-// touching pairs whose rounding makes them overlap pass through each other here.
+// parts. Order, corners, band and stops are the same. It agrees with time_stepped.hpp to rounding
+// until trajectories diverge, and exactly if every number is exact in binary. It has no tolerance:
+// touching pairs that overlap by rounding pass through each other here.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ public:
     void run_micro_steps(std::int64_t count);
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
-    /// In id order, where they are now; tau stays 0, velocities are per micro-step.
+    /// Discs in the order of ids at the present time; tau stays 0, velocities are per micro-step.
     std::span<const DiscState> discs() const { return discs_; }
     const Counters& counters() const { return counters_; }
     const std::vector<Collision>& log() const { return log_; }
@@ -32,7 +32,7 @@ public:
 private:
     struct Walls {
         bool x = false, y = false;
-        double t = 2; ///< above 1: no wall in this micro-step
+        double t = 2; ///< a value above 1 means no wall in this micro-step
     };
 
     void run_micro_step();

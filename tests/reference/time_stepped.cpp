@@ -317,7 +317,7 @@ void TimeSteppedReference::bounce(DiscState& disc, double m, double t) const {
     const double vy = disc.vy;
     if (x_reverses) reverse(disc.vx < 0 ? 0 : 1, disc.vx, disc.vy);
     const bool still_comes = vy < 0 ? disc.vy < 0
-                                    : disc.vy > 0; // unless the first wall has changed that
+                                    : disc.vy > 0; // unless the first wall has changed the velocity
     if (y_reverses && still_comes) reverse(disc.vy < 0 ? 2 : 3, disc.vy, disc.vx);
 }
 
@@ -330,7 +330,7 @@ double TimeSteppedReference::stop_time(DiscId id, double x, double v, double t,
     return ts < 0 ? 0 : ts;
 }
 
-/// `left` is the body that it has just been reflected from.
+/// `left` is the body from which the disc has just been reflected.
 void TimeSteppedReference::stop_at_wall(DiscState& disc, double m, double t,
                                         const BodyMeeting& left) const {
     const double sx = setting_.effects.is_periodic_x() ? never

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method said plainly (docs/understanding/method.md, sections 1 to 4): what the
-// engine is held to, bit for bit.
+// A plain implementation of the time-stepped method (docs/understanding/method.md, sections 1 to
+// 4), with which the engine is compared bit by bit.
 //
-// Every micro-step searches all pairs, sorts all candidates by the total order and walks them. No
-// cells, no windows, no filters, no strips, and none of the engine's arithmetic: the formulas are
-// written here a second time, from the page. Price: N^2/2 predicates a micro-step, some 5 ns each.
+// Every micro-step searches all pairs, sorts all candidates by the total order and walks through
+// them. It has no cells, windows, filters or strips, and none of the engine's arithmetic: the
+// formulas are written a second time from the page. Price: N^2/2 predicates a micro-step, some 5 ns
+// each.
 #pragma once
 
 #include <array>
@@ -23,15 +24,15 @@
 
 namespace carrom::reference {
 
-/// An image of a disc: so many boxes further.
+/// An image of a disc, displaced by this many boxes.
 struct Copy {
     int x = 0, y = 0;
 
     friend bool operator==(const Copy&, const Copy&) = default;
 };
 
-/// The box as it repeats itself. Under shear the row above slides along x: how far at the last
-/// sync, and how fast, per micro-step.
+/// The repetition of the box. Under shear: the shift of the row above along x at the last sync, and
+/// its speed per micro-step.
 struct Tiles {
     Box box{};
     double slid = 0, speed = 0;
@@ -45,57 +46,57 @@ struct Tiles {
 
 /// The box and the clock of a run. Inputs give velocities per step; `micro_steps` divides them.
 struct Setting {
-    double box_size = 0; ///< along x
+    double box_size = 0; ///< edge along x
     double radius = 0;
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
-    Effects effects{};     ///< times in steps
-    double box_height = 0; ///< along y; 0: a square
-    std::vector<double>
-        first_spins{}; ///< of rough discs by id, per step; empty where all begin without
-    /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the
-    /// side's temperature.
+    Effects effects{};                 ///< times in steps
+    double box_height = 0;             ///< edge along y; 0 for a square
+    std::vector<double> first_spins{}; ///< spins of rough discs by id, per step; empty if all are 0
+    /// Random numbers for a disc that leaves a thermal wall: its velocity away from the wall and
+    /// along it, in the unit of the side's temperature.
     std::function<std::array<double, 2>(const Boundary& side, DiscId id,
                                         std::uint64_t wall_collisions, std::size_t number)>
         thermal_draw{};
 
-    /// Under drag: what its clock shows so many micro-steps after a sync.
+    /// With drag: the time on its clock after this many micro-steps since a sync.
     std::function<double(double micro_steps)> drag_clock{};
-    /// Gravity under drag, or a wall that moves: how far from rest what falls is, over its
-    /// acceleration, and when it meets a wall, all in the clock and per micro-step (fall.hpp).
-    /// Handed in, and held to their own path elsewhere.
+    /// Gravity under drag, or a wall that moves: the distance of a falling body from rest, divided
+    /// by its acceleration, and the time at which it meets a wall, all on the clock and per
+    /// micro-step. The caller provides these functions, which other tests compare with
+    /// the body's path.
     std::function<double(double clock)> dragged_fall{};
     std::function<double(double distance, double velocity, double pull)> dragged_fall_delay{};
-    /// With obstacles under gravity: see FixedBodies::meeting_time. Handed in, and held to its own
-    /// path elsewhere.
+    /// For obstacles under gravity: see FixedBodies::meeting_time. The caller provides it, and
+    /// other tests compare it with the body's path.
     std::function<double(double dx, double dy, double wx, double wy, double gx, double gy,
                          double reach)>
         falling_contact{};
     Box box() const { return {box_size, box_height == 0 ? box_size : box_height}; }
     double longest() const { return box().x > box().y ? box().x : box().y; }
-    /// Of the axis that the side ends.
+    /// The length of the box along the axis at whose end the side is.
     double edge(std::size_t side) const { return side < 2 ? box().x : box().y; }
-    /// An oscillating wall: how far it is from its line, how fast, and what presses discs against
-    /// it; and when a disc meets it, by its distance and rate from the line and its rate from the
-    /// wall. Times since the sync at a micro-step. Handed in, and held to their own search
-    /// elsewhere.
+    /// An oscillating wall: its distance from its line, its velocity, and the acceleration that
+    /// presses discs against it; and the time at which a disc meets it, from its distance and rate
+    /// relative to the line and its rate relative to the wall. Times count from the sync at a
+    /// micro-step. The caller provides these functions, which other tests compare with a search.
     std::function<std::array<double, 3>(std::size_t side, std::int64_t sync, double time)>
         oscillation{};
     std::function<double(std::size_t side, std::int64_t sync, double distance, double rate,
                          double from_wall, double time)>
         oscillating_delay{};
-    /// As they are from the sync at that micro-step on.
+    /// The tiles from the sync at this micro-step on.
     Tiles tiles(std::int64_t sync) const;
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;
     }
-    /// What the velocity of the clock is times to be that of the box.
+    /// The factor from velocities on the clock to velocities in the box.
     double slowing_at(double clock) const {
         return 1 - effects.drag / static_cast<double>(micro_steps) * clock;
     }
 
-    /// The same in micro-steps for a disc at the wall `number`.
+    /// `thermal_draw` in micro-steps for a disc at the wall `number`.
     std::array<double, 2> leaving(const DiscState& disc, std::size_t number) const;
     double radius_of(DiscId id) const { return species_of(id).radius; }
     double mass_of(DiscId id) const { return species_of(id).mass; }
@@ -105,8 +106,8 @@ struct Setting {
     double restitution() const {
         return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1;
     }
-    /// 0 where contacts are a length: a millionth of the sum of both radii, and a ten-thousandth of
-    /// the radius at walls.
+    /// The contact time, or 0 if contacts are a length: a millionth of the sum of both radii, and a
+    /// ten-thousandth of the radius at walls.
     double contact_time() const {
         return effects.contact.contact_time * static_cast<double>(micro_steps);
     }
@@ -114,7 +115,7 @@ struct Setting {
     bool is_in_contact(double since, double speed, double radii, double share) const {
         return contact_time() > 0 ? since < contact_time() : since * speed < share * radii;
     }
-    /// The speed at which a disc of this radius leaves a wall that it is pulled to, at least.
+    /// The smallest speed at which a disc of this radius leaves a wall to which it is pulled.
     double least_departure(double pull, double disc_radius) const {
         return contact_time() > 0 ? 0.5 * pull * contact_time()
                                   : std::sqrt(0.5 * 1e-4 * disc_radius * pull);
@@ -128,62 +129,64 @@ struct Counters {
     std::uint64_t candidates = 0;
     std::uint64_t rejected_candidates = 0;
     std::uint64_t wall_collisions = 0;
-    std::uint64_t pair_collisions = 0; ///< pairs, not discs
+    std::uint64_t pair_collisions = 0; ///< counts pairs, not discs
 
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-/// One kept collision: disc p with a wall, or the pair p < q. Sorted by (t, p, wall before pair, q)
-/// in a micro-step.
+/// A collision that happens: disc p with a wall, or the pair p < q. In a micro-step they are sorted
+/// by (t, p, wall before pair, q).
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
 
-    std::int64_t micro_step = 0; ///< n of [n, n+1], from the start of the run
+    std::int64_t micro_step = 0; ///< n for the time from n to n+1 since the start of the run
     double t = 0;                ///< in-step time, 0 to 1
     DiscId p = 0;
     DiscId q = wall;
-    Copy copy{}; ///< which image of q it is, in a box with periodic sides
+    Copy copy{}; ///< the image of q in a box with periodic sides
 
     friend bool operator==(const Collision&, const Collision&) = default;
 };
 
-/// A pair's contact: delay after `base`, the later of the two local times; negative for none.
+/// A pair's contact: delay after `base`, the later of the two local times; negative if there is
+/// none.
 struct Contact {
     double base = 0;
     double delay = -1;
 };
 
-/// The predicate of section 4, of p and that copy of q in that box, if it repeats itself.
+/// The predicate of section 4, for p and that copy of q in the box, if it repeats itself.
 /// `tolerance` is the deepest overlap that still collides; infinity in the event-driven method.
 Contact contact(const DiscState& p, const DiscState& q, double sigma, double tolerance,
                 Copy copy = {}, const Tiles& tiles = {});
 
-/// The copies of q that p may come near until `end`, both flying on from their states: all others
-/// stay farther than sigma.
+/// The copies of q that p may approach until `end`, if both fly on from their states. All others
+/// stay farther away than sigma.
 std::vector<Copy> copies_near(const Setting& setting, const DiscState& p, const DiscState& q,
                               double begin, double end, const Tiles& tiles);
 
-/// Of a sync: the state's place in the box where sides are periodic, one rounding away. `tiles` as
-/// they were until then.
+/// Brings a state into the box at a sync if sides are periodic, with one rounding. `tiles` are
+/// those before the sync.
 void bring_inside(const Setting& setting, DiscState& disc, const Tiles& tiles);
 
-/// What stands for a disc that has left the box: at rest where it left, with a time that no other
-/// has.
+/// Whether a disc has left the box. It is then at rest where it left, with a time that no other
+/// disc has.
 bool has_left(const DiscState& disc);
 void set_left(const Setting& setting, DiscState& disc, std::size_t side);
 
-/// The two states' positions at `time`, the impulse of a pair; p has the lower id.
+/// The two states' positions at `time`, and the impulse of a pair; p has the lower id.
 void advance(DiscState& disc, double time);
 void exchange_momentum(const Setting& setting, DiscState& p, DiscState& q, double restitution,
                        Copy copy = {}, const Tiles& tiles = {});
-/// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
+/// The same for rough discs, by the formulas of the page; a guarded pair (`is_touched`) is elastic
+/// and smooth.
 void collide_rough(const Setting& setting, DiscState& p, DiscState& q, double& p_spin,
                    double& q_spin, bool is_touched, Copy copy = {}, const Tiles& tiles = {});
 
-/// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities
+/// Numbers the discs 0 .. N-1 as given (ids must be a permutation of these) and divides velocities
 /// by `micro_steps`.
 std::vector<DiscState> stored_states(const Setting& setting, std::span<const InputDisc> discs);
-/// By id, per micro-step; empty where discs are not rough.
+/// Spins by id, per micro-step; empty unless discs are rough.
 std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs);
 
 class TimeSteppedReference {
@@ -193,9 +196,9 @@ public:
     void run_micro_steps(std::int64_t count);
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
-    /// In id order; velocities per micro-step, times on `clock()`.
+    /// Discs in the order of ids; velocities per micro-step, times on `clock()`.
     std::span<const DiscState> discs() const { return discs_; }
-    /// By id, angles per micro-step; empty where discs are not rough.
+    /// Spins by id, angles per micro-step; empty unless discs are rough.
     std::span<const double> spins() const { return spins_; }
     /// Micro-steps since the last sync.
     double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }

@@ -2,11 +2,12 @@
 // Family 2, contact: pairs that touch to within ulps, and contacts on the boundaries of steps and
 // windows.
 //
-// Why hard: after a collision rounding leaves a pair some ulp inside or outside contact; a program
-// that then sees the same contact again, or none when the pair is pushed together, loses or repeats
-// collisions. Source: Bannerman, Strobl, Formella, Poeschel, Comput. Part. Mech. 1, 191 (2014):
-// touching or overlapping and approaching collide now, separating never. Bounds: exactly one
-// collision for those that approach, none for the others; no contact lost between two steps.
+// Why hard: after a collision rounding leaves a pair some ulp inside or outside contact. A program
+// that then finds the same contact again, or none when the pair is pushed together, loses or
+// repeats collisions. Source: Bannerman, Strobl, Formella, Poeschel, Comput. Part. Mech. 1, 191
+// (2014): pairs that touch or overlap collide at once if they approach, and never if they separate.
+// Bounds: exactly one collision of pairs that approach, none of others; no contact lost between two
+// steps.
 #include "catch.hpp"
 
 #include <cmath>
@@ -25,7 +26,8 @@ namespace {
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 constexpr int most_ulps = 64;
 
-/// Every ulp on one rank; on several, which take their time to start and talk, every eighth.
+/// Every ulp on one rank; every eighth on several ranks, because starting and exchanging messages
+/// takes long.
 int ulp_step() { return Communicator::world().size() == 1 ? 1 : 8; }
 
 double by_ulps(double value, int ulps) {
@@ -34,9 +36,10 @@ double by_ulps(double value, int ulps) {
     return value;
 }
 
-/// A lone pair in a box of eight diameters, at sigma (1 + k ulp) along x, y or a diagonal. Near the
-/// origin, where an ulp of a coordinate is one of sigma, or far from it, where it is four. Relative
-/// velocity along the line of centres times `closing`, across it times `sliding`.
+/// A single pair in a box of eight diameters, at the distance sigma (1 + k ulp) along x, y or a
+/// diagonal. It is near the origin, where an ulp of a coordinate is one of sigma, or far from it,
+/// where it is four. The relative velocity is `closing` along the line of centres and `sliding`
+/// across it.
 TestScene pair_at_contact(int ulps, int direction, bool is_near, double closing, double sliding) {
     TestScene scene = empty_scene("pair at contact, " + std::to_string(ulps) + " ulp", 8, 0.5, 3);
     const double ex[] = {1, 0, 0.6, -0.8}, ey[] = {0, 1, 0.8, 0.6};
@@ -44,8 +47,8 @@ TestScene pair_at_contact(int ulps, int direction, bool is_near, double closing,
     const double x = is_near ? (cx < 0 ? 1.5625 : 0.75) : 3, y = is_near ? 0.75 : 3;
     const double qx = x + cx, qy = y + cy;
     add_disc(scene, x, y, 0.25, 0.125);
-    // One coordinate moves by ulps of its own; along an axis the distance is then sigma (1 + k ulp)
-    // exactly.
+    // One coordinate changes by its own ulps; along an axis the distance is then exactly sigma (1 +
+    // k ulp).
     add_disc(scene, direction == 0 ? by_ulps(qx, ulps) : qx,
              direction == 0 ? qy : by_ulps(qy, ulps), 0.25 - closing * cx - sliding * cy,
              0.125 - closing * cy + sliding * cx);
@@ -63,9 +66,9 @@ TEST_CASE("contact: pairs within 64 ulp of contact collide once if they approach
             for (int direction = 0; direction < 4; ++direction) {
                 for (const bool is_near : {false, true}) {
                     for (const double speed : {0.25, 1e-3, 1e-9}) {
-                        // At 1e-9 a pair with a gap slides apart before it is closed: it may but
-                        // need not meet. On a diagonal the computed distance may be wrong by an ulp
-                        // of sigma, and places near the origin are that fine.
+                        // At 1e-9 a pair with a gap slides apart before the gap closes, so it may
+                        // but need not meet. On a diagonal the computed distance may be wrong by an
+                        // ulp of sigma, and positions near the origin are as fine as that.
                         const bool must_meet = speed > 1e-6 ||
                                                ulps <= (direction < 2 || !is_near ? 0 : -3);
                         const auto collisions = [&](double closing) {
@@ -89,8 +92,8 @@ TEST_CASE("contact: pairs within 64 ulp of contact collide once if they approach
     }
 }
 
-// Along the tangent not even the sign of b is known; a collision then is harmless if it gives next
-// to no impulse.
+// Along the tangent even the sign of b is uncertain. A collision is then harmless if its impulse is
+// almost 0.
 TEST_CASE("contact: pairs that slide along each other get no impulse to speak of", "[contact]") {
     for (const Method method : both) {
         double largest = 0;
@@ -108,7 +111,7 @@ TEST_CASE("contact: pairs that slide along each other get no impulse to speak of
     }
 }
 
-// The impulse is taken from the stored places, so that afterwards b > 0.
+// The impulse is computed from the stored positions, so that the pair certainly separates (b > 0).
 TEST_CASE("contact: a million random collisions leave no pair that approaches", "[contact]") {
     Approaches some(201);
     const PlainDynamics dynamics(64, 0.5);
@@ -137,7 +140,7 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches", 
          0);
 }
 
-// Grazing pairs and all: in a run, each pair meets once.
+// Also for grazing pairs: in a run each pair collides once.
 TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
     for (const Method method : both) {
         double most = 0, total = 0;
@@ -163,8 +166,8 @@ TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
     }
 }
 
-// The two roundings of a time, seen from either side of a boundary, must leave no crack to slip
-// through.
+// Next to a boundary the same time is rounded in two ways. Between the two results no contact may
+// be lost.
 TEST_CASE("contact: none is lost on a step, sync or window boundary", "[contact]") {
     for (const Method method : both) {
         double lost = 0, n_contacts = 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 7, dense: gaps that are a few hundred ulp, ten thousand collisions a disc, in the
-// event-driven method.
+// Family 7, dense: gaps of a few hundred ulp, ten thousand collisions a disc, in the event-driven
+// method.
 //
-// Why hard: the time between collisions is the time for 1e-12 diameters, every contact is decided
-// by its last digits, and an overlap once made is fed back ten thousand times. Sources:
-// Lubachevsky, Stillinger, J. Stat. Phys. 60, 561 (1990); Donev, Torquato, Stillinger, J. Comput.
-// Phys. 202, 737 (2005); Bannerman et al. 2014. Bounds: no overlap deeper than 64 ulp(L) at any
-// inspection, energy to 1e-12, no disc outside by more than 4 ulp(L), and an end.
+// Why hard: discs fly only 1e-12 diameters between collisions, so the last digits decide about
+// every contact, and an overlap is amplified ten thousand times. Sources: Lubachevsky, Stillinger,
+// J. Stat. Phys. 60, 561 (1990); Donev, Torquato, Stillinger, J. Comput. Phys. 202, 737 (2005);
+// Bannerman et al. 2014. Bounds: no overlap deeper than 64 ulp(L) at any inspection, energy to
+// 1e-12, no disc outside by more than 4 ulp(L), and the run ends.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -21,9 +21,9 @@ using namespace carrom::test;
 
 namespace {
 
-/// Rows of discs that touch the rows above and below to within `gap`, from wall to wall: jammed.
-/// The box is solved for; within a row the discs have room where the geometry of a square asks for
-/// it.
+/// Rows of discs from wall to wall that touch the rows above and below to within `gap`: a jam. The
+/// size of the box is computed; within a row discs have the room that the geometry of a square
+/// leaves.
 TestScene jammed_rows(std::size_t n_rows, std::size_t n_columns, double gap) {
     const double across = 2 * static_cast<double>(n_columns) - 1,
                  up = static_cast<double>(n_rows) - 1;
@@ -39,7 +39,7 @@ TestScene jammed_rows(std::size_t n_rows, std::size_t n_columns, double gap) {
     return scene;
 }
 
-/// k x k discs with the same gap to each other and to the walls.
+/// k x k discs with equal gaps to each other and to the walls.
 TestScene jammed_square(std::size_t k, double gap) {
     TestScene scene = empty_scene("jammed square", static_cast<double>(k) * (1 + gap) + gap, 0.5,
                                   0);
@@ -50,8 +50,7 @@ TestScene jammed_square(std::size_t k, double gap) {
     return scene;
 }
 
-/// Hexagonal cluster with the same gap between all neighbours, in a box that leaves it room all
-/// around.
+/// A hexagonal cluster with equal gaps between neighbours, in a box with free room around it.
 TestScene open_cluster(std::size_t k, double gap) {
     TestScene scene = empty_scene("open cluster", static_cast<double>(k) + 8, 0.5, 0);
     for (std::size_t i = 0; i < k * k; ++i) {
@@ -62,8 +61,7 @@ TestScene open_cluster(std::size_t k, double gap) {
     return scene;
 }
 
-/// Runs until every disc has had `collisions` on average and holds what must hold at every
-/// inspection.
+/// Runs until discs have had `collisions` on average, and checks the bounds at every inspection.
 void cascade(TestScene scene, const std::string& what, double gap, double collisions) {
     Random random(701);
     set_speeds(scene, 32 * gap, random);
@@ -121,7 +119,7 @@ TEST_CASE("dense: 1512 discs at packing 0.89, 1e4 collisions a disc", "[dense][.
             "1512 discs at packing 0.89, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
-// Walls cost packing: in a box it takes this many discs to come to 0.9.
+// Walls reduce the packing: in a box at least this many discs are needed for 0.9.
 TEST_CASE("dense: 10246 discs at packing 0.9, 1e4 collisions a disc", "[dense][.hours]") {
     cascade(jammed_rows(109, 94, 1e-12),
             "10246 discs at packing 0.9, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs of all kinds are put among: sides, obstacles and effects, drawn for trouble.
+// Random surroundings of discs: sides, obstacles and effects, with values at which errors are
+// likely.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,7 @@ struct Point {
 inline double length(Point a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 inline Point place_of(const InputDisc& disc) { return {disc.x, disc.y}; }
 
-/// Places in one box, in which a difference goes to the nearest image where sides are periodic.
+/// Positions in a box. With periodic sides a difference is that to the nearest image.
 struct Room {
     double size;
     bool is_periodic_x, is_periodic_y;
@@ -52,7 +53,7 @@ struct Room {
         };
         return is_within(p.x, is_periodic_x) && is_within(p.y, is_periodic_y);
     }
-    /// What two bodies may overlap by: some roundings of their places.
+    /// The overlap that rounding of positions can make between two bodies.
     double slack(double reach) const { return 0x1p-50 * reach + 0x1p-50 * size; }
     bool are_apart(Point d, double reach) const {
         return length(nearest(d)) >= reach - slack(reach);
@@ -101,7 +102,7 @@ protected:
         scene_.setting.micro_steps = std::array{1, 1, 2, 3, 4}[random_.index(5)];
     }
 
-    /// One draw to an expression: compilers evaluate in different orders.
+    /// Only one draw in each expression, because compilers evaluate in different orders.
     double of(std::initializer_list<double> choices) {
         return choices.begin()[random_.index(choices.size())];
     }
@@ -112,7 +113,7 @@ protected:
                static_cast<double>(scene_.setting.micro_steps);
     }
 
-    /// The axes, exact diagonals, hexagonal neighbours, or anything.
+    /// A direction: an axis, an exact diagonal, a hexagonal neighbour, or any other.
     Point direction() {
         const double h = std::sqrt(0.75);
         const std::array<Point, 8> known = {
@@ -121,7 +122,7 @@ protected:
         const auto [x, y] = random_.direction();
         return {x, y};
     }
-    /// Between a fraction more than touching and a rounding less.
+    /// A distance from slightly more than touching to less than touching by a rounding error.
     double touching(double reach) {
         return reach * (1 + of({0, 0, 0, 0x1p-52, 0x1p-50, 1e-12, 1e-9, 0.25}));
     }
@@ -144,8 +145,8 @@ protected:
 
     void draw_kinds() {
         kinds_ = {{1, largest_, 1}};
-        if (one_in(5)) return;            // all alike
-        const bool are_heavy = one_in(2); // masses 1 to 1e6
+        if (one_in(5)) return;            // all discs are equal
+        const bool are_heavy = one_in(2); // masses from 1 to 1e6
         kinds_[0].mass = are_heavy ? of({1, 1, 1e6}) : of({1, 1, 0.3});
         for (std::size_t n = one_in(6) ? 12 : 1 + random_.index(4); kinds_.size() < n;) {
             const double mass = are_heavy ? of({1, 1, 2, 1e3, 1e6})
@@ -177,7 +178,7 @@ protected:
                 break;
             case 2: add_segment(at, at + reach * direction()); break;
             case 3: draw_wedge(at, reach); break;
-            default: { // two bodies with a gap between, through which a disc fits or does not
+            default: { // two obstacles with a gap through which a disc may or may not fit
                 const double radius = largest_ * of({0, 0.5, 1}),
                              apart = 2 * radius +
                                      largest_ * of({1, 2, 2 * (1 + 0x1p-50), 2 * (1 - 1e-9), 3});
@@ -192,7 +193,7 @@ protected:
         if (effects().fixed_bodies.are_any())
             effects().fixed_bodies.restitution = of({1, 1, 1, 0.5, 0});
     }
-    /// Two segments from one point, up or down.
+    /// Two segments from one point, upwards or downwards.
     void draw_wedge(Point apex, double reach) {
         const Point a = std::array<Point, 4>{
             {{0.6, 0.8}, {1, 0}, {0.8, 0.6}, {0.5, std::sqrt(0.75)}}}[random_.index(4)];
@@ -205,7 +206,7 @@ protected:
         add_segment(tip_b, apex);
         const Point middle = Point{a.x, up * a.y} + Point{b.x, up * b.y};
         const double size = length(middle);
-        if (!(size > 0.01)) return; // a straight line
+        if (!(size > 0.01)) return; // the segments are a straight line
         const Point axis = (1 / size) * middle;
         wedges_.push_back({apex, axis, std::fabs(axis.x * up * a.y - axis.y * a.x)});
     }
@@ -240,8 +241,8 @@ protected:
         if (effects().gravity.is_on()) contact.contact_time = of({0.01, 0.05});
         contact.contact_time = std::min(contact.contact_time, interval() / 4);
     }
-    /// Heavy discs may make light ones faster by the root of their masses' ratio, and in periodic
-    /// boxes every image that one passes costs.
+    /// Heavy discs can make light ones faster by the root of the ratio of masses, and in periodic
+    /// boxes each image that a disc passes takes time. So masses are limited.
     void tame_masses() {
         double least = 1, most = 1;
         for (Species& kind : kinds_) {
@@ -289,15 +290,15 @@ protected:
     }
 
     struct Wedge {
-        Point apex, axis; ///< the bisector
-        double sine;      ///< of half the angle
+        Point apex, axis; ///< apex, and direction of the bisector
+        double sine;      ///< sine of half the angle
     };
 
     Random random_;
     bool is_all_;
-    double largest_; ///< radius
+    double largest_; ///< largest radius
     TestScene scene_;
-    std::vector<Species> kinds_; ///< to choose from
+    std::vector<Species> kinds_; ///< species to choose from
     bool has_species_ = false;
     std::vector<Wedge> wedges_;
 };

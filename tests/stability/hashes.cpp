@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints one fingerprint of many runs of both methods: what every compiler and instruction set must
-// agree on.
+// Prints one fingerprint of many runs of both methods, on which every compiler and instruction set
+// must agree.
 //
-// With an argument, only for scenes whose name contains it, and one line per run: to find the first
-// that differs.
+// With an argument it uses only scenes whose name contains it, and prints a line for each run, so
+// that the first difference can be found.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -29,14 +29,14 @@ std::string text_of(const TestScene& scene, Method method) {
     }
 }
 
-/// Hundreds of discs on one line, hundreds of diameters a step: millions of collisions that show
-/// nothing new.
+/// Hundreds of discs on one line that fly hundreds of diameters a step: millions of collisions that
+/// test nothing else.
 bool is_long_under_all(const TestScene& scene) {
     const bool is_line = scene.name.rfind("chain", 0) == 0 || scene.name.rfind("cradle", 0) == 0;
     return scene.cascades_when_event_driven || (is_line && scene.discs.size() >= 400);
 }
 
-/// A gas, a crowd and a triangle that is hit, with effects drawn at random.
+/// A gas, a dense group or a break shot, with random effects.
 TestScene scene_with_effects(std::uint64_t seed, Method method) {
     TestScene scene = seed % 3 == 0   ? gas(60, 0.3, 0.5, 900 + seed)
                       : seed % 3 == 1 ? gas(64, 0.6, 0.1, 900 + seed)
@@ -47,7 +47,7 @@ TestScene scene_with_effects(std::uint64_t seed, Method method) {
     return with_effects(scene, method, seed);
 }
 
-/// FNV-1a over the lines.
+/// Adds a line to the FNV-1a hash.
 void add(std::uint64_t& sum, const std::string& line) {
     for (const char c : line) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worst values against their bounds, of which tests/stability/table.sh makes the tables in
-// docs/data/hard_cases.
+// Compares worst values with their bounds. tests/stability/table.sh makes the tables in
+// docs/data/hard_cases from them.
 #pragma once
 
 #include "catch.hpp"
@@ -12,8 +12,7 @@
 namespace carrom::test {
 
 /// Checks that `worst` <= `bound`. If $CARROM_STABILITY_TABLE names a file, appends a line to it:
-/// family, case, rule
-/// (of one method, or "both" where the case is of both), bound, worst value.
+/// family, case, method (or "both" if the case does not depend on it), bound, worst value.
 inline void hold(const char* family, const std::string& what, const std::string& method,
                  double worst, double bound) {
     INFO(family << ": " << what << ", rule " << method);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 8, long: what bites only after many steps or collisions.
+// Family 8, long: errors that appear only after many steps or collisions.
 //
-// Why hard: counters of 32 bits wrap after hours; a time that counts from the start of the run
-// loses a digit with every tenfold, until t + dt == t and time stands still; energies creep.
+// Why hard: counters of 32 bits wrap after hours. A time that counts from the start of the run
+// loses a digit with every factor of ten, until t + dt == t and time stops. Energies drift.
 // Sources: the trackers' threads on long runs (counters, negative times after a restart); Bannerman
-// et al. 2014. Bounds: energy to 1e-12 after 1e9 collisions, the same bits after a restart and
-// wherever the count of steps starts.
+// et al. 2014. Bounds: energy to 1e-12 after 1e9 collisions, the same bits after a restart and for
+// any first value of the count of steps.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-/// The run's state as a checkpoint would hold it.
+/// The run's state as a checkpoint stores it.
 StoredState stored(const DiscSystem& system) {
     return {{system.discs().begin(), system.discs().end()}, system.micro_steps_done()};
 }
@@ -43,8 +43,8 @@ TestScene some_gas() {
 
 constexpr std::uint64_t all_bits_of_counters = (std::uint64_t{1} << 47) - 1;
 
-/// Like some_gas, from `micro_steps` on, the counters `counted` ahead; what comes of it in 20
-/// steps.
+/// A run like some_gas over 20 steps that begins at `micro_steps`, with counters that begin at
+/// `counted`.
 Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
     const TestScene scene = some_gas();
     StoredState state = stored(start(scene, method));
@@ -68,7 +68,7 @@ bool has_same_bits(const Outcome& a, const Outcome& b) {
     return hash_of(a.discs) == hash_of(b.discs);
 }
 
-/// The state 20 steps on, by a run that is stopped and started again on the way.
+/// The state 20 steps later in a run that is stopped and started again.
 Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
     DiscSystem first = resume(scene, method, std::move(state));
     const std::int64_t step = first.step();
@@ -78,8 +78,8 @@ Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
     return outcome_of(second);
 }
 
-/// `most` collisions in `parts` parts; energy, and the hash after a restart, are inspected after
-/// each.
+/// Runs `most` collisions in `parts` parts. After each part the energy and the hash after a restart
+/// are checked.
 void many_collisions(Method method, std::size_t n, double most, int parts) {
     TestScene scene = gas(n, 0.3, 0.5, 803);
     scene.steps = std::int64_t{1} << 40;
@@ -107,7 +107,7 @@ TEST_CASE("long: steps above 2^32 and up to 2^53 have the bits of the first ones
         const Outcome expected = later(method, 0, 0);
         double n_different = 0;
         for (const int bits : {31, 32, 40, 52}) {
-            // From 16 micro-steps before the boundary across it.
+            // From 16 micro-steps before the boundary to beyond it.
             n_different += !has_same_bits(later(method, (std::int64_t{1} << bits) - 16, 0),
                                           expected);
         }
@@ -129,8 +129,8 @@ TEST_CASE("long: counters above 2^32 go on counting", "[long]") {
     }
 }
 
-// Times count from the last sync, so that t + dt == t does not depend on how long the run is, but
-// on sync_every.
+// Times count from the last sync, so t + dt == t does not depend on the length of the run, but on
+// sync_every.
 TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") {
     for (const Method method : both) {
         for (const int bits : {10, 20, 30}) {
@@ -147,7 +147,7 @@ TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") 
             }
             StoredState state = stored(start(scene, method));
             state.micro_steps_done = (std::int64_t{1} << bits) -
-                                     6; // the discs fly from here, over the sync
+                                     6; // from here the discs fly beyond the sync
             for (DiscState& disc : state.discs)
                 disc.tau = static_cast<double>(state.micro_steps_done);
             DiscSystem system = resume(scene, method, state);
@@ -161,8 +161,7 @@ TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") 
     }
 }
 
-// A time is rounded to an ulp of its size, and a disc flies on in that: no deeper may an overlap
-// be.
+// A time is rounded to an ulp of its size. An overlap may be as deep as a disc flies in that time.
 TEST_CASE("long: late in a long sync interval overlaps are as deep as times are coarse", "[long]") {
     for (const int bits : {6, 20, 30}) {
         TestScene scene = gas(64, 0.4, 0.3, 805);
@@ -187,8 +186,8 @@ TEST_CASE("long: late in a long sync interval overlaps are as deep as times are 
     }
 }
 
-// So fast that a flight from wall to wall takes less than an ulp of the time: t + dt == t. One
-// collision a step goes on.
+// Discs are so fast that a flight from wall to wall takes less than an ulp of the time: t + dt ==
+// t. Then the collision cascade must end the run; one collision a step is no problem.
 TEST_CASE("long: discs faster than times can tell end in finite time, with their energy",
           "[long]") {
     double worst = 0, outside = 0;

@@ -40,8 +40,8 @@ void judge_family(const char* name, std::uint64_t seed, int fewest_hits, const M
 
 } // namespace
 
-// A graze is decided by the last bits of the line of flight. Margins 1e-2 to 1e-14 on either side
-// of it.
+// The last bits of the line of flight decide about a graze. Margins are 1e-2 to 1e-14 on either
+// side of it.
 TEST_CASE("predicates: grazing at 1 to 1e6 diameters") {
     judge_family("grazing at 1 to 1e6 sigma", 101, 500000, [](Approaches& some) {
         const double margin = some.log_uniform(1e-14, 1e-2) * (some.whole(0, 3) == 0 ? -1 : 1);
@@ -51,8 +51,8 @@ TEST_CASE("predicates: grazing at 1 to 1e6 diameters") {
     });
 }
 
-// Close by, the time is a difference of almost equal lengths: dt ~ ulp / sqrt(2 margin), in any
-// precision.
+// For close discs the time is a difference of almost equal lengths: dt ~ ulp / sqrt(2 margin), in
+// any precision.
 TEST_CASE("predicates: nearly touching") {
     judge_family("nearly touching", 102, 400000, [](Approaches& some) {
         const double distance = 1 + some.log_uniform(0x1p-52, 1e-3),
@@ -83,8 +83,8 @@ TEST_CASE("predicates: anything") {
     judge_family("anything", 105, 500000, [](Approaches& some) { return some.any(); });
 }
 
-// Down to denormals a contact may go unseen, but no time may be made up: a NaN would end the order
-// of events.
+// At denormal speeds a contact may be missed, but no wrong time may result: a NaN would break the
+// order of events.
 TEST_CASE("predicates: denormal relative speeds") {
     Approaches some(106);
     int n_wrong = 0, n_lost = 0;
@@ -96,7 +96,7 @@ TEST_CASE("predicates: denormal relative speeds") {
         c.wy *= speed;
         const double delay = delay_of(c);
         n_wrong += std::isnan(delay) || (delay >= 0 && delay < 1e120);
-        // What is lost: pairs so slow that they need 2^500 steps for a diameter.
+        // Missed contacts: only of pairs so slow that they need 2^500 steps for a diameter.
         n_lost += delay < 0 && speed > 0x1p-500;
     }
     hold("predicates", "denormal relative speeds: times made up in 1e6", "both", n_wrong, 0);
@@ -118,7 +118,7 @@ TEST_CASE("predicates: equal velocities") {
     hold("predicates", "equal velocities: contacts in 1e6", "both", n_found, 0);
 }
 
-// The velocities are those an input may have, up to 2^250; the pair sees differences of them.
+// Velocities are up to the limit of inputs, 2^250; pairs have differences of them.
 TEST_CASE("predicates: speeds at the limits of the input") {
     judge_family("speeds of 2^250 in a scene of 2^250", 108, 700000, [](Approaches& some) {
         const double distance = some.log_uniform(1, 1e6), margin = some.log_uniform(1e-6, 1),

@@ -30,7 +30,7 @@ bool keep_if_it_fails(TestScene& scene, const Fails& fails, const Change& change
     return true;
 }
 
-/// One disc fewer; the largest radius is that of those that are left.
+/// Removes one disc; the largest radius is that of the remaining ones.
 void leave_out_species(reference::Setting& setting, DiscId departed) {
     std::vector<Species>& species = setting.effects.species;
     if (species.empty()) return;
@@ -50,8 +50,8 @@ void leave_out(TestScene& scene, std::size_t place) {
     if (!spins.empty()) spins.erase(spins.begin() + static_cast<std::ptrdiff_t>(departed));
 }
 
-/// One effect fewer, or one that is simpler: each is tried by itself. A change that changes nothing
-/// is no success.
+/// Removes or simplifies each effect, one at a time. A change without effect on the scene is no
+/// success.
 bool shrink_effects(TestScene& scene, const Fails& fails) {
     bool has_changed = false;
     const auto without = [&](const auto& change) {
@@ -94,7 +94,7 @@ bool shrink_effects(TestScene& scene, const Fails& fails) {
     return has_changed;
 }
 
-/// Effects, key by key, and the rule.
+/// Writes effects key by key, and the method.
 std::string toml_of(const Effects& effects, Method method) {
     std::string text = fmt::format("method = \"{}\"\n", name_of(method));
     bool is_lossy = effects.gravity.is_on() || effects.fixed_bodies.restitution < 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a scene that failed is made small, written and kept.
+// Reduces, writes and reads scenes that failed.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,23 @@
 
 namespace carrom::test {
 
-/// The smallest scene found, by leaving out discs, effects, steps and digits, for which `fails`
-/// still holds.
+/// The smallest scene found for which `fails` still holds, by removing discs, effects, steps and
+/// digits.
 TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& fails);
 
-/// The scene as TOML that reads back to the same bits, to be kept in tests/stability/regressions;
-/// one with effects is for that rule.
+/// The scene as TOML that reads back to the same bits, for tests/stability/regressions; if it has
+/// effects, for this method only.
 std::string toml_of(const TestScene& scene, Method method);
 
-/// A scene kept there. With effects it is for its own rule, else for both.
+/// A scene of the folder of regressions. A scene with effects is run by its own method, others by
+/// both methods.
 struct Regression {
     TestScene scene;
     std::vector<Method> methods;
 };
 Regression read_regression(const std::string& path);
 
-/// The scene of such a text. Throws InputError where the program would refuse it.
+/// The scene of such a text. Throws InputError if the program would reject it.
 Regression regression_of(const std::string& text, const std::string& name);
 
 } // namespace carrom::test

@@ -81,7 +81,7 @@ double ulp_of(double size) {
 }
 
 double deepest_overlap(const Outcome& outcome, double sigma) {
-    // Sorted by x, only neighbours within a diameter count.
+    // Only neighbours within a diameter in the order of x are compared.
     std::vector<std::pair<double, double>> places;
     for (const DiscState& disc : outcome.discs)
         places.emplace_back(disc.x_at(outcome.clock), disc.y_at(outcome.clock));
@@ -95,8 +95,8 @@ double deepest_overlap(const Outcome& outcome, double sigma) {
             deepest = std::max(deepest, sigma - std::sqrt(dx * dx + dy * dy));
         }
     }
-    // Discs of one local time may have collided with each other at that time: how deep were they
-    // then?
+    // Discs with equal local times may have collided with each other at that time, so their overlap
+    // at that time is computed.
     std::vector<const DiscState*> by_time;
     for (const DiscState& disc : outcome.discs) by_time.push_back(&disc);
     std::sort(by_time.begin(), by_time.end(),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 5, scale: the unit of length must not matter, and small discs in a wide box lose what
-// doubles lose, no more.
+// Family 5, scale: results do not depend on the unit of length, and small discs in a wide box lose
+// only the digits that doubles lose.
 //
-// Why hard: any length in the code (an epsilon at walls, a unit of the search) breaks scaling;
-// products of four lengths overflow or vanish; far from the origin a coordinate has fewer digits.
-// Sources: the toccata proof of the discriminant (its bounds on overflow), Bannerman et al. 2014.
-// Bounds: a scene times 2^k has bitwise scaled results or is refused with a reason. A cluster at
-// (L, L) has the times of the one at the origin to 4 ulp where its places are exact, and to 16
-// ulp(L)/|w| per collision after that.
+// Why hard: any fixed length in the code (a tolerance at walls, a unit of the search) breaks
+// scaling; products of four lengths overflow or vanish; far from the origin a coordinate has fewer
+// digits. Sources: the toccata proof of the discriminant (its bounds on overflow), Bannerman et al.
+// 2014. Bounds: a scene times 2^k has results that are scaled bit by bit, or is an error with a
+// reason. A cluster at (L, L) has the same times as one at the origin to 4 ulp if its positions are
+// exact, and to 16 ulp(L)/|w| per collision after that.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ bool is_scaled(const Outcome& small, const Outcome& plain, int exponent) {
                       });
 }
 
-/// What the reader says to a scene of one disc: the problems' texts, or its warnings.
+/// The texts of the problems of a scene of one disc, or of its warnings.
 std::string reader_says(double box_size, double radius, const std::string& method,
                         double speed = 0.25) {
     char text[400];
@@ -72,8 +72,8 @@ bool refuses(const std::string& said) {
     return said.find("refused: ") != std::string::npos && said.size() > 30;
 }
 
-/// A line of discs along the diagonal, from `x` on in the direction of `sign`; the first one starts
-/// the rest. All places and speeds are multiples of 2^-12.
+/// A line of discs along the diagonal, from `x` on in the direction of `sign`; the first disc hits
+/// the others. All positions and speeds are multiples of 2^-12.
 TestScene cluster(double box_size, double x, double sign, double gap_unit) {
     TestScene scene = empty_scene("cluster at " + number(x), box_size, 0.5, 40);
     const double gaps[] = {1, 0.375, 0.8125, 0.0625, 1.5};
@@ -94,8 +94,8 @@ TEST_CASE("scale: scenes times 2^k have bitwise scaled results", "[scale]") {
         for (const TestScene& scene : ordinary_scenes()) {
             const Outcome plain = run(scene, method);
             CHECK(plain.totals.pair_collisions > 3);
-            // Every exponent on one rank; on several, which take their time to start and talk, all
-            // where it gets close.
+            // Every exponent on one rank. On several ranks, where starting takes long, only those
+            // near the limits.
             const int stride = Communicator::world().size() == 1 ? 1 : 5;
             for (int k = -250; k <= 250; k += k < -225 || k > 238 ? 1 : stride) {
                 const TestScene same = scaled(scene, k);
@@ -161,7 +161,7 @@ TEST_CASE("scale: a cluster far from the origin has the times of one near it", "
     }
 }
 
-// L/r = 1e7 is allowed in the event-driven method, with a warning: a coordinate then has 30 bits
+// L/r = 1e7 is allowed in the event-driven method, with a warning: then a coordinate has 30 bits
 // for a diameter.
 TEST_CASE("scale: pairs in a box of 1e7 radii meet when they should", "[scale]") {
     TestScene scene = empty_scene("wide box", 1e7, 1, 400);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 6, symmetry: x and y are alike, left is like right where numbers are exact, and time runs
-// back.
+// Family 6, symmetry: x and y are equivalent, so are left and right if numbers are exact, and time
+// can be reversed.
 //
-// Why hard: a contracted a*b + c*d rounds its two products differently. A transposed scene shows
-// that at once, and any order in which x comes first. Hard discs multiply an error e-fold every
-// few tenths of a mean free time. Sources: the bit-exact fma hunts quoted in the project's
-// notes on contraction; Dellago, Posch, Hoover, PRE 53, 1485 (1996) for the exponents, here
-// measured ones: lambda = 1.447 (packing 0.1) and 2.870 (0.3) for sigma = kT = m = 1.
+// Why hard: a contracted a*b + c*d rounds its two products differently, and some orders put x
+// first; a transposed scene shows both at once. Hard discs multiply an error by e every few tenths
+// of a mean free time. Sources: reports on fma and exact bits in the project's notes on
+// contraction; Dellago, Posch, Hoover, PRE 53, 1485 (1996) for the exponents. Here measured values
+// are used: lambda = 1.447 (packing 0.1) and 2.870 (0.3) for sigma = kT = m = 1.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -25,13 +25,13 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-/// Scenes that both methods can end within a second or so.
+/// Scenes that both methods finish within a second or so.
 std::vector<TestScene> scenes_for(Method method) {
     std::vector<TestScene> chosen;
     std::size_t number = 0;
     const std::size_t nth = Communicator::world().size() == 1
                                 ? 1
-                                : 5; // several ranks take their time to start and talk
+                                : 5; // on several ranks, starting and messages take long
     for (TestScene scene : small_scenes()) {
         if (++number % nth != 0) continue;
         const bool is_fast = std::any_of(
@@ -47,7 +47,7 @@ std::vector<TestScene> scenes_for(Method method) {
     return chosen;
 }
 
-/// The scene seen in a mirror at x = L/2, the ids as they are.
+/// The scene reflected at x = L/2, with the same ids.
 TestScene mirrored(TestScene scene) {
     for (InputDisc& disc : scene.discs) {
         disc.x = scene.setting.box_size - disc.x;

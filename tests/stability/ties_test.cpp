@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 3, ties: several collisions of one disc at one time, to the bit.
+// Family 3, ties: several collisions of one disc at exactly the same time.
 //
-// Why hard: what a three-body hit does is undefined by mechanics, so the order decides, and an
-// order that depends on storage, threads or arrival gives other results on other machines;
+// Why hard: mechanics does not define the result of a three-body collision, so the order decides.
+// An order that depends on memory, threads or arrival gives other results on other machines, and
 // comparing times with a tolerance is not transitive. Sources: the DynamO and SMASH trackers
 // (coincident particles loop for ever); Rapier's and Unity's notes on sorting. Bounds: the bits of
-// the plain references for every storage order, window and machine shape; momentum handed on
-// exactly where the numbers are exact; no end only where there is none, and then said so.
+// the references for every order in memory, window and machine shape; momentum is passed on exactly
+// if the numbers are exact; a run that cannot end reports so.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-/// The reference's hash, worked out on every rank.
+/// The reference's hash, computed on every rank.
 StateHash reference_hash(const TestScene& scene, Method method) {
     if (method == Method::time_stepped) {
         reference::TimeSteppedReference reference(scene.setting, scene.discs);
@@ -38,7 +38,7 @@ StateHash reference_hash(const TestScene& scene, Method method) {
     return hash_of(reference.discs());
 }
 
-/// Runs that differ from the reference, over storage orders and windows.
+/// Counts runs that differ from the reference, for several orders in memory and windows.
 double count_differences(const TestScene& scene, Method method) {
     const StateHash expected = reference_hash(scene, method);
     double n_different = 0;
@@ -56,7 +56,7 @@ double count_differences(const TestScene& scene, Method method) {
     return n_different;
 }
 
-/// `n` discs around one at rest, all arriving at it at the same time.
+/// `n` discs around one at rest that all reach it at the same time.
 TestScene symmetric_hit(const std::vector<std::pair<double, double>>& directions) {
     TestScene scene = empty_scene(
         std::to_string(directions.size()) + " discs hit one at the same time", 32, 0.5, 20);
@@ -79,11 +79,11 @@ std::vector<TestScene> symmetric_hits() {
     return scenes;
 }
 
-/// Wall and pair at one time, and pairs of which both discs are at walls.
+/// A wall and a pair at one time, and pairs whose discs are both at walls.
 std::vector<TestScene> walls_and_pairs() {
     TestScene at_once = empty_scene("a disc meets a wall and another disc at once", 8, 0.5, 12);
     add_disc(at_once, 1.5, 4, -1, 0);
-    add_disc(at_once, 3.5, 4, -2, 0); // in contact with the first when that is at the wall
+    add_disc(at_once, 3.5, 4, -2, 0); // touches the first disc when that is at the wall
     TestScene at_walls = empty_scene("both discs of a pair at walls", 3, 0.5, 12);
     add_disc(at_walls, 0.5, 1.5, -0.25, 0.0625);
     add_disc(at_walls, 2.5, 1.5, 0.25, -0.0625);
@@ -146,8 +146,8 @@ TEST_CASE("ties: Newton's cradle, with gaps and touching", "[ties]") {
     std::vector<TestScene> scenes = {cradle(7, 0.5, 0.125, 0.25), cradle(20, 0.5, 1, 5),
                                      cradle(15, 0.3, 0.07, 0.9)};
     check_family("cradle with gaps", scenes);
-    // Touching from wall to wall: one collision per disc and step is a wave; every collision at its
-    // time has no end.
+    // Discs that touch from wall to wall. With one collision per disc and step the result is a
+    // wave; with every collision at its time there is no end.
     check_family("cradle touching from wall to wall", {cradle(9, 0.5, 0, 0.25)}, false);
     const bool is_reported =
         failure_of(cradle(9, 0.5, 0, 1), Method::event_driven).find("collides without end") !=

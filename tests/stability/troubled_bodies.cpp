@@ -53,7 +53,7 @@ private:
         return size * direction();
     }
 
-    /// What a disc can be put beside: a disc, a fixed disc, an end of a segment.
+    /// A disc, a fixed disc or an end of a segment, beside which a disc can be placed.
     struct Round {
         Point at, velocity;
         double radius;
@@ -109,13 +109,13 @@ private:
         const Round other = round_thing();
         const double away = touching(radius + other.radius);
         at = other.at + away * direction();
-        if (!one_in(4)) return; // on the floor or the ceiling as well
+        if (!one_in(4)) return; // one in four also touches the floor or the ceiling
         at.y = one_in(2) ? radius : scene_.setting.box_size - radius;
         const double reach = radius + other.radius,
                      square = reach * reach - (at.y - other.at.y) * (at.y - other.at.y);
         if (square >= 0) at.x = other.at.x + of({-1, 1}) * std::sqrt(square);
     }
-    /// At the distances from both that touching is.
+    /// Moves the disc to where it touches both.
     void beside_two(double radius, Point& at) {
         const Round a = round_thing(), b = round_thing();
         const double ra = touching(radius + a.radius), rb = touching(radius + b.radius);
@@ -138,8 +138,8 @@ private:
         at = Point{s.x0, s.y0} + share * along +
              (side * off / length(along)) * Point{-along.y, along.x};
     }
-    /// At a boundary of micro-steps it meets what is there, head-on or nearly; or grazes it, or
-    /// flies along it.
+    /// Chooses a flight that at a boundary of micro-steps meets another body, head-on or nearly,
+    /// grazes it, or goes along it.
     void on_its_way(double radius, Point& at, Point& going) {
         const Round other = round_thing();
         const Point e = direction();
@@ -154,13 +154,14 @@ private:
         at = other.at + (before + speed * steps) * e + off * Point{-e.y, e.x};
         going = other.velocity - speed * e;
     }
-    /// Through a side, where it is wholly outside at a boundary of micro-steps or an ulp beside it.
+    /// Chooses a flight through a side, at the end of which the disc is exactly outside at a
+    /// boundary of micro-steps, or an ulp away from that.
     void leaving(double radius, Point& at, Point& going) {
         const std::size_t number = random_.index(4);
         const double time = of({1, 2, 3}) / static_cast<double>(scene_.setting.micro_steps),
                      size = scene_.setting.box_size;
         double speed = std::max(largest_ * of({0.5, 1, 2}),
-                                2 * radius / time); // it must not be outside at the start
+                                2 * radius / time); // at the start it must be inside
         double place = number % 2 == 0 ? speed * time - radius : size + radius - speed * time;
         if (one_in(3)) place = std::nextafter(place, of({-1, 1}) * 2 * size);
         if (number % 2 == 0) speed = -speed;
@@ -197,7 +198,7 @@ private:
         }
     }
 
-    std::vector<Species> species_list_; ///< of each disc
+    std::vector<Species> species_list_; ///< the species of each disc
 };
 
 } // namespace

@@ -25,7 +25,7 @@ ContactEffect troubled_contact(Random& random) {
     }
 }
 
-/// A wall; `may_move` where the rule lets walls move.
+/// A random wall; `may_move` if the method allows moving walls.
 Boundary troubled_wall(std::size_t number, bool may_move, Random& random) {
     const double inwards = number % 2 == 0 ? 1 : -1;
     switch (random.index(5)) {
@@ -77,7 +77,7 @@ TestScene with_effects(TestScene scene, Method method, std::uint64_t seed) {
             effects.boundaries[number] = troubled_wall(number, is_all, random);
     }
     if (has_drag) effects.drag = std::min(0.2, 1 / interval);
-    // A frame that falls by half the box between syncs is refused.
+    // Limits gravity, because a frame that falls by half the box between syncs is an error.
     const double most = 0.2 * setting.box_size / (interval * interval);
     const std::array<double, 2> pull{std::min(0.05, most), -std::min(0.02, most)};
     if (is_all && random.index(2) == 0) {

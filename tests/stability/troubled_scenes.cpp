@@ -12,7 +12,7 @@ namespace carrom::test {
 
 namespace {
 
-/// Of the unit circle: the axes, exact diagonals, hexagonal neighbours, or anything.
+/// A direction: an axis, an exact diagonal, a hexagonal neighbour, or any other.
 std::pair<double, double> troubled_direction(Random& random) {
     const double h = std::sqrt(0.75);
     const std::array<std::pair<double, double>, 6> directions = {
@@ -70,7 +70,7 @@ TestScene troubled_scene(std::uint64_t seed) {
     const std::size_t most = 1 + random.index(10);
     for (int tries = 0; tries < 100 && scene.discs.size() < most; ++tries) {
         double x = troubled_place(scene, random), y = troubled_place(scene, random);
-        if (!scene.discs.empty() && random.index(2) == 0) { // touch another one, or all but
+        if (!scene.discs.empty() && random.index(2) == 0) { // touches another disc, or nearly does
             const InputDisc& other = scene.discs[random.index(scene.discs.size())];
             const auto [ex, ey] = troubled_direction(random);
             const double distance = 2 * radius *
@@ -88,7 +88,7 @@ TestScene troubled_scene(std::uint64_t seed) {
 
 namespace {
 
-/// The places of a patch of a hexagonal lattice around (x, y), as far as they are free.
+/// Adds a patch of a hexagonal lattice around (x, y), as far as its places are free.
 void add_patch(TestScene& scene, double x, double y, double spacing, double vx, double vy) {
     for (const double row : {0.0, 1.0, -1.0}) {
         for (const double column : {0.0, 1.0, -1.0}) {
@@ -99,7 +99,7 @@ void add_patch(TestScene& scene, double x, double y, double spacing, double vx, 
     }
 }
 
-/// Of the kinds that differ in size: from discs that hardly fit to discs that are hard to find.
+/// Sizes of the box, from one that is hardly large enough to one in which discs are hard to find.
 double wild_box_size(double radius, Random& random) {
     switch (random.index(6)) {
     case 0: return 2 * radius * (1 + std::array{0x1p-50, 1e-9, 1e-3, 0.5}[random.index(4)]);
@@ -118,14 +118,15 @@ TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap) {
     scene.setting.sync_every = std::array<std::int64_t, 5>{1, 3, 5, 64, 100000}[random.index(5)];
     scene.setting.micro_steps = std::array<std::int64_t, 5>{1, 1, 2, 3, 7}[random.index(5)];
     const double gap = std::array{0.0, 0x1p-52, 0x1p-48, 1e-12, 1e-6, 0.1}[random.index(6)];
-    const double speed = sigma * std::array{1e-12, 1e-3, 0.3, 1.0, 10.0, 1e3, 1e9}[random.index(
-                                     7)]; // what velocities are multiplied by
+    const double speed =
+        sigma *
+        std::array{1e-12, 1e-3, 0.3, 1.0, 10.0, 1e3, 1e9}[random.index(7)]; // factor of velocities
     const std::size_t most = 1 + random.index(random.index(3) == 0 ? 40 : 8);
     for (int tries = 0; tries < 200 && scene.discs.size() < most; ++tries) {
         double x = troubled_place(scene, random), y = troubled_place(scene, random);
         auto [vx, vy] = troubled_velocity(scene, random);
         if (!scene.discs.empty() &&
-            random.index(3) != 0) { // beside another one, aimed at it, or inside it
+            random.index(3) != 0) { // beside another disc, aimed at it, or inside it
             const InputDisc& other = scene.discs[random.index(scene.discs.size())];
             const auto [ex, ey] = troubled_direction(random);
             const bool is_aimed = random.index(2) == 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random scenes drawn for trouble: touching, aligned, at walls and in corners, equal and opposite
-// speeds, exact binary fractions beside numbers that are not.
+// Random scenes in which errors are likely: discs that touch, are aligned, at walls and in corners,
+// with equal and opposite speeds, exact binary fractions together with other numbers.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@
 
 namespace carrom::test {
 
-/// Up to 10 discs that do not overlap by more than rounding. The same seed gives the same bits on
-/// every machine.
+/// Up to 10 discs that overlap at most by rounding. The same seed gives the same bits on every
+/// machine.
 TestScene troubled_scene(std::uint64_t seed);
 
-/// The same in further ways. Up to 40 discs, and patches of a hexagonal lattice with gaps of some
-/// ulp. Boxes that hardly fit and boxes of up to 1e6 radii. Speeds from 1e-12 to 1e3 diameters a
-/// step, and velocities that differ by an ulp. Overlaps, in the time-stepped method only.
-/// Micro-steps that are no power of two, long sync intervals, all lengths times a power of two.
+/// The same with more variety. Up to 40 discs, and patches of a hexagonal lattice with gaps of some
+/// ulp. Boxes that are hardly large enough and boxes of up to 1e6 radii. Speeds from 1e-12 to 1e3
+/// diameters a step, and velocities that differ by an ulp. Overlaps, in the time-stepped method
+/// only. Numbers of micro-steps that are not a power of two, long sync intervals, all lengths times
+/// a power of two.
 TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap);
 
 } // namespace carrom::test

@@ -2,11 +2,11 @@
 // Family 4, corners and walls: two walls at one time, walls that are touched but not approached,
 // boxes without room.
 //
-// Why hard: a tolerance at walls that is a length (the course program's 1e-8) lets discs bounce
-// twice or leave; a corner is two collisions at one time; a disc that fills its box has collisions
+// Why hard: a tolerance at walls that is a length (1e-8 in the course program) lets discs bounce
+// twice or leave; a corner is two collisions at one time; a disc that fills its box collides
 // without end. Source: the tracker threads on lost particles at walls, DynamO's two-wall events.
-// Bounds: a corner shot comes back exactly reversed; nothing is farther outside than 4 ulp(L) plus
-// the way a disc goes in the rounding of a time, |v| ulp(64).
+// Bounds: a disc that hits a corner comes back exactly reversed; no disc is farther outside than 4
+// ulp(L) plus its flight in the rounding error of a time, |v| ulp(64).
 #include "catch.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ double largest_speed(const TestScene& scene) {
     return std::sqrt(square);
 }
 
-/// The farthest that a disc is outside at any step, over what the method allows.
+/// The largest distance of a disc outside of the box at any step, divided by the allowed one.
 double outside_over_allowed(const TestScene& scene, Method method) {
     const double allowed = 4 * ulp_of(scene.setting.box_size) + largest_speed(scene) * ulp_of(32);
     DiscSystem system = start(scene, method);
@@ -71,8 +71,8 @@ TEST_CASE("walls: leaving one wall while entering the next", "[walls]") {
     for (const Method method : both) {
         double n_wrong = 0;
         for (const double place : {1.0, 3.5, 7.0}) {
-            // On the low x wall and moving off it, towards the high y wall; then towards the low x
-            // wall along y = L - r.
+            // A disc on the low x wall that moves away from it, towards the high y wall; then one
+            // that moves towards the low x wall along y = L - r.
             TestScene scene = empty_scene("leaving one wall for the next", 8, 0.5, 6);
             add_disc(scene, 0.5, place, 0.25, 0.5);
             DiscState disc = run(scene, method).discs.front();
@@ -81,7 +81,7 @@ TEST_CASE("walls: leaving one wall while entering the next", "[walls]") {
                        disc.wall_collisions != (reaches ? 1u : 0u);
             scene.discs[0] = {0, place, 7.5, -0.5, -0.25};
             disc = run(scene, method).discs.front();
-            const bool reaches_low = place - 0.5 * 6 <= 0.5; // a touch at the very end counts
+            const bool reaches_low = place - 0.5 * 6 <= 0.5; // a contact exactly at the end counts
             n_wrong += disc.vx != (reaches_low ? 0.5 : -0.5) || disc.vy != -0.25 ||
                        disc.wall_collisions != (reaches_low ? 1u : 0u);
         }
@@ -140,8 +140,7 @@ TEST_CASE("walls: no disc is outside by more than the method allows", "[walls]")
         double worst = 0;
         for (const TestScene& scene : wall_scenes()) {
             if (method == Method::event_driven && scene.cascades_when_event_driven) continue;
-            // Boxes with hardly any room: a thousand million bounces a step in the event-driven
-            // method.
+            // Boxes with hardly any room: a billion bounces a step in the event-driven method.
             if (method == Method::event_driven &&
                 scene.setting.box_size < 2.1 * scene.setting.radius)
                 continue;

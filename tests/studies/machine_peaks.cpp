@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this machine can do at best, measured beside the program: an in-place stream of 64 bytes per
-// disc, and arithmetic.
-//
+// The best speeds of this machine, measured together with the program: an in-place stream of 64
+// bytes per disc, and arithmetic.
 //   machine_peaks stream DISCS PASSES THREADS      ns per disc and pass: each double is read,
-//   multiplied, added to, written machine_peaks arithmetic SECONDS               billions of
-//   operations a second on one core: "double", then "single"
-//
-// Vectors are as wide as the machine has them (Highway chooses when the program runs); a fused
+//                                                  multiplied, added to, written
+//   machine_peaks arithmetic SECONDS               billions of operations a second on one core:
+//                                                  "double", then "single"
+// Vectors have the widest size of the machine (Highway chooses when the program runs). A fused
 // multiply and add is two operations.
 #include <chrono>
 #include <cstdio>
@@ -32,8 +31,8 @@ void Pass(double* numbers, std::size_t n) {
         hn::StoreU(hn::MulAdd(hn::LoadU(d, numbers + k), factor, term), d, numbers + k);
 }
 
-/// Chains of fused operations, enough of them that none waits for another; their sum, so that
-/// nothing is left out.
+/// Chains of fused operations, so many that none waits for another. Returns their sum, so that the
+/// compiler cannot remove them.
 template <class Real> Real Chains(std::size_t n_rounds) {
     const hn::ScalableTag<Real> d;
     const auto factor = hn::Set(d, Real(0.999)), term = hn::Set(d, Real(0.001));
@@ -78,7 +77,7 @@ double now() {
         .count();
 }
 
-/// Nanoseconds per disc and pass, of `passes` after one that brings the memory in.
+/// Nanoseconds per disc and pass, over `passes` after a first one that brings the data into memory.
 double stream(std::size_t n_discs, int passes, int n_threads) {
     constexpr std::size_t doubles_per_disc = 8;
     const std::size_t n = n_discs * doubles_per_disc,
@@ -103,7 +102,7 @@ double stream(std::size_t n_discs, int passes, int n_threads) {
            (static_cast<double>(share) * n_threads / doubles_per_disc);
 }
 
-/// Billions of operations a second.
+/// Measures billions of operations a second.
 template <class Chains>
 double arithmetic(const Chains& chains, double seconds, std::size_t bytes_per_number) {
     constexpr std::size_t n_rounds = 1 << 20;
@@ -115,7 +114,7 @@ double arithmetic(const Chains& chains, double seconds, std::size_t bytes_per_nu
         ++n_calls;
     }
     const double elapsed = now() - start;
-    if (sum == 0) std::abort(); // it is not, but the compiler must not know
+    if (sum == 0) std::abort(); // never true, but the compiler does not know that
     const auto lanes = static_cast<double>(HWY_DYNAMIC_DISPATCH(BytesPerVector)() /
                                            bytes_per_number);
     return static_cast<double>(n_calls * n_rounds) * 10 * 2 * lanes / elapsed / 1e9;

@@ -40,7 +40,7 @@ constexpr double first_bytes = 3968, header_bytes = 16;
 
 struct Partner {
     int rank = 0;
-    double sent = 0, received = 0; ///< discs
+    double sent = 0, received = 0; ///< numbers of discs
 };
 
 enum class Kind { exchange, reduce, compute, again };
@@ -64,7 +64,7 @@ struct Script {
 };
 
 struct Tally {
-    double computing = 0, exchanging = 0, reducing = 0; ///< seconds
+    double computing = 0, exchanging = 0, reducing = 0; ///< seconds in each phase
     double messages = 0, bytes = 0;
 };
 
@@ -109,12 +109,12 @@ Script read_script() {
     return script;
 }
 
-/// A message from one rank to another waits in a mailbox of these two.
+/// The mailbox for messages between these two ranks.
 sg::Mailbox* mailbox(const char* kind, int from, int to) {
     return sg::Mailbox::by_name(kind + std::to_string(from) + '-' + std::to_string(to));
 }
 
-/// One rank. Small messages travel at once; a large one waits until the receiver asks for it.
+/// One rank. Small messages are sent at once; a large one waits until the receiver is ready.
 class Rank {
 public:
     Rank(const Script& script, int rank, Tally& tally)
@@ -207,7 +207,8 @@ private:
         tally_.bytes += bytes;
     }
 
-    /// Ranks beyond the largest power of two join one of the others, which answers in the end.
+    /// Ranks beyond the largest power of two send to one of the others, which returns the result at
+    /// the end.
     void reduce(double bytes) {
         if (rings_.empty()) return;
         const auto size = static_cast<std::uint64_t>(bytes);
@@ -255,12 +256,12 @@ void print_row(const Script& script, const std::vector<Tally>& tallies) {
 } // namespace
 
 int main(int argc, char** argv) {
-    sg::Engine engine(&argc, argv); // takes its own options out
+    sg::Engine engine(&argc, argv); // removes its own options
     if (argc != 2) {
         std::fprintf(stderr, "replay_cluster PLATFORM <SCRIPT\n");
         return 2;
     }
-    // latency + bytes / bandwidth, shared by what meets on a link
+    // latency + bytes / bandwidth, shared by all messages on a link
     sg::Engine::set_config("network/model:CM02");
     sg::Engine::set_config("network/TCP-gamma:0");
     sg::Engine::set_config("contexts/stack-size:64");

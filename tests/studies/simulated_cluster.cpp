@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene on the ranks of a simulated cluster (simulated_ranks.hpp). Says what is sent and
-// how long it would take. Discs are stepped for real, so messages are the ones that a real run
-// sends; what computing takes is told to the simulation instead of measured, so that the same run
-// gives the same numbers on any machine.
-//
+// Steps a scene on the ranks of a simulated cluster (simulated_ranks.hpp), and prints what is sent
+// and how long it would take. Discs are really stepped, so messages are those of a real run.
+// Computing times are given to the simulation and not measured, so the same run gives the same
+// numbers on any machine.
 //   simulated_cluster PLATFORM RANKS RANKS_PER_NODE SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW
-//
-// The first interval between two syncs is left out of the tallies; then STEPS steps count. A rank
-// computes for NS_OWN nanoseconds per own disc and micro-step and for NS_HALO per disc that it has
-// sent (as many come). A disc may stand for several: then all this takes so many times as long, and
-// so does a byte on its way, and WINDOW says how many micro-steps a window has (0: as the engine
-// chooses), for it would choose longer ones where discs meet less often. One line on standard
-// output, as in the heading that `simulated_cluster` alone prints: per rank and step, means over
-// ranks where nothing else is said.
+// The first interval between two syncs is not counted; then STEPS steps count. A rank computes for
+// NS_OWN nanoseconds per own disc and micro-step and for NS_HALO per disc that it has sent (it
+// receives as many). If a disc stands for several, computing and sending take as many times longer.
+// Then WINDOW gives the number of micro-steps of a window (0: the engine chooses), because the
+// engine would choose longer ones if discs collide less often. Prints one line, with the columns
+// that `simulated_cluster` prints without arguments: per rank and step, means over ranks unless
+// stated otherwise.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -34,12 +32,12 @@ using namespace carrom;
 
 namespace {
 
-std::uint64_t n_any_to_any = 0; ///< calls so far, by all ranks
+std::uint64_t n_any_to_any = 0; ///< calls of all ranks so far
 
 } // namespace
 
-// The linker puts this in the place of MPI_Alltoall (CMakeLists.txt): to count calls whose messages
-// grow with the ranks.
+// The linker puts this function in the place of MPI_Alltoall (CMakeLists.txt), to count calls whose
+// messages grow with the number of ranks.
 extern "C" int __real_MPI_Alltoall(const void*, int, MPI_Datatype, void*, int, MPI_Datatype,
                                    MPI_Comm); // NOLINT
 extern "C" int __wrap_MPI_Alltoall(const void* out, int n_out, MPI_Datatype out_type, void* in,
@@ -50,13 +48,13 @@ extern "C" int __wrap_MPI_Alltoall(const void* out, int n_out, MPI_Datatype out_
 
 namespace {
 
-/// What one rank has sent and computed while steps counted.
+/// Counts of one rank over the counted steps.
 struct Tally {
     Traffic traffic;
     double own_seconds = 0,
-           seconds = 0; ///< computing for own discs; all of it, communication included
+           seconds = 0; ///< time of computing for own discs, and whole time with communication
     std::uint64_t network_messages =
-        0;                        ///< of all ranks, those inside collective operations included
+        0; ///< messages of all ranks, with those inside collective operations
     std::uint64_t any_to_any = 0; ///< calls of all ranks
     std::int64_t steps = 0;
     std::string hash;
@@ -68,7 +66,7 @@ struct Job {
     double ns_own, ns_halo;
     Tuning tuning;
     std::vector<Tally> tallies;
-    std::vector<std::vector<InputDisc>> dealt{}; ///< by the rank whose strip they begin in
+    std::vector<std::vector<InputDisc>> dealt{}; ///< discs by the rank in whose strip they start
 };
 
 Traffic difference(const Traffic& after, const Traffic& before) {
@@ -76,9 +74,9 @@ Traffic difference(const Traffic& after, const Traffic& before) {
             after.collectives - before.collectives};
 }
 
-/// The scene's discs that begin in this rank's strip. They get there through memory, not the
-/// network: a million flows at once of 1024 ranks would take the simulation hours, and a run's
-/// start is not what is studied. **Collective.**
+/// The scene's discs that start in this rank's strip. They get there through memory, not the
+/// network: a million messages at once between 1024 ranks would take the simulation hours, and the
+/// start of a run is not studied. **Collective.**
 std::vector<InputDisc> discs_of_strip(Job& job, int rank, const SceneParameters& scene,
                                       const Communicator& world) {
     const auto n_ranks = static_cast<double>(job.dealt.size());
@@ -90,7 +88,7 @@ std::vector<InputDisc> discs_of_strip(Job& job, int rank, const SceneParameters&
     return std::move(job.dealt[static_cast<std::size_t>(rank)]);
 }
 
-/// What a rank does between start and end of MPI.
+/// The work of a rank between start and end of MPI.
 void step(Job& job, int rank) {
     const Communicator world = Communicator::world();
     std::ifstream file = open_input(job.scene);
@@ -123,7 +121,7 @@ void step(Job& job, int rank) {
     tally.hash = to_string(system.totals().hash);
 }
 
-/// Means and largest values over ranks, per rank and step.
+/// Prints means and largest values over ranks, per rank and step.
 void print_row(const Job& job, std::uint64_t n_discs) {
     const auto n_ranks = static_cast<double>(job.tallies.size());
     const Tally& first = job.tallies.front();

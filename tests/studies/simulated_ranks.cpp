@@ -15,13 +15,13 @@ std::uint64_t n_messages = 0;
 void configure(double bytes_stand_for) {
     using simgrid::s4u::Engine;
     Engine::set_config("smpi/simulate-computation:no");
-    // latency + bytes / bandwidth, shared by what meets on a link
+    // latency + bytes / bandwidth, shared by all messages on a link
     Engine::set_config("network/model:CM02");
     Engine::set_config("network/TCP-gamma:0");
     Engine::set_config("network/bandwidth-factor:" + std::to_string(1 / bytes_stand_for));
     Engine::set_config("smpi/coll-selector:ompi");
     Engine::set_config("smpi/host-speed:1Gf");
-    // no variable of the program differs between ranks
+    // ranks can share all variables of the program
     Engine::set_config("smpi/privatization:no");
 }
 
@@ -30,7 +30,7 @@ void configure(double bytes_stand_for) {
 void run_simulated(int& argc, char** argv, const SimulatedCluster& cluster,
                    const std::function<void(int)>& life) {
     simgrid::s4u::Engine engine(&argc, argv);
-    SMPI_init(); // knows the settings from here on
+    SMPI_init(); // reads the settings
     configure(cluster.bytes_stand_for);
     engine.load_platform(cluster.platform);
     simgrid::s4u::Link::on_communication_state_change_cb(
@@ -46,7 +46,7 @@ void run_simulated(int& argc, char** argv, const SimulatedCluster& cluster,
         actor->set_property("instance_id", "carrom");
         actor->set_property("rank", std::to_string(rank));
         actor->start([&life, rank] {
-            MPI_Init(nullptr, nullptr); // not by class Mpi: SMPI promises no threads
+            MPI_Init(nullptr, nullptr); // not by class Mpi, because SMPI has no support for threads
             life(rank);
             MPI_Finalize();
         });
@@ -56,7 +56,7 @@ void run_simulated(int& argc, char** argv, const SimulatedCluster& cluster,
 }
 
 void compute_for(double nanoseconds) {
-    constexpr double flops_per_nanosecond = 1; // of every host in the platform file
+    constexpr double flops_per_nanosecond = 1; // speed of every host in the platform file
     smpi_execute_flops(nanoseconds * flops_per_nanosecond);
 }
 

@@ -56,10 +56,11 @@ struct Job {
     int halo = 0, across = 0;
     Crowd crowd = Crowd::none;
     std::vector<Tally> tallies{};
-    std::vector<InputDisc> inputs{}; ///< of all ranks, which share this memory
-    std::vector<DiscStates> dealt{}; ///< by the rank whose strip they begin in
+    std::vector<InputDisc> inputs{}; ///< discs of all ranks, which share this memory
+    std::vector<DiscStates> dealt{}; ///< discs by the rank in whose strip they start
 
-    /// Steps that are not counted: from a lattice to a gas, or until cuts have followed the crowd.
+    /// Steps that are not counted, until the lattice has become a gas, or until cuts have followed
+    /// the clusters.
     std::int64_t n_first() const { return crowd == Crowd::none ? 32 : 256; }
 };
 
@@ -72,8 +73,8 @@ SceneParameters gas(const Job& job) {
                       "gas.toml");
 }
 
-/// The discs that begin in this rank's strip. They get there through memory, because a run's start
-/// is not what is counted. **Collective.**
+/// The discs that start in this rank's strip. They get there through memory, because the start of a
+/// run is not counted. **Collective.**
 DiscStates discs_of(Job& job, std::size_t rank, SceneParameters& scene, const Communicator& world) {
     const std::vector<InputDisc> share = initial_state(scene, nullptr, world);
     job.inputs.insert(job.inputs.end(), share.begin(), share.end());
@@ -106,7 +107,7 @@ void advance(Engine& engine, const SceneParameters& scene, std::int64_t step) {
     while (engine.micro_steps_done() < step * scene.micro_steps) engine.advance_towards(step);
 }
 
-/// What a rank does.
+/// The work of a rank.
 void run(Job& job, int rank) {
     const Communicator world = Communicator::world();
     const auto place = static_cast<std::size_t>(rank);
@@ -137,10 +138,10 @@ void run(Job& job, int rank) {
 }
 
 struct Work {
-    double first = 0, repeated = 0; ///< of all ranks
-    double busiest = 0;             ///< of first runs: of the rank with most, summed over windows
-    double span = 0; ///< of the rank with most, summed over rounds: all others wait for it
-    double carried = 0, seen = 0; ///< by first runs
+    double first = 0, repeated = 0; ///< work of all ranks
+    double busiest = 0;             ///< work of first runs on the busiest rank, summed over windows
+    double span = 0; ///< work of the busiest rank, for which all others wait, summed over rounds
+    double carried = 0, seen = 0; ///< collisions and discs of first runs
     double n_rounds = 0;
 };
 

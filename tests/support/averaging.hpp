@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The averages of a simulation that a test steps by itself, taken as a run takes them.
+// The averages of a simulation that a test steps by itself, taken in the same way as in a run.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ public:
     Averaging(const Averaging&) = delete;
     Averaging& operator=(const Averaging&) = delete;
 
-    /// What has to act between the steps.
+    /// The actions between the steps.
     std::span<StepAction* const> actions() const { return actions_; }
     void advance_to(std::int64_t step) { carrom::advance_to(system_, step, actions_); }
     void begin_anew() { sampler_.average_anew(); }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Catch2 by one name, whichever version is installed: 2.13 (Debian 12) or 3 (Debian 13, Ubuntu
-// 24.04).
+// Includes Catch2, whichever version is installed: 2.13 (Debian 12) or 3 (Debian 13, Ubuntu 24.04).
 //
-// Version 3 has a header for each part: here are those that tests use. A main defines
+// Version 3 has several headers; those that tests use are included here. A main defines
 // CARROM_CATCH_MAIN before it includes this. It gets Catch2's session, the base class of listeners,
-// and what their `assertionEnded` returns.
+// and the result type of their `assertionEnded`.
 #pragma once
 
 #if __has_include(<catch2/catch_test_macros.hpp>)
@@ -22,7 +21,7 @@ using TestListener = Catch::EventListenerBase;
 using AfterAssertion = void;
 #endif
 
-using Catch::Approx; // version 2 does this itself
+using Catch::Approx; // version 2 has this already
 
 #else
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all ranks have, on every rank, for tests on few discs.
+// Gathers items of all ranks on every rank, for tests with few discs.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// In the order of ranks. **Collective.**
+/// The items in the order of ranks. **Collective.**
 template <class Items> auto gathered(const Items& mine, const Communicator& world) {
     using Item = typename Items::value_type;
     std::vector<Item> all;

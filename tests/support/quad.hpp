@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of 113 bits to hold the predicates to: products of two doubles are exact in them.
+// Numbers of 113 bits, with which predicates are compared: products of two doubles are exact in
+// them.
 //
-// GCC and Clang offer them as __float128, or as long double where that has 113 bits. The square
-// root is Newton's, so that no library is needed.
+// GCC and Clang have them as __float128, or as long double if that has 113 bits. The square root
+// uses Newton's rule, so no library is needed.
 #pragma once
 
 #include <cfloat>
@@ -40,14 +41,14 @@ inline Quad sine_series(double x, int first) {
     return sum;
 }
 
-/// The doubles that are nearest to the sine and the cosine.
+/// The doubles nearest to the sine and to the cosine.
 inline double nearest_sine(double x) { return static_cast<double>(sine_series(x, 1)); }
 inline double nearest_cosine(double x) { return static_cast<double>(sine_series(x, 0)); }
 
-/// A contact worked out in quad precision from the same doubles that the predicate gets.
+/// A contact computed in quad precision from the same doubles as in the predicate.
 struct EventContact {
     Quad b, a, distance, cross, discriminant;
-    Quad delay = -1; ///< negative for none; 0 for touching or overlapping and approaching
+    Quad delay = -1; ///< negative if there is none; 0 if discs touch or overlap and approach
 
     EventContact(double dx, double dy, double wx, double wy, double sigma) {
         b = Quad(dx) * wx + Quad(dy) * wy;
@@ -60,7 +61,7 @@ struct EventContact {
         delay = c <= 0 ? Quad(0) : c / (-b + square_root(discriminant));
     }
 
-    /// A sigma^2 / disc, which is large for grazes: the condition of the contact.
+    /// A sigma^2 / disc, the condition number of the contact, which is large for grazes.
     Quad condition(double sigma) const { return a * sigma * sigma / discriminant; }
 };
 

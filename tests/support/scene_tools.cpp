@@ -43,7 +43,7 @@ SceneParameters scene_of(const TestScene& test_scene) {
     scene.generator = Generator::file;
     scene.listed_discs = test_scene.discs;
     scene.steps = test_scene.steps;
-    scene.method = Method::time_stepped; // unless the test says otherwise
+    scene.method = Method::time_stepped; // tests may change it
     scene.micro_steps = test_scene.setting.micro_steps;
     scene.sync_every = test_scene.setting.sync_every;
     scene.effects = test_scene.setting.effects;
@@ -73,7 +73,7 @@ TestScene transposed(const TestScene& scene) {
         std::swap(body.x1, body.y1);
     }
     for (double& spin : setting.first_spins) spin = -spin;
-    // A box that stands draws at its walls as the one that lies.
+    // A tall box draws the same random numbers at its walls as the box turned on its side.
     if (const auto draw = setting.thermal_draw; draw && !box.is_square())
         setting.thermal_draw = [draw](const Boundary& side, DiscId id, std::uint64_t count,
                                       std::size_t number) {
@@ -200,8 +200,7 @@ TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed) {
 
 TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed) {
     Random random(seed);
-    // Every pair closes in at two units a step, so a gap of g is a contact at g/2; all gaps are
-    // below 2.
+    // Every pair approaches at two units a step, so a gap of g closes at g/2; all gaps are below 2.
     const double count = static_cast<double>(n);
     TestScene scene = empty_scene("chain of " + std::to_string(n) + ", times " + times_kind,
                                   4 * count, 0.5, 12);
@@ -229,7 +228,7 @@ TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t see
     for (std::size_t i = 0; i < n; ++i) {
         const double side = i % 2 == 0 ? -1 : 1;
         add_disc(scene, x, std::floor(box_size / 2) + 0.625 * side, 0, -0.625 * side);
-        // The wider a pair's places in x, the later its rows are close enough.
+        // The farther the discs of a pair are apart in x, the later their rows are close enough.
         const double rank = std::floor(1024 * static_cast<double>(i) / count) / 1024;
         double width = 0.75;
         if (times_kind == "rising") width = 0.5625 + 0.375 * rank;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the families of scenes are built with: portable random numbers and a few ways to place
+// Tools with which families of scenes are built: portable random numbers and a few ways to place
 // discs.
 #pragma once
 
@@ -41,7 +41,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// Six digits, as in 0.3, 20000 and 1e-09: names tell small numbers apart.
+/// With up to six digits, such as 0.3, 20000 and 1e-09, so that names distinguish small numbers.
 std::string number(double value);
 
 /// A scene without discs.
@@ -50,29 +50,29 @@ TestScene empty_scene(std::string name, double box_size, double radius, std::int
 /// Appends a disc with the next id.
 void add_disc(TestScene& scene, double x, double y, double vx = 0, double vy = 0);
 
-/// Appends n still discs: at random where there is room, else on a shaken square lattice (n must be
+/// Appends n discs at rest, at random if there is room, else on a shaken square lattice (n must be
 /// a square number).
 void add_gas(TestScene& scene, std::size_t n, Random& random);
 
-/// Appends still discs of `scene.setting.effects.species`, in its order, at random where there is
-/// room, which takes long in a dense box. Images count along axes that go round.
+/// Appends discs at rest of `scene.setting.effects.species`, in its order, at random without
+/// overlaps, which takes long in a dense box. Images count along periodic axes.
 void add_species(TestScene& scene, bool round_x, bool round_y, Random& random);
 
-/// The discs that a rank starts with: an arbitrary share, in an arbitrary order.
+/// The random share of the discs with which a rank starts, in a random order.
 std::vector<InputDisc> share_of(const TestScene& scene, int rank, int n_ranks, unsigned seed);
 
-/// Each component uniform, root mean square speed as given.
+/// Sets velocities with uniform components and this root mean square speed.
 void set_speeds(TestScene& scene, double speed, Random& random);
 
 /// A gas of n discs of radius 1, speeds in diameters per step.
 TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed);
 
-/// Each disc's neighbours in x both reach it in the first micro-step; times_kind of "rising",
-/// "falling", "tied", "mixed".
+/// Discs whose two neighbours in x both reach them in the first micro-step; `times_kind` is
+/// "rising", "falling", "tied" or "mixed".
 TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 
-/// The same in a zigzag of bounded speed and length: two rows that close in, conflicts between
-/// neighbours only.
+/// The same in a zigzag of bounded speed and length: two rows that approach, so that only
+/// neighbours are in conflict.
 TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 
 /// n discs of radius r from wall to wall with equal gaps; the first one moves with `speed`.
@@ -81,17 +81,16 @@ TestScene cradle(std::size_t n, double radius, double gap, double speed);
 /// k x k discs of radius 1/2 on dyadic places.
 TestScene lattice(std::size_t k, double spacing);
 
-/// A triangle of `rows` rows of touching discs of radius r and a cue disc that aims at its tip.
+/// A triangle of `rows` rows of touching discs of radius r, and a disc that flies towards its tip.
 TestScene break_shot(std::size_t rows, double radius, double speed, double aim);
 
-/// The course program's generated scene with our own random numbers.
+/// A scene like those of the course program's generator, with portable random numbers.
 TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64_t seed);
 
-/// Thermal walls of this seed, and to the reference what they draw: it is told, not stated a second
-/// time.
+/// Sets the seed of thermal walls, and gives the reference their random numbers.
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed);
 
-/// What the references are told of walls that oscillate.
+/// Gives the references the functions of oscillating walls.
 void set_oscillation(reference::Setting& setting);
 
 } // namespace carrom::test

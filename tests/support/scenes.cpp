@@ -29,8 +29,8 @@ std::vector<TestScene> large_scenes() {
     add(zigzag(2000, "tied", 2008), 4);
     add(zigzag(2000, "rising", 2009), 4);
     add(transposed(zigzag(2000, "falling", 2010)), 4);
-    // In the order of their places, so that the first tie decides the second, and so on across the
-    // box.
+    // Discs in the order of their positions, so that the first tie decides the second, and so on
+    // across the box.
     scenes.push_back(zigzag(2000, "tied", 2011));
     scenes.back().steps = 4;
     add(cradle(2000, 0.5, 0, 0.25), 20);

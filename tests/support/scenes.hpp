@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that tests share, as plain data: ordinary gases, and everything that has ever broken a
-// simulation of this kind.
+// Scenes that tests share, as plain data: ordinary gases, and all cases in which simulations of
+// this kind are known to fail.
 //
 // Every family has a fixed seed and uses + - * / sqrt only, so a scene has the same bits on every
-// machine. The small scenes are meant to be looped over against the brute-force reference; all of
-// them together take a second or two.
+// machine. The small scenes can all be compared with the brute-force reference, in a second or two
+// together.
 #pragma once
 
 #include <cstdint>
@@ -18,31 +18,32 @@
 namespace carrom::test {
 
 struct TestScene {
-    std::string name; ///< unique; says the family and what varies
+    std::string name; ///< unique; the family and the varied numbers
     reference::Setting setting;
     std::int64_t steps = 0;
-    std::vector<InputDisc> discs; ///< ids are a permutation of 0 .. N-1, often not in order
+    std::vector<InputDisc> discs; ///< ids are a permutation of 0 .. N-1, often in another order
 
     /// All numbers of the run are exact in binary, so any correct formula gives the same bits.
     bool is_exact = false;
-    /// Zeno's scenes, with infinitely many collisions in no time in the event-driven method.
+    /// Infinitely many collisions in a finite time in the event-driven method (Zeno's paradox).
     bool cascades_when_event_driven = false;
-    /// Pairs that must collide, where the scene is built so that this is known.
+    /// The number of pairs that must collide, if it is known from the construction of the scene.
     std::optional<std::uint64_t> expected_pair_collisions;
 };
 
 /// The same scene in the engine's own input type, spins included.
 SceneParameters scene_of(const TestScene& scene);
 
-/// x and y exchanged, of the box and its effects too: states must come out exchanged, bit for bit.
+/// The scene with x and y exchanged, also in the box and its effects. States must be exchanged, bit
+/// by bit.
 TestScene transposed(const TestScene& scene);
-/// Lengths and speeds times 2^exponent: states must come out scaled, bit for bit.
+/// The scene with lengths and speeds times 2^exponent. States must be scaled, bit by bit.
 TestScene scaled(const TestScene& scene, int exponent);
-/// Ids dealt anew and the list in another order; a different scene wherever ids break ties.
+/// The scene with other ids and in another order. It gives other results if ids break ties.
 TestScene shuffled(TestScene scene, std::uint64_t seed);
 
 std::vector<TestScene> gases();       ///< packing 0.05 to 0.7, 0.001 to 40 diameters per step
-std::vector<TestScene> still_gases(); ///< still discs and one fast one, or none
+std::vector<TestScene> still_gases(); ///< discs at rest, and one fast disc or none
 std::vector<TestScene> fast_scenes(); ///< the course program's speeds, L/8r to L/4 per step
 std::vector<TestScene> cradles();     ///< lines from wall to wall, touching or not, along x and y
 std::vector<TestScene> chains();   ///< every disc in conflict with both neighbours, across the box

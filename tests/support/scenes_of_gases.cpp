@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gases: ordinary, still, fast, overlapping, and with speeds next to nothing.
+// Gases: ordinary, at rest, fast, overlapping, and with tiny speeds.
 #include <array>
 #include <limits>
 
@@ -73,8 +73,8 @@ std::vector<TestScene> overlaps() {
                 add_disc(scene, x, y);
             }
             set_speeds(scene, speed, random);
-            // Every third disc lies exactly on the one before it, every sixth moves exactly with
-            // it.
+            // Every third disc is exactly at the position of the one before it, and every sixth has
+            // the same velocity, too.
             for (std::size_t i = 2; i < n; i += 3) {
                 scene.discs[i].x = scene.discs[i - 1].x;
                 scene.discs[i].y = scene.discs[i - 1].y;
@@ -86,7 +86,7 @@ std::vector<TestScene> overlaps() {
             scenes.push_back(shuffled(scene, 500 + n));
         }
     }
-    // Overlaps about the tolerance: from deeper by 2^-30 of a diameter down to apart by as much.
+    // Overlaps near the tolerance: from 2^-30 of a diameter deeper to as much apart.
     for (const double depth : {0x1p-30, 1.5e-12, 1e-12, 0.5e-12, 0x1p-52, 0.0, -0x1p-52, -1e-12}) {
         TestScene scene = empty_scene("overlap of " + number(depth) + " diameters", 64, 1, 20);
         add_disc(scene, 31, 32, 0.25, 0);
@@ -107,8 +107,8 @@ std::vector<TestScene> tiny_velocities() {
     for (const double largest : speeds) {
         Random random(++seed);
         TestScene scene = empty_scene("tiny velocities, case " + std::to_string(seed), 16, 1, 30);
-        add_disc(scene, 1, 1);   // at two walls
-        add_disc(scene, 15, 15); // at the two others
+        add_disc(scene, 1, 1);   // a disc at two walls
+        add_disc(scene, 15, 15); // a disc at the other two walls
         add_disc(scene, 3, 1);   // touches the first
         add_disc(scene, 15 - 0.5e-8, 3);
         add_gas(scene, 20, random);
@@ -119,7 +119,7 @@ std::vector<TestScene> tiny_velocities() {
         }
         scene.setting.sync_every = std::array{64, 1}[seed % 2];
         scenes.push_back(scene);
-        // The same with one disc of ordinary speed among them.
+        // The same scene with one disc of ordinary speed.
         scene.name += " with one ordinary disc";
         scene.discs.back().vx = 1.5;
         scene.discs.back().vy = 0.75;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines and lattices: cradles, chains of conflicts, ties and breaks. They cross every strip and
-// block there is.
+// Lines and lattices: cradles, chains of conflicts, ties and break shots. They cross every strip
+// and block.
 #include <algorithm>
 #include <array>
 
@@ -10,7 +10,7 @@ namespace carrom::test {
 
 namespace {
 
-/// The scene with its ids as they are, in reverse, and dealt anew; each along x and along y.
+/// Adds the scene with its ids, with reversed ids, and with random ids; each along x and along y.
 void add_variants(std::vector<TestScene>& scenes, const TestScene& scene, std::uint64_t seed) {
     TestScene reversed = scene;
     reversed.name += ", ids reversed";
@@ -70,8 +70,8 @@ std::vector<TestScene> lattices() {
     std::uint64_t seed = 900;
     for (const std::size_t k : {std::size_t{4}, std::size_t{7}, std::size_t{20}}) {
         for (const double spacing : {1.0, 1.25, 2.0}) {
-            // Columns towards each other: every contact of a column pair, and every wall, at the
-            // same time.
+            // Columns that fly towards each other: all contacts of two columns, and all with walls,
+            // are at the same time.
             TestScene columns = lattice(k, spacing);
             columns.name += ", columns in turn";
             columns.is_exact = true;

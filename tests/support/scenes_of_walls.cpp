@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls and boundaries in time: corners, bands, boxes that hardly fit, contacts at the very end of
-// a micro-step.
+// Walls and boundaries in time: corners, bands, boxes that are hardly large enough, contacts at the
+// very end of a micro-step.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -57,7 +57,7 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
     }
 }
 
-/// Discs exactly at walls, in the band before them, and beyond them by an ulp; slow ones need never
+/// Discs exactly at walls, in the band before them, and an ulp beyond them; slow ones may never
 /// touch.
 void add_wall_huggers(std::vector<TestScene>& scenes) {
     const double radius = 0.7, box_size = 30.1;
@@ -87,7 +87,7 @@ double by_ulps(double value, int ulps) {
     return value;
 }
 
-/// Sixteen lone pairs whose contact falls at micro-step `boundary` to within `ulps` of their
+/// Sixteen separate pairs whose contact is at micro-step `boundary` to within `ulps` of their
 /// coordinates.
 TestScene boundary_pairs(double ratio, std::int64_t boundary, std::int64_t sync_every, int ulps,
                          Random& random) {

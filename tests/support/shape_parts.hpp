@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How tests that run on several machine shapes share their runs out (tests/functions.cmake,
+// How tests that run on several machine shapes divide their runs among them (tests/functions.cmake,
 // IN_PARTS).
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace carrom::test {
 
-/// The shape that these tests run on, among all that they are run on.
+/// The number of this machine shape among all shapes on which these tests run.
 struct ShapePart {
     std::size_t number = 0, count = 1;
 };
 
-/// From $CARROM_TEST_PART, "number/count"; none where every shape is to make all runs.
+/// Read from $CARROM_TEST_PART, "number/count"; nothing if every shape makes all runs.
 inline std::optional<ShapePart> shape_part() {
     const char* const text = std::getenv("CARROM_TEST_PART");
     if (text == nullptr) return std::nullopt;
@@ -22,22 +22,22 @@ inline std::optional<ShapePart> shape_part() {
     return ShapePart{number, std::strtoul(slash + 1, nullptr, 10)};
 }
 
-/// Whether the `run`-th run is another shape's: each shape makes one of `n_sharing` that follow
-/// each other, and another one each time, since runs often take turns in one respect, such as the
-/// method.
+/// Whether run number `run` belongs to another shape. Each shape makes one of `n_sharing`
+/// successive runs, and another one each time, because successive runs often alternate in one
+/// respect, such as the method.
 inline bool is_left_to_others(std::size_t run, std::size_t n_sharing) {
     const std::optional<ShapePart> part = shape_part();
     return part && (run + run / n_sharing + part->number) % n_sharing != 0;
 }
 
-/// Whether it is when all shapes share.
+/// The same if all shapes share the runs.
 inline bool is_left_to_others(std::size_t run) {
     const std::optional<ShapePart> part = shape_part();
     return part && is_left_to_others(run, part->count);
 }
 
-/// How many shapes share where `n_threads` run at once: machines of continuous integration have few
-/// cores. What none of them runs is run by the long tests.
+/// The number of shapes that share runs if `n_threads` run at once, because machines of continuous
+/// integration have few cores. The long tests make the remaining runs.
 inline std::size_t n_sharing(int n_threads) { return n_threads <= 2 ? 2 : n_threads <= 4 ? 4 : 8; }
 
 } // namespace carrom::test

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled for the precompiled headers alone: CMake makes them where a source of the target uses
-// them, and the mains do not.
+// Compiled only for the precompiled headers. CMake makes them if a source of the target uses them,
+// which the mains do not.

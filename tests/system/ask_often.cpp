@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program ends with on a file each bit of which is flipped in turn. To start the program
-// for each bit would take a hundred times as long.
-//
+// The exit code of the program for a file in which each bit is flipped in turn. Starting the
+// program for each bit would take a hundred times as long.
 //   ask_often FILE WORD... <places       WORD...: a command line of the program, as "verify FILE"
-//
 // Each line of standard input is a byte and a bit of FILE. The answer is a line with the exit code;
 // a signal is negative.
 //
-// A process answers for a batch of bits, and opens files without the child processes in which the
-// program inspects them. Each bit for which it has no code 2 is asked again in a process of its
-// own, just as the program does it. All of a batch are, if its process does not find the undamaged
-// file whole at the end, because HDF5 may have kept something of a damaged one in memory.
+// One process tests a batch of bits, and opens files without the child processes in which the
+// program inspects them. Each bit for which the code is not 2 is tested again in a process of its
+// own, exactly as in the program. All bits of a batch are tested again if its process cannot read
+// the undamaged file at the end, because HDF5 may have kept something of a damaged one in memory.
 #include <algorithm>
 #include <exception>
 #include <functional>
@@ -35,7 +33,7 @@ using namespace carrom;
 
 namespace {
 
-constexpr unsigned patience_seconds = 100; ///< for one answer
+constexpr unsigned patience_seconds = 100; ///< limit for one answer
 constexpr rlim_t most_memory = rlim_t{4} << 30;
 constexpr int not_asked = 1000, found = static_cast<int>(ExitCode::bad_input);
 constexpr std::size_t batch_size = 256;
@@ -45,7 +43,7 @@ bool is_in_batch = false;
 struct Place {
     std::uint64_t byte = 0;
     unsigned bit = 0;
-    std::byte whole{}; ///< what stands there
+    std::byte whole{}; ///< the undamaged byte
 };
 
 std::vector<Place> read_places(const Descriptor& file) {
@@ -71,7 +69,7 @@ int answer(const Action& action) {
     });
 }
 
-/// Answers in a process of its own; returns that process's status.
+/// Calls `act` in a process of its own; returns that process's status.
 template <class Act> int in_child(const Act& act) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -101,7 +99,8 @@ public:
         for (std::size_t first = 0; first < places_.size();) {
             std::size_t end = std::min(first + batch_size, places_.size());
             if (!ask_batch(first, end)) {
-                // Those before a crash are asked once more; the bit that crashes is asked alone.
+                // The bits before a crash are tested once more; the bit that crashes is tested
+                // alone.
                 const auto begin = codes_.begin() + static_cast<std::ptrdiff_t>(first);
                 end = first +
                       static_cast<std::size_t>(std::find(begin, codes_.end(), not_asked) - begin);
@@ -115,7 +114,7 @@ public:
         }
         return codes_;
     }
-    std::size_t n_alone = 0; ///< bits that were asked in processes of their own
+    std::size_t n_alone = 0; ///< number of bits that were tested in processes of their own
 
 private:
     void ask(std::size_t k) {
@@ -126,7 +125,7 @@ private:
         codes_[k] = code;
     }
 
-    /// Whether a process has answered all, and found the file whole at the end.
+    /// Whether a process has tested the whole batch, and could read the undamaged file at the end.
     bool ask_batch(std::size_t first, std::size_t end) {
         const int status = in_child([&] { answer_batch(first, end); });
         for (std::size_t k = first; k < end; ++k) write_at(file_, places_[k], places_[k].whole);
@@ -160,8 +159,9 @@ private:
 
 } // namespace
 
-// The linker gives calls of `inspect_in_child_first` to the second of these, and the program's own
-// function is the first (`--wrap`). In a unity build it leaves them as they are: that is slow only.
+// The linker redirects calls of `inspect_in_child_first` to the second of these functions; the
+// first one is the program's own (`--wrap`). In a unity build calls are not redirected, which is
+// only slower.
 #define INSPECT "_ZN6carrom22inspect_in_child_firstERKSt8functionIFvvEE"
 void inspect_as_program(const std::function<void()>& inspect) asm("__real_" INSPECT);
 void inspect_for_batch(const std::function<void()>& inspect) asm("__wrap_" INSPECT);
@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
     start_io();
     const Mpi mpi(argc, argv, Mpi::Start::under_launcher);
     const std::string path = argv[1];
-    argv[1] = argv[0]; // the program's own name comes first
+    argv[1] = argv[0]; // the program's own name must come first
     const Action action = parse_command_line(argc - 1, argv + 1);
     try {
         const Descriptor file(path, O_RDWR);

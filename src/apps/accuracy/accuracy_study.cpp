@@ -140,7 +140,7 @@ std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& 
     return samples;
 }
 
-/// `exact` are the discs of the exact run at the early step.
+/// Runs one trial. `exact` are the discs of the exact run at the early step.
 TrialOutcome attempt(const Study& study, const RunSetting& setting, const TrialStart& start,
                      const TrialLength& length, const std::vector<InputDisc>& exact) {
     try {
@@ -164,7 +164,7 @@ void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& dis
     CsvTable table(options.table, costs_header());
     const std::vector<RunSetting> settings = settings_of(options, 2);
     TrialLength length;
-    std::vector<InputDisc> exact; // of the exact run, at the early step
+    std::vector<InputDisc> exact; // discs of the exact run at the early step
     const auto begin = [&](const TrialStart& start) {
         length.steps = at_least_one(options.collisions / start.frequency);
         length.early_step = std::min(at_least_one(1 / start.frequency), length.steps);

@@ -28,7 +28,7 @@ namespace {
 
 enum class Format { xyz, text, csv };
 
-/// Other names for columns in a file that is written as text.
+/// Names of columns when a file is written as text, if they differ from the names in the file.
 constexpr std::array<std::string_view, 6> common_columns = {
     "x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
 
@@ -82,7 +82,7 @@ void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int
     std::string others;
     for (const std::size_t k : other_columns(summary))
         others += fmt::format(":{}:R:1", summary.columns[k]);
-    std::string corner; // as OVITO reads it
+    std::string corner; // the origin, in the form that OVITO reads
     if (summary.origin != std::array<double, 2>{})
         corner = fmt::format("Origin=\"{} {} 0\" ", 0 - summary.origin[0], 0 - summary.origin[1]);
     fmt::format_to(std::back_inserter(out),
@@ -144,7 +144,7 @@ private:
 
     Format format_;
     Bodies bodies_;
-    std::size_t radius_now_; ///< the column of radii that discs exchange
+    std::size_t radius_now_; ///< the column of the radii of discs that exchange radii
     std::vector<std::size_t> places_, others_;
 };
 

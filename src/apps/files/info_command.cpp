@@ -125,7 +125,7 @@ std::string header_text(const CheckpointHeader& header) {
     try {
         const Effects effects = scene_of(header, {}).effects;
         if (effects.are_any()) text += labelled_line("effects", summary_of(effects));
-    } catch (const InputError&) { // the scene is of another version, but everything else can be
+    } catch (const InputError&) { // a scene of another version cannot be read; the rest is
                                   // printed
     }
     std::string overrides;

@@ -33,8 +33,8 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
                    : fmt::format("disc {} has left the box, yet moves", disc.id);
     const DiscState shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
-    // Until the end of a micro-step a disc may be a little beyond its wall, and also by the
-    // rounding of L - r.
+    // Until the end of a micro-step a disc may be a little beyond its wall. The rounding of L - r
+    // may also put it there.
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box().longest();
     const double margin = radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
@@ -69,7 +69,7 @@ Extent room_of(const CheckpointHeader& header, const Effects& effects) {
 void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const CheckpointHeader& header = checkpoint.header;
-    const Effects effects = scene_of(header, {}).effects; // reports a scene that cannot be read
+    const Effects effects = scene_of(header, {}).effects; // throws if the scene cannot be read
     const Extent room = room_of(header, effects);
     const SpeciesTable species(effects.species, header.radius);
     std::string flaw;
@@ -138,7 +138,7 @@ bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summar
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)
         has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
-                    beyond[side] <= reach; // smaller discs leave before the largest ones
+                    beyond[side] <= reach; // small discs leave closer to the side than large ones
     for (std::size_t side = 0; side < beyond.size(); ++side) {
         if (beyond[side] <= summary.amplitudes[side]) continue;
         if (!summary.open_boundaries[side]) return false;

@@ -50,7 +50,7 @@ struct ReplicasOptions {
     std::string folder;
 };
 
-/// The seeds of the scene, by which replicas differ.
+/// The keys of seeds, which differ between replicas.
 std::vector<const Key*> seeds_of(const SceneParameters& scene) {
     std::vector<const Key*> seeds;
     for (const Key& key : keys())

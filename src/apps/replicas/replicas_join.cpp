@@ -94,7 +94,7 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
     return part_of(report, quantity, "value");
 }
 
-/// The errors that replicas report, and the scatter between replicas.
+/// The errors that replicas report, compared with the scatter between replicas.
 struct Claims {
     double claimed = NAN;       ///< root mean square of the errors; NaN if there are none
     double ratio = NAN;         ///< scatter divided by `claimed`
@@ -112,8 +112,9 @@ double most_of_chi_squared(double freedom) {
     return std::pow(1 - spread + deviations * std::sqrt(spread), 3);
 }
 
-/// Errors from some ten independent samples are too small by more than a tenth
-/// (statistics/blocking.hpp). That alone does not justify a warning.
+/// Whether the reported errors are clearly too small. Errors from some ten independent samples are
+/// too small by more than a tenth (statistics/blocking.hpp), so this alone does not justify a
+/// warning.
 bool Claims::are_too_small(std::size_t n_replicas) const {
     constexpr double allowed = 1.15;
     return n_replicas > 1 &&

@@ -13,8 +13,8 @@ namespace carrom {
 /// The options of `carrom run`. They set `run`, which must live as long.
 std::vector<Option> run_options(RunOptions& run);
 
-/// Completes the options when all are read, with `overrides` for those that set a key.
-/// Appends problems of options that do not go together.
+/// Completes the options when all are read. `overrides` are the options that set a key. Appends
+/// problems of options that exclude each other.
 RunOptions completed(RunOptions options, std::vector<Problem>& problems);
 
 } // namespace carrom

@@ -11,7 +11,8 @@ namespace carrom {
 
 namespace {
 
-constexpr double terminal_interval = 0.2; // in seconds; looks continuous, and costs the run nothing
+// Seconds between two prints; looks continuous, and costs the run nothing
+constexpr double terminal_interval = 0.2;
 constexpr double first_log_interval = 5;
 constexpr double longest_log_interval = 1800;
 constexpr double log_factor = 1.5;

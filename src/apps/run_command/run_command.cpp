@@ -118,7 +118,7 @@ private:
     void write_if_due() {
         lines_.end_at(run_.last_step());
         if (!lines_.is_due(run_.step())) return;
-        progress_.finish(); // because both may be written to the same terminal
+        progress_.finish(); // progress and lines may go to the same terminal
         lines_.write(run_.system());
     }
 
@@ -201,8 +201,8 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
-        signals.emplace(ranks.is_root()); // not before standard input has been read, because it
-                                          // may make the run wait
+        signals.emplace(ranks.is_root()); // signals are recorded only now, because reading standard
+                                          // input may wait for a long time
     Loaded loaded = load(options, problems, ranks);
     if (!signals) signals.emplace(ranks.is_root());
     Tuning tuning = options.tuning;

@@ -227,7 +227,7 @@ LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& re
     const double overlaps = overlapping_pairs_per_disc(result) / ideal;
     LostCollisions lost;
     lost.share = std::max(1 - std::exp(-overlaps * (0.8 + 3.2 * scene.packing())),
-                          rejected_share(result)); // the share that is lost in any case
+                          rejected_share(result)); // at least this share is lost
     const double z = result.averages.compressibility.value, kept = 1 - lost.share;
     if (kept > 0 && z > 1) {
         const double exact = 1 + (z - 1) / kept;

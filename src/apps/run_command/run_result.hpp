@@ -26,22 +26,23 @@ struct RunResult {
     Totals start, end;
     std::vector<EndNumber> end_numbers; ///< numbers at the end from the scene's effects
     std::int64_t first_step = 0, last_step = 0;
-    std::optional<StopReason> stop_reason; ///< if the run ended before the scene's last step
+    std::optional<StopReason> stop_reason; ///< why the run ended before the scene's last step
     int ranks = 1;
     int ranks_across = 1;    ///< number of ranks that share a strip, at most
     int threads = 1;         ///< per rank; the largest if ranks differ
     DeviceFacts device;      ///< the GPU; its name is empty if there was none
     double wall_seconds = 0; ///< time of stepping on the slowest rank; files have their own phases
-    Averages averages;       ///< over the run, restarts included
+    Averages averages;       ///< averages over the run, restarts included
     std::vector<WatchedNumber> watched; ///< order and energy, unless they are conserved
     std::vector<MeasuredTable> tables;  ///< the tables that the scene measures
     std::vector<std::string> doubts_of_tables;
     RollbackCounts runs;        ///< rollbacks of the event-driven method
-    PhaseSeconds phase_seconds; ///< for each phase the time of the slowest rank
+    PhaseSeconds phase_seconds; ///< time of the slowest rank in each phase
     /// For each phase the largest time of a rank relative to the mean
     PhaseSeconds phase_imbalance;
-    double imbalance = 1;           ///< the same ratio for `busy_seconds`
-    double size = 1;                ///< all radii at the end relative to the scene's: Engine::size
+    double imbalance = 1; ///< the same ratio for `busy_seconds`
+    /// Factor from the scene's radii to those at the end: Engine::size
+    double size = 1;
     double peak_bytes_per_disc = 0; ///< the sum of the ranks' peaks, per disc
 };
 

@@ -48,9 +48,8 @@ std::string phases_text(const RunResult& result) {
 std::string imbalance_text(const RunResult& result) {
     std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest",
                                    result.imbalance);
-    const double enough = 0.1 *
-                          busy_seconds(result.phase_seconds); // short phases are left out, because
-                                                              // they are uneven by chance
+    const double enough = 0.1 * busy_seconds(result.phase_seconds); // short phases are left out:
+                                                                    // they are uneven by chance
     double most = 0;
     std::string uneven;
     for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {
@@ -75,7 +74,8 @@ std::string estimate_text(const Estimate& estimate) {
     if (std::isnan(estimate.value)) return "undefined";
     if (estimate.is_conserved) return fmt::format("{:.7g} (conserved)", estimate.value);
     const bool has_ends = std::isfinite(estimate.first) && std::isfinite(estimate.last);
-    if (estimate.is_changing && !has_ends) // no collision, or no disc, in the first or last block
+    // the first or the last block has no collision, or no disc
+    if (estimate.is_changing && !has_ends)
         return fmt::format("{:.5g} (still changing)", estimate.value);
     if (estimate.is_changing)
         return fmt::format("{:.5g} (from {:.5g} to {:.5g})", estimate.value, estimate.first,

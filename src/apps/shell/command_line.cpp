@@ -120,7 +120,8 @@ void declare(CLI::App& app, const Subcommand& subcommand) {
     command->set_help_flag(help_words, help_of_help);
     for (const Option& option : subcommand.options) declare(*command, option);
     command->footer(subcommand.footer);
-    command->allow_extras(); // so that all extra words are reported at once
+    // Extra words are accepted here, so that all of them are reported at once
+    command->allow_extras();
 }
 
 /// Problems of words that belong to no option. After an unknown option they may be its values, so

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard error in any state: a long run must not end because its log is full or closed.
+// Standard error that may be full or closed: a long run must not end because of its log.
 #pragma once
 
 #include <string_view>

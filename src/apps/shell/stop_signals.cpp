@@ -15,7 +15,7 @@ namespace carrom {
 namespace {
 
 // Any thread of the process may run the handler, so `volatile` would not be enough.
-std::atomic<int> signal_that_has_come = 0; // only for the answer
+std::atomic<int> signal_that_has_come = 0; // used only for the message
 std::atomic<bool> is_answer_due = false;
 
 /// A signal handler: calls only functions that are allowed there.
@@ -47,14 +47,14 @@ void record_stop_signals() {
     are_noted = true;
     struct sigaction action{};
     action.sa_handler = record_signal;
-    action.sa_flags = SA_RESTART; // so that system calls in progress continue
+    action.sa_flags = SA_RESTART; // system calls in progress continue after the signal
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction present{};
     sigaction(SIGINT, nullptr, &present);
     if (present.sa_handler == SIG_IGN) return; // shells ignore it for background processes
-    action.sa_flags |= SA_RESETHAND;           // so that a second request ends the process at once
+    action.sa_flags |= SA_RESETHAND;           // a second request ends the process at once
     sigaction(SIGINT, &action, nullptr);
 }
 

@@ -18,7 +18,7 @@ namespace carrom {
 /// The action that a command line requests.
 struct Action {
     std::function<ExitCode(const Communicator&)> act; ///< every rank calls it. **Collective.**
-    /// Also starts MPI without a launcher; otherwise a single process does not
+    /// Whether a single process without a launcher starts MPI
     bool needs_mpi = false;
     bool stops_on_request = false; ///< signals are recorded from the start of the process on
 };

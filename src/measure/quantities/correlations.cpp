@@ -27,10 +27,11 @@ namespace {
 
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
-constexpr std::size_t most_species = 8; ///< with tables of their own
-/// In radii. Over shorter waves discs only fly freely.
+constexpr std::size_t most_species = 8; ///< species with tables of their own
+/// Largest number of waves in a radius. Over shorter waves discs only fly freely.
 constexpr double shortest_waves = 1000;
-constexpr std::uint64_t ids_of_run = Pieces::least_rows; ///< because each rank has whole runs
+/// The number of ids in a run; each run is on one rank
+constexpr std::uint64_t ids_of_run = Pieces::least_rows;
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
 
@@ -43,7 +44,7 @@ void check_lengths(const SceneDraft& draft) {
                  least = 2 * std::numbers::pi / scene.box.longest(),
                  most = 2 * std::numbers::pi * shortest_waves / scene.radius,
                  distance = overlap_distance.of(*scene.measurements);
-    if (k > 0 && k < least) // 0 has been reported already
+    if (k > 0 && k < least) // a value of 0 has been reported already
         draft.refuse({wave, quantities_key},
                      fmt::format("'{}' = {:g} is a wave that is longer than the box; take {:g} or "
                                  "more",
@@ -69,14 +70,14 @@ void check_correlations(const SceneDraft& draft) {
     if (!draft.settings.has(overlap))
         scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
     check_lengths(draft);
-    if (!scene.measurements->measures("transport")) // which checks the same itself
+    if (!scene.measurements->measures("transport")) // that quantity makes the same check
         check_correlation_points(draft);
 }
 
 /// cos(2 pi t) to 1e-15, without a function call, so that loops over discs are vectorised. With
 /// std::cos half of the time of a sample would be spent there.
 inline double cosine_of_turns(double turns) {
-    constexpr double rounds = 0x1.8p52; // adding it rounds to a whole number
+    constexpr double rounds = 0x1.8p52; // adding this number rounds to a whole number
     const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
     double series = 0; // sin z / z, for z up to pi / 4
     for (const double factorial :
@@ -177,7 +178,7 @@ public:
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
             for (FollowedStates& states : level) keep_states(kept, states);
-        if (kept.is_restored() && kept.is_at_end()) return; // stored by an earlier version
+        if (kept.is_restored() && kept.is_at_end()) return; // a checkpoint of an earlier version
         waiting_.keep(kept);
     }
 
@@ -214,7 +215,7 @@ public:
 private:
     using Level = std::vector<FollowedStates>;
     static constexpr std::uint64_t lags_per_run = 32;
-    static constexpr double most_deviations = 4; ///< one of some 300 runs exceeds it by chance
+    static constexpr double most_deviations = 4; ///< exceeded by chance in one of some 300 runs
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {
@@ -225,7 +226,7 @@ private:
             add(fmt::format("correlations_waiting_{}", kind + 1), kind);
     }
 
-    /// For each species and for all discs: the moments, and the squared overlap.
+    /// The number of values: moments and squared overlap, for each species and for all discs.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
 
     void keep_states(KeptNumbers& kept, FollowedStates& states) {
@@ -264,7 +265,7 @@ private:
 
     /// Adds the sums of all ranks, and adds a sample to each lag. **Collective.**
     void record_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
-        // Each sum is on one rank, and the others have zeros
+        // The rank of a sum has its value, and the others have zeros
         std::vector<std::uint64_t> words(sums.size());
         for (std::size_t k = 0; k < sums.size(); ++k)
             words[k] = std::bit_cast<std::uint64_t>(sums[k]);
@@ -345,7 +346,7 @@ private:
     std::uint64_t n_samples_ = 0;
     std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
     std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
-    WaitingTimes waiting_;           ///< the same, by the time before the origin
+    WaitingTimes waiting_;           ///< means by waiting time, the same on all ranks
 };
 
 bool needs_another_box(const SceneParameters& s) {

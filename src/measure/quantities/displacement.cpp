@@ -41,7 +41,7 @@ public:
 
 private:
     Flights flights_;
-    std::vector<double> squares_; ///< for each sample along x, then along y
+    std::vector<double> squares_; ///< mean squares of each sample along x, then along y
 };
 
 } // namespace

@@ -26,7 +26,7 @@ namespace {
 
 constexpr QuantitySetting profile_columns{"profile_columns", 10}, profile_rows{"profile_rows", 10},
     profile_samples{"profile_samples", 10}, profile_species{"profile_species", 0};
-constexpr double most_rows = 1e6; ///< a table has no more
+constexpr double most_rows = 1e6; ///< a table has at most this many rows
 
 std::size_t n_cells_of(const MeasurementOutput& output) {
     return static_cast<std::size_t>(profile_columns.of(output) * profile_rows.of(output));
@@ -76,7 +76,7 @@ void warn_without_blocks(const SceneDraft& draft) {
                     needed, output.from_step, steps, remedy_for_short_run(output, steps)));
 }
 
-/// A block's last sample, the range of steps of its collisions, and the mean edges of the box.
+/// A block's last sample, the steps of its collisions, and the mean edges of the box.
 struct BlockHead {
     double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
@@ -308,15 +308,15 @@ private:
 
     std::size_t n_x_, n_y_;
     std::uint64_t per_block_;
-    std::size_t n_kinds_; ///< 1 unless species have separate tables
+    std::size_t n_kinds_; ///< number of kinds of discs: 1 unless species have separate tables
     SpeciesTable species_;
     std::vector<DiscId> ends_; ///< the id after the last one of each species
     bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
-    std::uint64_t n_samples_ = 0; ///< this member and the next ones belong to the unfinished block
-    BlockHead head_;              ///< its edges are sums over samples
+    std::uint64_t n_samples_ = 0; ///< the next members belong to the unfinished block
+    BlockHead head_;              ///< head of the unfinished block; its edges are sums over samples
     FieldSums sample_;            ///< the discs of the present sample, one kind after another
-    FieldSums sums_;              ///< this rank's sums, in the same order
+    FieldSums sums_;              ///< sums of this rank over the block, one kind after another
     std::vector<double> means_;   ///< sample moments of each field
     std::vector<double> heads_;   ///< heads of finished blocks
     std::vector<double> blocks_;  ///< count and moments of each of their fields

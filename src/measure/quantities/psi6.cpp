@@ -157,9 +157,9 @@ private:
     /// For each sample: sums of real part, imaginary part and modulus, discs with 5, 6, 7
     /// neighbours, discs
     std::vector<double> psi6_;
-    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< as in HexaticSums
-    std::vector<double> products_;                           ///< as in HexaticSums
-    VectorBlocks blocks_;                                    ///< of g6, for its errors
+    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< counts as in HexaticSums
+    std::vector<double> products_;                           ///< sums as in HexaticSums
+    VectorBlocks blocks_;                                    ///< samples of g6, for its errors
 };
 
 } // namespace

@@ -100,7 +100,7 @@ private:
     /// Whether temperatures and energies are means over time
     const bool are_means_ = does_energy_jump(run_.scene.effects);
     Energies before_;          ///< values at the present step before effects act
-    std::vector<double> rows_; ///< for each sample energy, kT, discs, collisions of pairs
+    std::vector<double> rows_; ///< energy, kT, discs and collisions of pairs at each sample
     std::optional<PressureSampler> sampler_;
 };
 

@@ -100,7 +100,8 @@ public:
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
-        change[trace] -= usual_trace_; // because otherwise the mean would dominate the fluctuations
+        // The mean trace is subtracted, because it would dominate the fluctuations
+        change[trace] -= usual_trace_;
         temperature_ += pressure_->pressures()[3];
         pressure_->forget_pressures();
         for (std::size_t k = 0; k < n_components; ++k) change[k] += moments_[k];
@@ -188,7 +189,7 @@ private:
     std::optional<PressureSampler> pressure_;
     double speed_ = 0;              ///< typical speed, from which units follow
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
-    std::array<ExactSum, 2> heat_;  ///< this rank's current since the last sample
+    std::array<ExactSum, 2> heat_;  ///< heat current of this rank since the last sample
     std::int64_t last_step_ = 0;    ///< step of the last sample
     std::uint64_t n_samples_ = 0;   ///< including the first one
     double temperature_ = 0;        ///< sum over the intervals

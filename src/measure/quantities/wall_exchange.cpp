@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "wall_exchange": the energy, and the momentum along the side, that each side of the box gives to
-// the discs, collision by collision. Between walls of two temperatures that is the flow of heat,
-// and between walls that slide it is the shear stress.
+// the discs, collision by collision. Between walls of two temperatures the energy is the flow of
+// heat. Between walls that slide the momentum is the shear stress.
 #include <array>
 #include <string>
 

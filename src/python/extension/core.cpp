@@ -10,7 +10,7 @@ namespace {
 
 /// Python's function (lines, exit code) that makes the exception for an error of the library.
 nb::object& error_maker() {
-    static auto* maker = new nb::object; // never destroyed, because Python ends first
+    static auto* maker = new nb::object; // never destroyed, because Python ends before this would
     return *maker;
 }
 
@@ -36,7 +36,7 @@ template <class Call> auto without_lock(const Call& call) {
     return call();
 }
 
-/// The docstring of an array property.
+/// The docstring of a property that is an array over the own discs.
 std::string of_own_discs(const char* what) {
     return std::string(what) + "; 0 at ids of other ranks' discs.";
 }

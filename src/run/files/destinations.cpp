@@ -88,7 +88,8 @@ std::vector<Problem> problems_with(const std::vector<Destination>& destinations,
             continue;
         }
         const std::size_t n_before = problems.size();
-        for (const NamedFile& source : sources) // because a restart names its own folder
+        // An output may not be a source; but a restart names its own folder
+        for (const NamedFile& source : sources)
             if (target.kind != Output::folder && is_same_file(target.path, source.path))
                 refuse(fmt::format("is {} itself", source.name));
         for (std::size_t other = 0; other < k; ++other)

@@ -107,7 +107,7 @@ int append_whole(const std::string& path, const std::string& text, bool is_new) 
     struct stat status{};
     int error = ::fstat(file, &status) != 0 ? errno : S_ISREG(status.st_mode) ? 0 : ESPIPE;
     if (error == 0) error = write_all(file, text);
-    if (error != 0 && S_ISREG(status.st_mode)) // so that no incomplete line remains
+    if (error != 0 && S_ISREG(status.st_mode)) // cut back, so that no incomplete line remains
         static_cast<void>(::ftruncate(file, status.st_size));
     if (::close(file) != 0 && error == 0) error = errno;
     return error;

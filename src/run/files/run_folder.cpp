@@ -107,7 +107,8 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
     std::erase_if(overrides,
-                  [](const std::string& one) { return is_of_frozen(one); }); // found anew
+                  // frozen discs are found again from the scene
+                  [](const std::string& one) { return is_of_frozen(one); });
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
     if (!scene.discs_from.empty())
@@ -230,11 +231,11 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
         std::string skipped;
         for (std::size_t k = 0; k < overrides.size(); ++k) std::getline(file, skipped);
         SceneText text = read_scene_text(file, path);
-        text.discs_follow = scene.discs_follow; // because the copy does not contain the discs
+        text.discs_follow = scene.discs_follow; // the copy does not contain the discs
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
         SceneParameters there = read_scene(text, overrides), here = scene;
-        there.discs_file = here.discs_file; // it is relative to another folder
+        there.discs_file = here.discs_file; // the path in the copy is relative to another folder
         for (SceneParameters* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
         if (there.awaits_frozen() && !here.frozen.empty())

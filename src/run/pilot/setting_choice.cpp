@@ -14,14 +14,14 @@ namespace carrom {
 
 namespace {
 
-constexpr double approach = 10;         ///< collisions of a disc before a trial measures
-constexpr double certainty = 2;         ///< standard errors that are added to a measured error
-constexpr double most_collisions = 4e6; ///< of pairs, in a trial
+constexpr double approach = 10; ///< collisions of a disc before the measurement of a trial begins
+constexpr double certainty = 2; ///< standard errors that are added to a measured error
+constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
 constexpr double least_accuracy = 4 * certainty /
                                   2000; ///< four times the error that 4e6 collisions resolve
 /// Collisions of a disc in a trial, at least, because errors in dense gases show late
 constexpr double per_disc = 100;
-constexpr double fewest_collisions = 2e4; ///< of pairs; shorter trials cannot be timed ...
+constexpr double fewest_collisions = 2e4; ///< pair collisions; shorter trials cannot be timed ...
 constexpr double long_enough =
     2e4; ///< ... unless the trial has at least this many disc-steps or steps
 constexpr double long_enough_steps = 1e3;
@@ -93,8 +93,9 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
 struct Experience {
     TrialError error;                          ///< error in its last stretch
     double seconds = 0, reference_seconds = 0; ///< time so far, and that of the event-driven method
-    bool is_whole = false; ///< false if the error was too large before the trial's end
-    bool grows = false;    ///< overlaps keep growing, and errors with them
+    /// Whether the trial was made to its end; false if its error was too large before
+    bool is_whole = false;
+    bool grows = false; ///< overlaps keep growing, and errors with them
 };
 
 /// Whether overlaps increase by more than chance explains.
@@ -112,7 +113,7 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting,
     Trial before;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const Trial trial = run_stretch(pilot, setting, k, at);
-        found.seconds += trial.wall_seconds; // all ranks have the same times
+        found.seconds += trial.wall_seconds; // all ranks have the same times of a trial
         found.reference_seconds += exact[k].wall_seconds;
         found.error = error_of(trial, exact[k]);
         found.grows = k > 0 && are_growing(before, trial);

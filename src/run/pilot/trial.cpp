@@ -61,7 +61,7 @@ TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputD
     double done = 0, before = 0;
     std::int64_t from = 0;
     for (std::int64_t step = 1; done < wanted;
-         step *= 2) { // the last half or more of the steps gives the frequency
+         step *= 2) { // the last stretch is at least half of all steps
         if (step > longest_approach)
             throw InputError(
                 {{scene.name, 0,

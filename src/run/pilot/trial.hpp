@@ -47,12 +47,13 @@ TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputD
 struct Trial {
     std::int64_t steps = 0;
     Averages averages;
-    Totals totals;                         ///< at the trial's end
+    Totals totals;                         ///< totals at the trial's end
     double overlapping_pairs_per_disc = 0; ///< overlaps of a disc at once, averaged over samples
     double deepest_overlap = 0;            ///< deepest overlap of all samples, in diameters
     double core_seconds = 0;               ///< time of stepping, summed over all ranks and threads
     double wall_seconds = 0;               ///< time of stepping, on the slowest rank
-    std::vector<InputDisc> early; ///< this rank's discs at `early_step`, by id; empty if it is 0
+    /// Discs of this rank at `early_step`, by id; empty if `early_step` is 0
+    std::vector<InputDisc> early;
 };
 
 /// This rank's discs as they are now, by id, in the scene's units.

@@ -66,7 +66,7 @@ void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
         // The last ranks of a killed run may have stored more before they ended.
         if (has_other_checkpoints(plan.restart, ranks)) {
             options.messages.note("another checkpoint has come meanwhile\n");
-            loaded.start.stored.reset(); // because its memory is needed
+            loaded.start.stored.reset(); // because the memory of the stored state is needed
             go_on(plan, loaded, ranks);
         }
         if (plan.restart.goes_on() && !loaded.start.stored)

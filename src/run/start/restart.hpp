@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Restarts from a checkpoint. A plan contains where checkpoints are searched, and which files are
-// there; it is made from options and names of files only. Another function reads the newest of
-// these files that is undamaged and belongs to the scene's run.
+// Restarts from a checkpoint. A plan says where to search for checkpoints, and which files exist.
+// It is made only from options and the names of files. Another function reads the newest of these
+// files that is undamaged and belongs to the scene's run.
 #pragma once
 
 #include <optional>

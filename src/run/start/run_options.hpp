@@ -34,7 +34,7 @@ struct RunOptions {
     std::optional<int> threads;
     std::optional<std::int64_t> steps; ///< set on the command line; also among the overrides
     std::optional<double> accuracy;    ///< set on the command line; also among the overrides
-    Tuning tuning; ///< without the number of threads, which depends on the machine
+    Tuning tuning; ///< all settings but the number of threads, which depends on the machine
     Messages messages;
 };
 

@@ -106,7 +106,8 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     ranks.broadcast(file.columns);
     ranks.broadcast(file.departed);
     ranks.broadcast(file.radius);
-    if (!ranks.is_root() && file.n_discs > 0) // rank 0 reads all lines, and so finds an error here
+    // rank 0 finds such an error, because it reads all lines
+    if (!ranks.is_root() && file.n_discs > 0)
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
             stream = read_discs_from(path, scene.discs_from_step, wanted, scene.origin,
@@ -115,7 +116,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
         });
     FromFile from;
     std::vector<std::string>& settings = from.settings;
-    if (file.n_discs > 0 && scene.n_discs == 0) // otherwise the scene has a number of its own
+    if (file.n_discs > 0 && scene.n_discs == 0) // a scene with its own discs.count keeps it
         settings.push_back(fmt::format("discs.count={}", file.n_discs));
     if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
     if (!file.departed.empty()) from.warning = note_on_departed(path, file);
@@ -130,8 +131,9 @@ std::vector<std::string> lines_of(const std::string& text) {
     return all;
 }
 
-/// The columns and the number of discs of the file of discs as settings, the same on every rank. A
-/// file that cannot be opened is a problem here only if nothing else would need it. **Collective.**
+/// Returns settings for the columns and the number of discs of the file of discs, the same on every
+/// rank. If the file cannot be opened, another function reports it. Only if its number of discs is
+/// needed, this one reports it. **Collective.**
 std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems& of_root,
                                           const Communicator& ranks) {
     std::string all;
@@ -221,7 +223,7 @@ bool are_columns_wrong(const SceneSource& source) {
 Problems disc_line_problems_of(const SceneParameters& scene, std::istream* stream) {
     Problems problems;
     const bool is_known = takes_discs_of_file(scene) && scene.n_discs == 0;
-    if (is_known) return problems; // because the number of lines was not found either
+    if (is_known) return problems; // the number of lines was not found either
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;
                if (takes_discs_of_file(scene)) {

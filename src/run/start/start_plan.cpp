@@ -65,7 +65,7 @@ void check_destinations(const RunOptions& options, PlaceProblems& found) {
 /// Loads the scene and opens its input. **Collective.**
 SceneParameters load_scene(const RunOptions& options, const Problems& problems_so_far,
                            const Communicator& ranks, SceneSource& source) {
-    PlaceProblems found; // of all ranks together, listed by one rank
+    PlaceProblems found; // problems of all ranks together, listed by one rank
     Problems& problems = found.problems;
     bool is_readable = true;
     if (ranks.is_root()) {

@@ -22,7 +22,7 @@ std::string_view word_of(BoundaryKind kind) {
     return boundary_words[static_cast<std::size_t>(kind)];
 }
 
-/// Keys refer to their texts, so this text must stay.
+/// Static, because keys refer to this text.
 const std::string& help_of_kinds() {
     static const std::string text = [] {
         std::string all;

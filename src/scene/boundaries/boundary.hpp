@@ -29,7 +29,7 @@ struct BoundaryDeclaration {
     bool is_at_rest = true;                         ///< its line never moves
     bool lets_discs_rest = false;                   ///< see EffectDeclaration
     bool takes_growing_discs = false;               ///< growing discs may touch it
-    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration
+    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< as EffectDeclaration::runs_on_gpu
     /// Keys of one side, such as box.left.speed.
     std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
     /// Tables and keys that all sides of this kind have in common.

@@ -12,8 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// In times between syncs, because phases at syncs are rounded to 2^-53 of the time since the
-/// start.
+/// In units of the time between syncs. Phases at syncs are rounded to 2^-53 of the time since the
+/// start, so shorter periods would be inaccurate.
 constexpr double smallest_period = 1e-6;
 
 bool has_oscillating(const SceneParameters& s) {

@@ -32,7 +32,7 @@ std::vector<Rule> rules_of_periodic_sides() {
     };
 }
 
-/// The check is also for sheared sides.
+/// Also checks sheared sides.
 void check_periodic_box(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);
@@ -46,7 +46,8 @@ void check_periodic_box(const SceneDraft& draft) {
                              period, least));
 }
 
-/// The engines search as far as discs are apart. Each period on that way is an image of the disc.
+/// Limits the number of images. The engines search partners up to the mean distance of discs, and
+/// each period within that distance is an image of the disc itself.
 void check_images(const SceneDraft& draft) {
     constexpr double most = 0x1p20;
     const SceneParameters& scene = draft.scene;

@@ -3,14 +3,15 @@
 //
 // With the friction of a thermostat of kind "langevin" the velocity follows
 //   dv = -rate (v - u e(phi)) dt + noise,   u = force / (mass rate),   e = (cos, sin),
-// and the direction does two things, each at its own rate (M. E. Cates and J. Tailleur, EPL 101,
-// 20010 (2013)):
+// and the direction changes in two ways, each at its own rate (M. E. Cates and J. Tailleur, EPL
+// 101, 20010 (2013)):
 //   rotation   dphi = sqrt(2 D) dW: active Brownian discs
 //   tumbles    at random times phi becomes any angle: run and tumble
 // At a sync, a time t after the last one, first the direction changes by the exact law of that
-// time. Then v += (1 - exp(-rate t)) u e, which with what the thermostat does is the exact solution
-// for a force that stays. So the only error is that directions stay between syncs. A free disc
-// diffuses too fast by the share (D t)^2 / 12 of its active part, and (rate t)^2 / 12 of the other.
+// time. Then v += (1 - exp(-rate t)) u e. Together with the thermostat this is the exact solution
+// for a constant force. So the only error is that directions are constant between syncs. A free
+// disc diffuses too fast by the share (D t)^2 / 12 of its active part, and (rate t)^2 / 12 of the
+// other part.
 //
 // Directions turn neither in collisions nor with the spins of rough discs.
 #include <cmath>
@@ -61,14 +62,14 @@ public:
     }
 
 private:
-    /// A random angle for the direction after the time between syncs, if it is `angle` before.
+    /// A random direction at the next sync, for a disc whose direction is `angle` now.
     double later(double angle, DiscRandom random) const {
         if (kept_ < 1 && random.uniform() >= kept_) return random_angle(random);
         return wrapped_angle(spread_ > 0 ? angle + spread_ * random_normals(random).x : angle);
     }
 
     std::uint64_t seed_;
-    double speed_, momentum_; ///< gained at a sync; one of the two is 0
+    double speed_, momentum_; ///< gain at a sync; one of the two is 0
     double spread_;           ///< root mean square of the turns between syncs
     double kept_;             ///< probability that a disc does not tumble between syncs
 };

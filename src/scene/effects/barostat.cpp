@@ -3,26 +3,25 @@
 // Wood, J. Chem. Phys. 48, 415 (1968)).
 //
 // The box keeps its sides, and all radii are multiplied by one factor s. In units of the discs this
-// is a box that becomes smaller or larger and takes the places of discs along. Places in units of
+// is a box that becomes smaller or larger together with the positions in it. Positions in units of
 // the box and the volume V = A / (s^2 <d^2>), with the mean <d^2> of the squared diameters, have
 // the weight
+//     V^N exp(-p V),   p = P <d^2> / kT,   if no two discs overlap.
+// The structure of hard discs does not depend on temperature. So velocities stay as they are, in
+// the unit of the box, and any kT gives the same result.
 //
-//     V^N exp(-p V),   p = P <d^2> / kT,   where no two discs overlap.
-//
-// Velocities have no part in it: hard discs have one structure at every temperature. So they stay
-// as they are, in the unit of the box, and each kT is as good as any other.
-//
-// At a sync the closest pair says how far discs may swell. It is a minimum over all pairs, so all
+// At a sync the closest pair limits how far radii can grow. It is a minimum over all pairs, so all
 // ranks have the same one. With the discs at rest the weight is a function of V alone, and
-// `n_moves` moves of it cost nothing. Each draws a new volume evenly from a range about the
-// present one, and takes it with the probability min(1, exp(-p (V' - V)) (V' / V)^N) (Metropolis).
-// A sync keeps V in a cell of a fixed partition, in which lengths differ by 10 %, so that only
-// pairs up to this distance must be known. Partitions of syncs with even and odd counts are half
-// a cell apart. So each sync keeps the weight exactly, and no cell confines V.
+// `n_moves` moves of it cost nothing. Each move draws a new volume evenly from a range about the
+// present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' / V)^N)
+// (Metropolis). A sync keeps V in a cell of a fixed partition, in which lengths differ by 10 %, so
+// that only pairs up to this distance must be known. Partitions of syncs with even and odd counts
+// are half a cell apart. So each sync conserves the distribution exactly, and V can reach any
+// value.
 //
-// Bits: + - * / and sqrt alone. The logarithm of V' / V is its series, and a move is taken if an
-// exponential number exceeds what it costs. Price: one exchange of the halo and a pass over pairs
-// that are near each other, every `time.sync_every` micro-steps.
+// Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
+// number with an exponential distribution decides about a move. Price: one exchange of the halo and
+// a pass over pairs that are near each other, every `time.sync_every` micro-steps.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -31,7 +31,7 @@ const Need rows_of_lossy_discs{
         return are_pairs_lossy(s.effects) && !s.effects.contact.rows.empty();
     }};
 constexpr Range shares{0, 1};
-constexpr std::size_t most_rows = 100; ///< the table has the square of it
+constexpr std::size_t most_rows = 100; ///< a table has the square of this number
 
 /// Numbers of a row of `effects.contact.pairs`.
 namespace pair_row {
@@ -152,7 +152,7 @@ void check_pairs(const SceneDraft& draft) {
     const Setting* species = draft.settings.find("discs.species");
     if (!species || !draft.settings.has("effects.contact.pairs")) return;
     const auto* rows = std::get_if<Values>(&species->value.data);
-    if (!rows) return; // a problem already
+    if (!rows) return; // reported already
     if (rows->size() > most_rows)
         return draft.refuse({"effects.contact.pairs"},
                             fmt::format("'effects.contact.pairs' takes {} rows of 'discs.species' "
@@ -168,8 +168,8 @@ void check_pairs(const SceneDraft& draft) {
     });
 }
 
-/// A disc does not remember its last collision over a sync, so a contact time must be short
-/// compared with the time between syncs.
+/// A disc's last collision is forgotten at a sync, so a contact time must be short compared with
+/// the time between syncs.
 void check_contact_time(const SceneDraft& draft) {
     limit_contact_time(draft, steps_between_syncs(draft.scene) / 4,
                        "a quarter of the time between syncs ('time.sync_every')");

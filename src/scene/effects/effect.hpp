@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The declaration of an effect, in one place.
 //
-// Each file of this folder declares one effect: its tables, keys (whether a key is a seed is in its
-// own declaration), rules, checks, line in the summary, allowance in the self-check, energy beside
-// that of motion, and what it does at syncs. The reader of scenes, the pages, reports, restarts,
-// replicas, the self-check and the engines loop over `all_effects`, and name no effect. Besides the
-// discs' states and columns, a checkpoint contains the values that an effect at syncs keeps.
+// Each file of this folder declares one effect: its tables, keys (with the flag that a key is a
+// seed), rules, checks, line in the summary, allowance in the self-check, energy besides the
+// kinetic one, and action at syncs. The reader of scenes, the pages, reports, restarts, replicas,
+// the self-check and the engines loop over `all_effects`, and contain the name of no effect.
+// Besides the discs' states and columns, a checkpoint contains the values that an effect at syncs
+// keeps.
 //
 // The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
 // above the dynamics, where the templates of the hot paths are, and below the engines. So an effect
-// that acts at syncs has its physics in its own file here; one that acts in collisions or in flight
+// that acts at syncs has its physics in its own file here. One that acts in collisions or in flight
 // has its physics in src/dynamics and its declaration here.
 //
 // To add an effect, write a file in this folder, and add its name to the list in
@@ -35,7 +36,7 @@ namespace carrom {
 /// Changes that the self-check must not report, because an effect causes them.
 struct CheckAllowance {
     bool collisions_take_energy = false;
-    bool walls_give_energy = false; ///< by an amount that is only known during the run
+    bool walls_give_energy = false; ///< the amount is only known during the run
     bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums up the energy
     /// Velocities also change immediately before the flights after a sync
     bool acts_before_flights = false;
@@ -54,11 +55,12 @@ struct ShownDisc {
 /// An energy of discs other than their kinetic energy. Totals, reports and the self-check sum it
 /// over all discs in the box.
 struct OtherEnergy {
-    const char* name;       ///< its name in the report
+    const char* name;       ///< the energy's name in the report
     const char* words;      ///< text behind its value in the summary
     double Totals::* value; ///< effects with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
-    /// For an energy of position: its largest value for a mass of 1, by which rounding is judged.
+    /// For an energy of position: its largest value for a mass of 1, which sets the scale of
+    /// rounding.
     double (*largest)(const Effects&, const Box&) = nullptr;
     /// It turns into kinetic energy only at syncs, where the engine sums up the energy that discs
     /// gain. So the self-check leaves it out.
@@ -73,7 +75,7 @@ struct Way {
 
 /// A number in the report and the summary about the state at the end of a run.
 struct EndNumber {
-    const char* name;  ///< its name in the report
+    const char* name;  ///< the number's name in the report
     const char* label; ///< label of its line in the summary
     const char* words; ///< text behind its value in the summary
     std::uint64_t value;
@@ -112,9 +114,8 @@ struct EffectDeclaration {
     CheckAllowance (*allowance)(const Effects&) = nullptr;
     /// Its energy; nothing in a scene whose discs do not have it.
     std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
-    // For the self-check, per micro-step: what the effect gives to discs that is no change of such
-    // an energy.
-    /// The share of the energy of motion that is left after a time.
+    // For the self-check, per micro-step: the share of the kinetic energy that is left after a
+    // time.
     double (*energy_left)(const Effects&, double time) = nullptr;
     /// The energy that a disc gains along its path.
     double (*work)(const Effects&, const Way&) = nullptr;
@@ -167,8 +168,8 @@ bool does_energy_jump(const Effects& effects);
 /// Warns if the kinetic energy changes much between syncs, or if samples do not give its mean over
 /// time.
 void check_energy_jumps(const SceneDraft& draft);
-/// How the common velocity of all discs along `axis` is treated. Only this decides it for
-/// temperature, pressure and displacements.
+/// How the common velocity of all discs along `axis` is treated in temperature, pressure and
+/// displacements. No other function decides this.
 Drift drift_along(Axis axis, const Effects& effects);
 /// Why kT, P and Z are undefined for this number of discs; empty if they are defined. A single disc
 /// that nothing stops along an axis has no velocity there except the common one.

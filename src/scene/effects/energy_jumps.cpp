@@ -59,8 +59,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
             often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
 }
 
-/// Samples at syncs are taken before and after effects act, in turns. Samples that are always at
-/// the same time between two syncs do not give the mean over time.
+/// Samples at syncs alternate between before and after effects act. Samples that are always at the
+/// same time between two syncs do not give the mean over time.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

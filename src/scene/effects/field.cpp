@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A field that stands still (dynamics/external_field.hpp), by kicks at syncs: half a kick, a flight
-// from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). A kick is v -= (t
-// / 2) grad V / m at the position at the sync; t is the time between syncs.
+// A field that is constant in time (dynamics/external_field.hpp), by kicks at syncs: half a kick, a
+// flight from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). A kick is
+// v -= (t / 2) grad V / m at the position at the sync; t is the time between syncs.
 //
 // The map is symplectic and reversible, so free discs conserve an energy that differs from m v^2 /
 // 2 + V by a share of at most (w t)^2 / 4, with w^2 = V'' / m, and energy does not drift. In a trap
 // the disc stays exactly on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...). Outputs at a
-// sync show the state between the two halves. At other times they show the flight, whose velocity
-// is that half way between two syncs.
+// sync contain the state between the two halves. At other times they contain the flight, whose
+// velocity is that of the middle between two syncs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -136,7 +136,7 @@ double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box
 /// Whether a disc under the acceleration `g` falls by more than half the box between two syncs.
 bool falls_too_far(const SceneParameters& scene, double g) {
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return false; // reported already
+    if (drag * time > longest_drag) return false; // reported elsewhere
     const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     return std::fabs(g) * fall > 0.5 * scene.box.longest();
 }
@@ -209,7 +209,7 @@ std::string summary_of_gravity(const Effects& effects) {
     return text;
 }
 
-/// In this case the forces along surfaces are not known beforehand.
+/// Surfaces that rub have forces along them that are not known beforehand.
 bool do_surfaces_rub(const Effects& effects) {
     return std::ranges::any_of(effects.boundaries,
                                [](const Boundary& side) { return side.surface.rubs(); });

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Inlets: discs that come in through open sides, as from a gas outside.
 //
-// Outside there is an ideal gas of kT and of the density n. Discs come in where others depart, with
-// the centre a radius outside the side. There n sqrt(kT / (2 pi m)) of them come to a unit of
-// length in a time, independent of each other, so their number is Poisson's. They come with the
-// inward velocity of the density v exp(-m v^2 / 2 kT), and with Maxwell's along the side, like
-// discs that leave a thermal wall. At the next sync a disc is left out if another one is where it
-// came. It is placed where it has flown to by then, or where it came if something is on its way.
-// Coming in is the reverse of departing, so a gas in equilibrium has the activity n.
+// The gas outside is ideal, with temperature kT and density n. Discs come in at the line where
+// others depart, with the centre a radius outside the side. In a time t and on a length l the mean
+// number of arrivals is n sqrt(kT / (2 pi m)) t l. They are independent, so their number has a
+// Poisson distribution. Their inward velocity has the density v exp(-m v^2 / 2 kT), and their
+// velocity along the side is Maxwell's, as for discs that leave a thermal wall. At the next sync a
+// disc is left out if another one blocks its place of entry. Otherwise it is placed where it has
+// flown to by then, or at its place of entry if something is in its way. Arrival is the reverse of
+// departure, so a gas in equilibrium has the activity n.
 //
-// Discs are those that have departed before. Numbers are drawn by the seed, the side and the count
-// of syncs.
+// The discs that come in are those that have departed before. Random numbers depend on the seed,
+// the side and the count of syncs.
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +27,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double most_arrivals = 1e5; ///< at a sync, through one side
+constexpr double most_arrivals = 1e5; ///< largest number of arrivals in one sync at one side
 
 bool has_inlets(const Effects& effects) {
     return std::ranges::any_of(effects.boundaries,
@@ -69,7 +70,7 @@ public:
 private:
     void add_arrivals(std::size_t side, std::int64_t n_syncs, std::vector<Arrival>& all) const {
         const Inlet& inlet = sides_[side].inlet;
-        const std::size_t low = side < 2 ? 2 : 0; // of the sides that end this one
+        const std::size_t low = side < 2 ? 2 : 0; // the sides at both ends of this one
         DiscRandom random(seed_, Purpose::inlet, side, static_cast<std::uint64_t>(n_syncs));
         const auto is_wall = [&](std::size_t other) {
             return sides_[other].kind != BoundaryKind::open;
@@ -89,7 +90,7 @@ private:
             all.push_back(one);
         }
     }
-    /// All discs, or those of one row of `discs.species`.
+    /// Sets the ids that may come in: all, or those of one row of `discs.species`.
     void set_ids(Arrival& one, const Inlet& inlet) const {
         one.end = n_discs_;
         if (inlet.species == 0) return;
@@ -160,8 +161,8 @@ std::vector<Table> tables_of_inlets() {
     return all;
 }
 
-/// Discs come in at syncs, so by default there is one in each step, and all states that a run shows
-/// have the discs that have come by then.
+/// Discs come in at syncs. By default there is one in each step, so that every output contains the
+/// discs that have come in until then.
 void sync_in_each_step_of_inlets(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (has_inlets(scene.effects) && !draft.settings.has("time.sync_every"))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contacts that last from sync to sync (dynamics/contact_impulses.hpp).
 //
-// Every rank gathers all discs, in the order of ids, and finds the same impulses: which takes some
-// 500 bytes for each disc of the run on each rank. The solution begins from the impulses of the
-// sync before, so checkpoints store them, 32 bytes a contact. While a heap is at rest, its states
+// Every rank gathers all discs, in the order of ids, and computes the same impulses. This takes
+// some 500 bytes for each disc of the run on each rank. The solution begins from the impulses of
+// the last sync, so checkpoints store them, 32 bytes a contact. While a heap is at rest, its states
 // and impulses repeat bit by bit, and a sync costs one comparison.
 #include <algorithm>
 #include <bit>
@@ -272,7 +272,7 @@ void warn_of_unlike_masses(const SceneDraft& draft) {
 
 void check_heap(const SceneDraft& draft) {
     if (!has_lasting(draft.scene) || !(smallest_radius_of(draft.scene) > 0)) return;
-    if (!draft.knows_syncs() || pull_of(draft.scene) == 0) return; // a conflict already
+    if (!draft.knows_syncs() || pull_of(draft.scene) == 0) return; // reported as a conflict already
     if (check_hops(draft)) check_speed(draft);
     warn_of_unlike_masses(draft);
     check_samples_of_forces(draft);

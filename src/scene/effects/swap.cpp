@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Swap moves: at a sync, pairs of discs exchange their radii where no overlap follows. Discs keep
-// their ids, positions, velocities and masses, so that energy and momentum stay as they are
-// (A. Ninarello, L. Berthier and D. Coslovich, Phys. Rev. X 7, 021039 (2017); L. Berthier and
-// others, Nature Commun. 10, 1508 (2019)).
+// Swap moves: at a sync, pairs of discs exchange their radii if no overlap follows. Discs keep
+// their ids, positions, velocities and masses, so energy and momentum do not change (A. Ninarello,
+// L. Berthier and D. Coslovich, Phys. Rev. X 7, 021039 (2017); L. Berthier and others, Nature
+// Commun. 10, 1508 (2019)).
 //
 // All radii are numbered in ascending order, and each disc holds one number. In a round
 //   1. pairs of numbers are proposed, by random words that depend on seed, sync and round alone.
@@ -11,12 +11,12 @@
 //   2. A pair is accepted if both discs fit: each is as far from every neighbour, except from each
 //      other, as the room of both together, and from walls and fixed bodies as its room.
 //   3. The discs of accepted pairs exchange their numbers, all at once.
-// No overlap can follow, because no radius exceeds its disc's room. Detailed balance: the rooms are
-// the same before and after, whichever pairs are accepted, because a pair of numbers has the same
-// two discs. So the same proposals accept the same pairs again, and lead back. Each set of
-// proposals is its own inverse, and its probability does not depend on the state: any two states go
-// over into each other equally often, as in the ensemble of hard discs, where all states weigh the
-// same.
+// No overlap can follow, because no radius exceeds its disc's room. Detailed balance holds: the
+// rooms are the same before and after, whichever pairs are accepted, because a pair of numbers has
+// the same two discs. So the same proposals accept the same pairs again, which restores the first
+// state. Each set of proposals is its own inverse, and its probability does not depend on the
+// state. So any two states turn into each other equally often, as in the ensemble of hard discs,
+// where all states have the same weight.
 //
 // Whether a disc fits depends on its neighbours alone. So ranks decide for their own discs and
 // gather those that fit, and the result depends neither on ranks nor on threads. Price: a halo as
@@ -53,7 +53,8 @@ struct Proposals {
     std::uint64_t seed, sync, round;
     SizeNumber n_sizes = 0, distance = 1, shift = 0;
 
-    /// One pair in four is proposed. More would take each other's room.
+    /// One number in four is in a pair. With more pairs, more neighbours would have a large room,
+    /// so that fewer pairs fit.
     static constexpr double share = 0.25;
 
     Proposals(std::uint64_t seed_of_all, std::uint64_t n_syncs, std::uint64_t number, SizeNumber n)
@@ -213,7 +214,8 @@ private:
         });
     }
 
-    /// The lower numbers of own discs that fit, for each of the pair's discs once.
+    /// The lower numbers of the pairs of own discs that fit; a number occurs once for each own
+    /// disc.
     std::vector<SizeNumber> fitting(const Proposals& proposals, const SyncDiscs& at,
                                     const Neighbours& neighbours) const {
         std::vector<SizeNumber> all;
@@ -242,7 +244,7 @@ private:
         if (!all.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
         std::ranges::sort(all);
         for (std::size_t k = 1; k < all.size(); ++k) {
-            if (all[k] != all[k - 1]) continue; // only one of the two fits
+            if (all[k] != all[k - 1]) continue; // a pair fits if both of its discs fit
             const SizeNumber low = all[k], high = low + proposals.distance;
             const DiscId smaller = holders_[low], larger = holders_[high];
             give(smaller, high);
@@ -255,10 +257,10 @@ private:
     std::uint64_t n_discs_;
     double steps_between_;
     BodiesAtRest at_rest_;
-    std::optional<SpeciesTable> table_; ///< the run's own: copies share their memory
-    std::vector<double> radii_;         ///< by number
-    std::vector<DiscId> holders_;       ///< by number
-    std::vector<SizeNumber> numbers_;   ///< by disc
+    std::optional<SpeciesTable> table_; ///< a copy of the run's table, which shares its memory
+    std::vector<double> radii_;         ///< radii, by number of the radius
+    std::vector<DiscId> holders_;       ///< the disc that has each radius, by number of the radius
+    std::vector<SizeNumber> numbers_;   ///< number of the radius, by id of the disc
     std::int64_t n_accepted_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times of effects that change little from sync to sync, and so should act in each step.
+// Times of effects that change little from sync to sync, so by default they act in each step.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// Lets syncs follow each step, unless the scene says otherwise.
+/// Makes a sync follow each step, unless the scene sets the time between syncs.
 inline void sync_in_each_step(const SceneDraft& draft) {
     if (!draft.settings.has("time.sync_every"))
         draft.scene.sync_every = std::min(draft.scene.sync_every, draft.scene.micro_steps);

@@ -77,7 +77,7 @@ public:
 
     void act(const SyncDiscs& at) override {
         const double size = std::sqrt(setting_.strength * interval_);
-        // Larger numbers than 2^10 do not occur: one in exp(2^19) is as large.
+        // Random numbers above 2^10 do not occur: the probability is exp(-2^19).
         const double bound = n_discs_ * heaviest_ * size * 0x1p10;
         std::vector<ExactSum> sums(2, ExactSum(bound));
         sums.emplace_back(2 * n_discs_ * heaviest_);
@@ -327,7 +327,8 @@ std::string summary_of_thermostat(const Effects& effects) {
     return {};
 }
 
-/// Discs at rest that noise heats reach about the speed that they gain in a flight of a radius.
+/// Discs at rest that are heated by noise reach about the speed that they gain in a flight of a
+/// radius.
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));

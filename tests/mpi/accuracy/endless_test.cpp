@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collisions without end under precisions and formulas that do not always tell when discs move.
+// Collision cascades in precisions and formulas in which rounding may keep discs from moving.
 #include "catch.hpp"
 
 #include <string>
@@ -13,7 +13,7 @@ using namespace carrom;
 namespace {
 
 /// A disc that flies to and fro between two walls, 2^20 times in a step. All its numbers are sums
-/// of few powers of two, in single precision too, so that the number of its collisions is known.
+/// of few powers of two, also in single precision, so the number of its collisions is known.
 constexpr double room = 0x1p-20;
 constexpr std::uint64_t n_bounces = 1 << 20;
 
@@ -25,7 +25,7 @@ SceneParameters narrow_room() {
     return scene;
 }
 
-/// What ends the run; empty if nothing does.
+/// The message with which the run ends early; empty if it does not.
 std::string end_of(const RunSetting& setting, const Communicator& world, Totals& totals) {
     const SceneParameters scene = with_setting(narrow_room(), setting);
     try {
@@ -58,7 +58,7 @@ TEST_CASE("collisions at a rounding of time from each other have no end where se
                   std::string::npos);
         }
     }
-    // The time-stepped method has an end always: a collision a step.
+    // The time-stepped method always ends, because a disc collides at most once a micro-step.
     CHECK(end_of({Method::time_stepped, 1, Precision::single, Arithmetic::naive}, world, totals) ==
           "");
     CHECK(totals.wall_collisions == 1);

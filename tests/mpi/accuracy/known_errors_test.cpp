@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the time-stepped method loses at a given number of collisions per disc and micro-step, held
-// to a table. A separate program measured it: 256 discs, hard walls, rates to 1.2 %, most of it
-// common to a column.
+// The collisions that the time-stepped method loses at a given number of collisions per disc and
+// micro-step, compared with a table. The table comes from a separate program: 256 discs, hard
+// walls, rates to 1.2 %, most of which is common to a column.
 #include "catch.hpp"
 
 #include <array>
@@ -19,8 +19,8 @@ namespace {
 constexpr int n_starts = 3;
 constexpr double table_error = 0.012;
 
-/// 256 discs of diameter 1 that collide with others once in four steps; `frequency` is that of kT =
-/// 1 in this box.
+/// 256 discs of diameter 1 that each collide once in four steps; `frequency` is the collision rate
+/// at kT = 1 in this box.
 SceneParameters known_gas(double packing, double frequency, std::uint64_t seed) {
     SceneParameters scene;
     scene.name = "known gas";
@@ -46,14 +46,14 @@ Mean mean_of(const std::vector<double>& terms) {
 }
 
 struct LossOfMethod {
-    Mean rate, overlaps; ///< pair collisions over those of the event-driven method; overlapping
-                         ///< pairs that a disc takes part in
+    Mean rate, overlaps; ///< rate: pair collisions relative to the event-driven method;
+                         ///< overlaps: number of discs that a disc overlaps
 };
 
 LossOfMethod measure(double packing, double frequency, const RunSetting& setting,
                      const Communicator& world) {
     static std::map<std::pair<double, int>, std::pair<TrialStart, double>>
-        exact; ///< by packing and start
+        exact; ///< results of the event-driven method, by packing and start
     std::vector<double> rates, overlaps;
     for (int start = 0; start < n_starts; ++start) {
         const SceneParameters scene = known_gas(packing, frequency,
@@ -75,7 +75,8 @@ LossOfMethod measure(double packing, double frequency, const RunSetting& setting
     return {mean_of(rates), mean_of(overlaps)};
 }
 
-/// Three starts give a poor error: no smaller than counting gives, for either of two runs.
+/// The scatter of three starts is a poor estimate of the error. It is at least the counting error
+/// of both runs.
 double error_of_rate(const Mean& mean) {
     return std::max(mean.error, std::sqrt(2.0 / (n_starts * 256 * 150)));
 }
@@ -85,7 +86,8 @@ struct KnownLoss {
 };
 struct Column {
     double packing, frequency;
-    std::array<KnownLoss, 6> losses; ///< at 1/4, 1/8, ... 1/128 collisions per disc and micro-step
+    /// Losses at 1/4, 1/8, ... 1/128 collisions per disc and micro-step
+    std::array<KnownLoss, 6> losses;
 };
 const std::array<Column, 3> table = {{
     {0.1,
@@ -113,8 +115,8 @@ TEST_CASE(
                     loss.overlaps.value, loss.overlaps.error, known.overlaps);
             CHECK(std::fabs(loss.rate.value - known.rate) <
                   4 * std::hypot(table_error, error_of_rate(loss.rate)));
-            // The table's overlaps come without errors: their noise is taken to be that of counting
-            // 200 of them.
+            // The table has no errors of overlaps, so the counting error of 200 overlaps is
+            // assumed.
             const double noise = known.overlaps * std::hypot(1 / std::sqrt(200.0), table_error);
             CHECK(std::fabs(loss.overlaps.value - known.overlaps) <
                   4 * std::hypot(noise, loss.overlaps.error));
@@ -124,7 +126,7 @@ TEST_CASE(
 
 TEST_CASE("errors fall in first order when discs are few, more slowly when they are dense") {
     const Communicator world = Communicator::world();
-    const auto order = [&](const Column& column) { // between 1/4 and 1/32
+    const auto order = [&](const Column& column) { // exponent of the loss between 1/4 and 1/32
         const Mean coarse =
             measure(column.packing, column.frequency, {Method::time_stepped, 1}, world).rate;
         const Mean fine =
@@ -137,8 +139,8 @@ TEST_CASE("errors fall in first order when discs are few, more slowly when they 
     };
     const Mean dilute = order(table[0]), dense = order(table[2]);
     CAPTURE(dilute.value, dilute.error, dense.value, dense.error);
-    // Of the table: log(0.238 / 0.029) / log(8) = 1.01, with errors of 0.012 in the smaller loss
-    // 0.20; log(0.530 / 0.291) / log(8) = 0.288 +- 0.021.
+    // From the table: log(0.238 / 0.029) / log(8) = 1.01, with an error of 0.012 of the smaller
+    // loss; log(0.530 / 0.291) / log(8) = 0.288 +- 0.021.
     CHECK(std::fabs(dilute.value - 1.01) < 4 * std::hypot(dilute.error, 0.20));
     CHECK(dilute.value > 0.75);
     CHECK(std::fabs(dense.value - 0.288) < 4 * std::hypot(dense.error, 0.021));

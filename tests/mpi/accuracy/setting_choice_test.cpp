@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `time.accuracy` delivers what it is asked for, on scenes that it was not tuned on.
+// `time.accuracy` reaches the required accuracy in scenes for which it was not tuned.
 #include "catch.hpp"
 
 #include <algorithm>

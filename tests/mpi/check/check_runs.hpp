@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs and single steps for tests of the self-check: right ones, and ones with one thing made
-// wrong.
+// Runs and single steps for tests of the self-check: correct ones, and ones with a single error.
 #pragma once
 
 #include <cmath>
@@ -48,8 +47,8 @@ inline std::unique_ptr<Engine> engine_of(const SceneParameters& scene, StoredSta
     return make_time_stepped_engine(scene, std::move(state), world, {});
 }
 
-/// The text of a failure in the first steps of a scene; empty if there is none, or the engine
-/// refuses the scene.
+/// The message of a self-check that fails in the first steps of a scene; empty if none does, or if
+/// the engine rejects the scene.
 inline std::string failure_of(const TestScene& test_scene, Method method,
                               const Communicator& world) {
     SceneParameters scene = checked_scene(test_scene, method);
@@ -68,7 +67,7 @@ inline std::string failure_of(const TestScene& test_scene, Method method,
         while (system.step() < last) system.advance_towards(last);
     } catch (const CheckFailure& failure) {
         return failure.what();
-    } catch (const InputError&) { // overlaps, in the event-driven method
+    } catch (const InputError&) { // overlaps are errors in the event-driven method
     } catch (const CollectiveError& error) {
         if (!test_scene.cascades_when_event_driven) return error.what();
     }
@@ -81,7 +80,7 @@ inline TestScene gas_of(const Effects& effects) {
     return scene;
 }
 
-/// Effects that a check has to make allowance for; `is_for_one`: in the time-stepped method too.
+/// Effects for which the check needs an allowance. `is_for_one`: also for the time-stepped method.
 struct NamedEffects {
     const char* name;
     Effects effects;
@@ -105,7 +104,7 @@ inline std::vector<NamedEffects> named_effects() {
     shaken.boundaries[2] = {BoundaryKind::oscillating, 0.8, 0, 0, 0.2, 7.3, 0};
     sinking = pile;
     sinking.drag = 0.05;
-    Effects mixed, heaps, rubbing, rolling, growing; // the last but one keeps its energy
+    Effects mixed, heaps, rubbing, rolling, growing; // `rolling` keeps its energy
     mixed.species = {{14, 1, 4}, {30, 0.8, 1}, {20, 0.5, 0.5}};
     heaps = pile;
     heaps.species = mixed.species;
@@ -133,7 +132,8 @@ inline std::vector<NamedEffects> named_effects() {
             {"growing discs", growing, false}};
 }
 
-/// What the check sees after the first step of a gas, and what it says when that has been spoilt.
+/// The state after the first step of a gas, as the check gets it. A test may introduce an error
+/// before the check.
 class OneStep {
 public:
     explicit OneStep(Method method, const Effects& effects = {})
@@ -184,7 +184,7 @@ public:
                                    n_collisions.begin());
     }
 
-    /// The failure, after a check that all ranks have met the same one.
+    /// The failure, if there is one; also checks that all ranks have the same one.
     std::optional<CheckFailure> inspect() {
         std::optional<CheckFailure> met;
         try {
@@ -199,7 +199,7 @@ public:
     }
 
     LocalDiscs local_view;
-    std::vector<double> spins; ///< along the own discs, of rough ones
+    std::vector<double> spins; ///< spins along the own discs, if these are rough
     std::vector<Collision> log;
 
 private:
@@ -210,8 +210,8 @@ private:
     StateCheck check_;
 };
 
-/// Spoils a step under both methods and checks what is said of it: the invariant, the step, and the
-/// disc if `disc` is given.
+/// Introduces an error into a step under both methods. Compares the failure with the expected
+/// invariant, the step, and the disc if `disc` is given.
 inline void expect(Invariant invariant,
                    const std::function<std::optional<DiscId>(OneStep&)>& spoil) {
     for (const Method method : both) {

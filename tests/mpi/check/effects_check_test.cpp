@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check makes allowance for effects, and still finds what is wrong.
+// The self-check allows for effects, and still finds errors.
 #include <numbers>
 
 #include "check_runs.hpp"
@@ -36,8 +36,8 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
 
 namespace {
 
-/// The invariant that a check of a step with effects finds broken once `spoil` has had its way;
-/// none if it finds nothing.
+/// The invariant that a check of a step with effects finds broken after `spoil` has changed the
+/// step; nothing if it finds no error.
 std::optional<Invariant> found_in(const Effects& effects,
                                   const std::function<void(OneStep&)>& spoil) {
     OneStep step(Method::event_driven, effects);
@@ -53,7 +53,8 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
         return [=](OneStep& step) {
             DiscState* const disc = step.own(id);
             if (!disc) return;
-            disc->x += disc->vx * (1 - factor) * (step.local_view.time - disc->tau); // where it was
+            // as if it had had this velocity all the time
+            disc->x += disc->vx * (1 - factor) * (step.local_view.time - disc->tau);
             disc->vx *= factor;
         };
     };
@@ -86,11 +87,11 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
                        [&](OneStep& step) { turns_faster(step, step.first_pair().p); }) ==
               (named.effects.contact.restitution == 1
                    ? std::optional(Invariant::energy)
-                   : std::nullopt)); // else it might be what is lost
+                   : std::nullopt)); // less than this might be energy that collisions take
     }
     Effects piston;
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
-    CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
+    CHECK(found_in(piston, [](OneStep& step) { // inside the box at the start, but outside of it now
               if (DiscState* const disc = step.own(7))
                   disc->x += step.scene().box.x - step.scene().radius - 0.2 -
                              disc->x_at(step.local_view.time);

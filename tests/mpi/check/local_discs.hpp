@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a self-check sees, as plain data that a test may spoil.
+// The data that a self-check gets, as plain structs that a test may change.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 namespace carrom::test {
 
 struct LocalDiscs {
-    std::vector<DiscState> discs; ///< own ones first
+    std::vector<DiscState> discs; ///< own discs first
     std::size_t n_own = 0;
     CellGrid grid;
     Domains domains;
@@ -19,15 +19,16 @@ struct LocalDiscs {
     Frame frame;
 
     LocalView view() const { return {{discs, n_own}, &grid, &domains, time, frame}; }
-    /// Puts the discs into the cells they are in now, the own ones into their order; partners
-    /// within a diameter are within reach.
+    /// Puts the discs into the cells of their present positions, and the own ones into their order.
+    /// Partners within a diameter are within reach.
     void sort_into_cells(double box_size, double radius);
 };
 
-/// A copy of what an engine has settled.
+/// A copy of a view that an engine has redistributed.
 LocalDiscs copy_of(const LocalView& local_view);
 
-/// All of the few `discs`, those in this rank's equal strip as its own, the others as its halo.
+/// A view of a few `discs`: those in this rank's equal strip are own discs, the others are its
+/// halo.
 LocalDiscs view_by_hand(const std::vector<DiscState>& discs, double time, double box_size,
                         double radius, int rank, int n_ranks);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends like a run whose search has missed a contact: disc 5 has flown into disc 9, and nobody has
-// collided.
+// Ends like a run whose search has missed a contact: disc 5 has flown into disc 9 without a
+// collision.
 //
-// missed_contact RULE: writes the neighbourhood to where it runs and leaves with code 70 on every
-// rank. In the event-driven method discs are rough and of two masses.
+// missed_contact RULE: writes the discs around to the working folder and ends with code 70 on every
+// rank. In the event-driven method discs are rough and have two masses.
 #include <cstdio>
 #include <string>
 
@@ -18,7 +18,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// Thirty discs in rows, still but for disc 5, which reaches disc 9 half-way through the second
+/// Thirty discs in rows at rest, except disc 5, which reaches disc 9 half-way through the second
 /// step.
 std::vector<DiscState> thirty_discs() {
     std::vector<DiscState> discs;

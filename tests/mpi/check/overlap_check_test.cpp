@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the self-check says of two discs that fly into each other, as if an engine had missed their
-// contact.
+// Reports of the self-check about two discs that fly into each other, as if an engine had missed
+// their contact.
 #include "check/state_check.hpp"
 
 #include <memory>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-/// Two discs of radius 1 in a box of 20, as if no contact had been found: 0 flies to the right, 1
-/// rests or flies.
+/// Two discs of radius 1 in a box of 20 whose contact has not been found: disc 0 flies to the
+/// right, disc 1 rests or flies.
 struct Passing {
     Communicator world = Communicator::world();
     SceneParameters scene;
@@ -47,8 +47,8 @@ struct Passing {
         return view_by_hand(discs, time, 20, 1, world.rank(), world.size());
     }
 
-    /// Whether the end of the next step is found right; `walls` of disc 0 are counted and logged in
-    /// it.
+    /// Whether the check accepts the end of the next step; `walls` collisions of disc 0 are counted
+    /// and logged in it.
     bool is_right(std::uint64_t walls = 0) {
         std::vector<Collision> log;
         discs[0].wall_collisions = (discs[0].wall_collisions + walls) & 0x7fffffffffff;
@@ -99,7 +99,7 @@ TEST_CASE("check: the time-stepped method explains overlaps with a disc that has
           "all none") {
     Passing one(Method::time_stepped, 6.7, 1);
     CHECK(one.is_right(1));
-    CHECK(one.is_right()); // they go on through each other
+    CHECK(one.is_right()); // the discs fly on through each other
     CHECK(one.is_right());
     Passing all(Method::event_driven, 6.7, 1);
     CHECK(!all.is_right(1));

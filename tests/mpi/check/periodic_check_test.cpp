@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check in boxes with periodic sides: silent on what is right, and it sees an overlap
-// across a seam.
+// The self-check in boxes with periodic sides: it accepts correct runs, and finds an overlap across
+// a seam.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,8 +49,8 @@ StateHash hash_after(const TestScene& test, Method method, bool is_checked,
     return system.totals().hash;
 }
 
-/// What the check finds as discs that have flown on for a micro-step meet nobody, whatever is
-/// there.
+/// The failure that the check finds if discs fly on for a micro-step without collisions, whatever
+/// is in their way.
 std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
     const SceneParameters scene = scene_of(test, Method::time_stepped);
     DiscStates before, now;
@@ -81,7 +81,7 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
              {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
             TestScene test = gas(
                 60, 0.4, 1.5,
-                61); // flies through the box once between syncs, some discs more often
+                61); // between syncs discs fly through the box once, some more often
             test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
             if (is_along_x) {
                 test.setting.effects.boundaries[2] = {BoundaryKind::wall, 0.9, 0, 0};
@@ -91,7 +91,8 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
             }
             test.setting.effects.fixed_bodies = {
                 {{0, 0, 1}, {test.setting.box_size, 9, 0.5}}, {{0, 15, 5, 18}}, 1};
-            std::erase_if(test.discs, [&](const InputDisc& disc) { // those that are in the way
+            // removes discs that are in the way
+            std::erase_if(test.discs, [&](const InputDisc& disc) {
                 const auto far = [&](double x, double y, double reach) {
                     return std::hypot(std::remainder(disc.x - x, test.setting.box_size),
                                       std::remainder(disc.y - y, test.setting.box_size)) > reach;
@@ -118,7 +119,7 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
     }
 }
 
-// Two discs that were apart a micro-step ago and are 0.45 apart now, through the seam.
+// Two discs that were apart one micro-step before and are now 0.45 apart, across the seam.
 TEST_CASE("check: an overlap across a seam is found, of discs that are as large as that") {
     for (const double radius : {1.0, 0.23, 0.22}) {
         TestScene test = empty_scene("across the seam", 40, 1, 10);

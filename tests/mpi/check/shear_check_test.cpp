@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check between sheared sides: it knows the work of images that move, and finds out if
-// that is wrong.
+// The self-check between sheared sides: it includes the work of moving images, and detects a wrong
+// value of it.
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,7 +25,8 @@ TestScene sheared_gas() {
     return scene;
 }
 
-/// What the check finds in 30 steps if the engine's work of images is multiplied by that.
+/// The failure that the check finds in 30 steps if the engine's work of images is multiplied by
+/// this factor.
 std::string failure_with(const TestScene& test, Method method, double factor,
                          const Communicator& world) {
     const SceneParameters scene = checked_scene(test, method);
@@ -34,7 +35,7 @@ std::string failure_with(const TestScene& test, Method method, double factor,
     if (test.setting.are_rough())
         state.columns.add(SideColumn::spin, std::vector<double>(state.discs.size(), 0.01));
     const std::unique_ptr<Engine> engine = engine_of(scene, std::move(state), world);
-    StressSums stress(0x1p60); // the time-stepped engine finds the work where it finds the stress
+    StressSums stress(0x1p60); // the time-stepped engine sums this work together with the stress
     engine->add_stress_to(&stress);
     const auto spins = [&] { return engine->side_columns()[SideColumn::spin]; };
     StateCheck check(scene, engine->species_table(), engine->own(), 0, world, engine->frame(),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check on data that it sees at the end of a step: as the engines leave it, on every scene
-// the tests have, and with one thing made wrong. Spoilt is a copy: the engines have no way to fail
-// on purpose.
+// The self-check at the end of a step: of correct states in every scene of the tests, and of states
+// with one error. Errors are made in a copy, because the engines cannot be made to fail.
 #include "check/state_check.hpp"
 
 #include <algorithm>
@@ -52,7 +51,7 @@ TEST_CASE("check: a disc that nobody owns any more") {
 
 TEST_CASE("check: a disc that is owned twice") {
     expect(Invariant::owned_once, [](OneStep& step) {
-        if (step.own(8)) step.own(8)->id = 7; // 8 is lost as well, but 7 comes first
+        if (step.own(8)) step.own(8)->id = 7; // disc 8 is missing, too, but 7 comes first
         return 7;
     });
 }

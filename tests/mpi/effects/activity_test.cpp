@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Active discs: the same bits on every machine shape, what the check knows, and the exact law of
-// free ones.
+// Active discs: the same bits on every machine shape, the self-check, and the exact law of free
+// discs.
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 
-/// Active Brownian discs, rough ones that tumble, and two species with one force and both; between
-/// walls and without.
+/// Active Brownian discs, rough ones that tumble, and two species with one force, rotation and
+/// tumbles; each between walls and without walls.
 std::vector<TestScene> active_scenes() {
     std::vector<TestScene> scenes;
     for (const bool has_walls : {true, false}) {
@@ -51,7 +51,7 @@ std::vector<TestScene> active_scenes() {
     return scenes;
 }
 
-/// Discs that do not meet, with syncs at every step.
+/// Discs that never collide, with a sync in every step.
 TestScene free_discs(std::size_t n, const Activity& activity) {
     TestScene scene = gas(n, 0.001, 0, 664);
     scene.setting.effects.boundaries.fill(periodic);
@@ -89,7 +89,7 @@ TEST_CASE("effects: a check finds out what discs have not got from their propuls
     other.method = Method::event_driven;
     other.effects.thermostat = {};
     other.effects.activity = {};
-    other.effects.contact.kind = ContactKind::restitution; // as there are effects at all
+    other.effects.contact.kind = ContactKind::restitution; // the scene must have effects
     DiscSystem system = system_of(scene, Method::event_driven, world);
     system.check_every_step(other);
     CHECK_THROWS_AS(advance_to(system, 30), CheckFailure);
@@ -110,7 +110,7 @@ TEST_CASE("effects: free active discs come to their speed, along their direction
         DiscSystem system(whole, scene.discs, alone, Tuning{});
         const std::vector<double> first = directions_of(system);
         advance_to(system, 5);
-        // Five steps at the rate 0.3; 0.18 / (3 * 0.3) is a speed of 0.2, too.
+        // Five steps at the rate 0.3; a force of 0.18 gives the same speed, 0.18 / (3 * 0.3) = 0.2.
         const double speed = 0.2 * (1 - std::exp(-1.5)) / 4;
         CHECK(directions_of(system) == first);
         for (const DiscState& disc : system.discs()) {
@@ -121,7 +121,7 @@ TEST_CASE("effects: free active discs come to their speed, along their direction
 }
 
 // The mean cosine of the angle that discs have turned in a time t is exp(-(D + rate) t), and the
-// first directions are uniform. 20,000 discs have it to within 0.005, held to 0.02.
+// first directions are uniform. With 20,000 discs the error is some 0.005; the bound is 0.02.
 TEST_CASE("effects: directions forget at the sum of both rates") {
     const Communicator alone = Communicator::of_this_rank();
     constexpr std::size_t n = 20'000;

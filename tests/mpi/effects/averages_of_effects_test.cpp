@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the averages of a run say under effects, where it is known.
+// Averages of a run under effects, where exact values are known.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -22,7 +22,7 @@ Averages averages_of(const TestScene& scene, Method method = Method::event_drive
     return averaging.averages();
 }
 
-/// Discs that do not meet, all of the same speed.
+/// Discs that never collide, all with the same speed.
 TestScene swarm(double speed, std::int64_t steps) {
     TestScene scene = gas(300, 0.05, speed, 611);
     for (InputDisc& disc : scene.discs) {
@@ -46,7 +46,7 @@ TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Ma
     scene.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, temperature, 0};
     const Communicator world = Communicator::world();
     DiscSystem system = system_of(scene, Method::event_driven, world);
-    advance_to(system, 2000); // several flights
+    advance_to(system, 2000); // several flights of each disc
     Averaging averaging(scene, system, world);
     averaging.advance_to(4000);
     const Averages averages = averaging.averages();
@@ -58,15 +58,15 @@ TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Ma
 }
 
 TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obstacles") {
-    // Slowed down: v (1 - exp(-c t)) / (c t) in the mean; all are as fast.
+    // With drag the mean speed is v (1 - exp(-c t)) / (c t), because all discs have the same speed.
     TestScene slowed = swarm(0.5, 320);
     set_drag(slowed, 0.005);
     const Averages of_slowed = averages_of(slowed);
     CHECK(of_slowed.mean_speed.value ==
-          Approx(0.5 * -std::expm1(-1.6) / 1.6).epsilon(2e-3)); // trapezoids of 8 to 16 steps
+          Approx(0.5 * -std::expm1(-1.6) / 1.6).epsilon(2e-3)); // trapezoids with steps of 8 to 16
     CHECK(of_slowed.speed_kurtosis.value == Approx(1).epsilon(1e-12));
 
-    // Leaving: those that are in the box are as fast as ever, however many have left.
+    // If discs leave, the mean speed of the others does not change.
     TestScene leaving = swarm(0.5, 160);
     leaving.setting.effects.boundaries[0].kind = BoundaryKind::open;
     for (const Method method : {Method::time_stepped, Method::event_driven}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of discs that lose energy when they meet, and of discs that do not meet.
+// Known results for discs that lose energy in collisions, and for discs that never collide.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -14,8 +14,8 @@ using namespace carrom::test;
 
 namespace {
 
-/// Where a point between walls is after `way`, by unfolding its reflections; the sign of its
-/// velocity, too.
+/// The position of a point between walls after the distance `way`, by unfolding its reflections,
+/// and the sign of its velocity.
 std::pair<long double, int> reflected(long double start, long double way, long double length) {
     const long double unfolded = start + way;
     const long double turns = std::floor(unfolded / length);
@@ -26,17 +26,19 @@ std::pair<long double, int> reflected(long double start, long double way, long d
 
 } // namespace
 
-// A pair's energy in the frame of its own falls by (1 - e^2) of its normal part. In a Maxwellian
-// gas those that collide have <g_n^2> = 4 kT / m, so each collision takes (1 - e^2) kT in the mean;
-// E = N kT: ln(T / T0) = -(1 - e^2) pairs / N. With nu ~ sqrt(T) that is Haff's law, 1 / sqrt(T)
-// growing evenly (Haff, J. Fluid Mech. 134, 401 (1983)).
+// A collision takes (1 - e^2) of the normal part of a pair's energy in its own frame. In a
+// Maxwellian gas colliding pairs have <g_n^2> = 4 kT / m, so a collision takes (1 - e^2) kT on
+// average. With E = N kT this gives ln(T / T0) = -(1 - e^2) pairs / N. The collision rate is
+// proportional to sqrt(T), so 1 / sqrt(T) grows at a constant rate: Haff's law (J. Fluid Mech. 134,
+// 401 (1983)).
 TEST_CASE("effects: a thin gas cools by Haff's law") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(2500, 0.03, 0.1, 601);
     const double restitution = 0.95, loss = 1 - restitution * restitution;
     scene.setting.effects.contact = {ContactKind::restitution, restitution, 0.001};
     DiscSystem system = system_of(scene, Method::event_driven, world);
-    advance_to(system, 300); // some three collisions a disc: speeds were not Maxwell's
+    // some three collisions a disc, because initial speeds are not Maxwell's
+    advance_to(system, 300);
     const Totals start = system.totals();
     std::vector<double> slownesses;
     for (std::int64_t step = 300; step <= 2700; step += 800) {
@@ -57,7 +59,7 @@ TEST_CASE("effects: a thin gas cools by Haff's law") {
 }
 
 // Three and more discs in a line with little restitution come to rest relative to each other after
-// infinitely many collisions (McNamara and Young, Phys. Fluids A 4, 496 (1992)): the contact time
+// infinitely many collisions (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The contact time
 // ends that.
 TEST_CASE("effects: inelastic collapse comes to an end, and energy only falls") {
     const Communicator world = Communicator::world();
@@ -101,5 +103,5 @@ TEST_CASE("effects: discs that do not meet fly as if each were alone") {
     }
     CHECK(farthest <
           100 * 4 * 0x1p-53 *
-              scene.setting.box_size); // a rounding of place and time for each of some ten bounces
+              scene.setting.box_size); // some ten bounces, each with a rounding of place and time
 }

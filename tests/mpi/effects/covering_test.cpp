@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Effects in pairs: runs that together meet every two choices of different rows of the table below
-// (pairwise covering), each with the bits of the rule's plain statement. A new effect is a choice
-// more, and what excludes it a line of `excluded`.
+// Combinations of effects. The runs together contain every two choices from different rows of the
+// table below (pairwise covering), and each is compared with the reference bit by bit. A new effect
+// takes a new choice here, and a line of `excluded` for each choice that excludes it.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -24,7 +24,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// What a run is put together from.
+/// The scene and the settings of a run.
 struct Plan {
     TestScene scene;
     Method method = Method::event_driven;
@@ -49,7 +49,7 @@ Row sides_of(std::size_t number) {
             side_choice(number, "lossy", {BoundaryKind::wall, 0.7, 0, 0}),
             side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}),
             side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards})};
-    if (number == 1 || number == 2) // of each axis one, low and high
+    if (number == 1 || number == 2) // one side of each axis, a low and a high one
         row.push_back(
             side_choice(number, "oscillating",
                         {BoundaryKind::oscillating, 0.9, 0, 0, 0.3, 2.3, number == 2 ? 3.2 : 0.1}));
@@ -57,7 +57,7 @@ Row sides_of(std::size_t number) {
     return row;
 }
 
-/// Two opposite sides periodic, in place of what they are.
+/// Makes two opposite sides periodic.
 Choice seams(const char* name, std::size_t low_side) {
     return {name, [=](Plan& plan) {
                 for (const std::size_t side : {low_side, low_side + 1})
@@ -93,7 +93,7 @@ Choice window(const char* name, std::optional<double> length) {
             }};
 }
 
-/// Every other half of the discs is smaller and lighter.
+/// Makes the discs in the second and the last quarter of the ids smaller and lighter.
 void split_into_species(Plan& plan) {
     const double radius = plan.scene.setting.radius;
     const std::uint64_t n = plan.scene.discs.size();
@@ -103,7 +103,7 @@ void split_into_species(Plan& plan) {
                                           {n - 3 * (n / 4), 0.7 * radius, 0.6}};
 }
 
-/// A few bodies, which the discs that are in their place leave.
+/// Adds a few obstacles, and removes the discs in their places.
 void put_obstacles(Plan& plan) {
     reference::Setting& setting = plan.scene.setting;
     const double size = setting.box_size;
@@ -113,10 +113,11 @@ void put_obstacles(Plan& plan) {
          {0.55 * size, 0.8 * size, 0.7 * size, 0.75 * size}},
         0.8};
     make_room_for_obstacles(plan.scene);
-    if (!setting.effects.species.empty()) split_into_species(plan); // of those that are left
+    // species of the remaining discs
+    if (!setting.effects.species.empty()) split_into_species(plan);
 }
 
-/// The first row makes the scene that the others change.
+/// The first row makes the scene, the other rows change it.
 std::vector<Row> table() {
     return {{shape(gas(200, 0.05, 0.8, 701)), shape(gas(144, 0.6, 0.3, 702)),
              shape(break_shot(5, 0.5, 3, 0.1))},
@@ -142,7 +143,7 @@ std::vector<Row> table() {
              {"restarted", [](Plan& plan) { plan.is_restarted = true; }}}};
 }
 
-/// A periodic side is nothing else.
+/// Whether two choices are for the same side, which can have only one kind.
 bool takes_the_place_of(const std::string& a, const std::string& b) {
     const bool is_side = a == "seams along x" ? b.starts_with("left ") || b.starts_with("right ")
                                               : a == "seams along y" && (b.starts_with("bottom ") ||
@@ -204,7 +205,7 @@ bool is_excluded(const std::string& a, const std::string& b) {
     });
 }
 
-using Picked = std::vector<std::size_t>; ///< by row, a choice
+using Picked = std::vector<std::size_t>; ///< the number of a choice for each row
 
 constexpr std::size_t open = ~std::size_t{0};
 
@@ -219,8 +220,8 @@ public:
                             missing_.push_back({i, a, j, b});
     }
 
-    /// Greedy: of runs that begin with pairs that are missing the one that meets most of what is
-    /// missing.
+    /// Greedy: of several runs that begin with missing pairs, chooses the one that contains most
+    /// missing pairs.
     std::vector<Picked> runs() {
         constexpr std::size_t most_tries = 16;
         std::vector<Picked> all;
@@ -246,7 +247,7 @@ private:
         std::size_t i, a, j, b;
     };
 
-    /// Row after row the choice that meets most of what is missing.
+    /// Fills each open row with the choice that adds most missing pairs.
     Picked run_with(const Pair& first) const {
         Picked picked(rows_.size(), open);
         picked[first.i] = first.a;
@@ -320,7 +321,7 @@ StateHash engine_hash(const Plan& plan, const Communicator& world) {
     return second.totals().hash;
 }
 
-/// What the references are told apart from the scene's numbers.
+/// Gives the references the functions that they do not compute from the scene's numbers.
 void hand_to_reference(reference::Setting& setting) {
     set_thermal_seed(setting, setting.effects.thermal_seed);
     set_oscillation(setting);
@@ -347,7 +348,7 @@ TEST_CASE(
         INFO(name);
         CHECK(to_string(engine_hash(plan, world)) == to_string(reference_hash(plan, world)));
     }
-    // Held to by hand: the table's own pairs, met or excluded.
+    // Compares with the table itself: each of its pairs is in a run or excluded.
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (std::size_t j = i + 1; j < rows.size(); ++j)
             for (std::size_t a = 0; a < rows[i].size(); ++a)

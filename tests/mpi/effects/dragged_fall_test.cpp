@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of discs that fall and are slowed down, in long double.
+// Known results for discs that fall under drag, in long double.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -17,7 +17,7 @@ namespace {
 using Long = long double;
 constexpr double g = 0.01, rate = 0.05;
 
-/// One disc of radius 1 that is let go at a height above the floor.
+/// One disc of radius 1 that starts from rest at a height above the floor.
 TestScene ball(double height, double restitution) {
     TestScene scene = empty_scene("ball in air", 128, 1, 1);
     add_disc(scene, 64, 1 + height, 0.0625, 0);
@@ -28,7 +28,7 @@ TestScene ball(double height, double restitution) {
     return scene;
 }
 
-/// Upwards, of what was thrown up with `speed` from 0, after a time.
+/// The height after a time of a body that starts upwards from 0 with `speed`.
 Long height_after(Long time, Long speed) {
     return (speed + g / Long(rate)) * -std::expm1(-rate * time) / rate - g / Long(rate) * time;
 }
@@ -36,9 +36,9 @@ Long speed_after(Long time, Long speed) {
     return speed + (speed + g / Long(rate)) * std::expm1(-rate * time);
 }
 
-/// When it is as far down as `depth`, by halving: it is beyond, and falls, after `late`.
+/// The time at which a body is at `depth` on the way down, by bisection. At `late` it is deeper.
 Long time_down(Long depth, Long speed, Long late) {
-    Long early = speed > 0 ? std::log1p(rate * speed / g) / rate : 0; // at the top
+    Long early = speed > 0 ? std::log1p(rate * speed / g) / rate : 0; // time at the top
     for (int k = 0; k < 200; ++k) {
         const Long middle = (early + late) / 2;
         (height_after(middle, speed) > -depth ? early : late) = middle;
@@ -62,7 +62,8 @@ DiscState only_disc(const DiscSystem& system, const Communicator& world) {
 TEST_CASE("effects: a ball falls through the air as the formula says, and no faster than g / c") {
     const Communicator world = Communicator::world();
     DiscSystem system = system_of(ball(120, 1), Method::event_driven, world);
-    for (const std::int64_t step : {20, 50, 123, 400, 600}) { // between syncs, too
+    // Some of these steps are between syncs
+    for (const std::int64_t step : {20, 50, 123, 400, 600}) {
         advance_to(system, step);
         const DiscState disc = only_disc(system, world);
         const auto time = static_cast<Long>(step);
@@ -71,7 +72,8 @@ TEST_CASE("effects: a ball falls through the air as the formula says, and no fas
         CHECK(disc.x == Approx(64 + static_cast<double>(-std::expm1(-rate * time) / rate) * 0.0625)
                             .epsilon(1e-13));
         if (step == 600)
-            CHECK(disc.vy == Approx(-g / rate).epsilon(1e-12)); // exp(-30) of the way to it
+            // differs from the final speed by exp(-30)
+            CHECK(disc.vy == Approx(-g / rate).epsilon(1e-12));
     }
 }
 
@@ -79,7 +81,8 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
     const Communicator world = Communicator::world();
     for (const double restitution : {1.0, 0.8}) {
         TestScene scene = ball(50, restitution);
-        scene.setting.effects.contact.contact_time = 0.02; // it comes to rest, and bounces on
+        // A disc at rest bounces once in this time
+        scene.setting.effects.contact.contact_time = 0.02;
         DiscSystem system = system_of(scene, Method::event_driven, world);
         std::vector<Collision> log, all;
         system.log_to(&log);
@@ -95,7 +98,7 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
         double worst = 0;
         int n = 0;
         for (const Collision& bounce : all) {
-            if (speed * 2 / g < 1) break; // flights of less than a step
+            if (speed * 2 / g < 1) break; // flights of such a speed take less than a step
             worst = std::max(worst,
                              std::fabs(static_cast<double>(static_cast<Long>(bounce.micro_step) +
                                                            bounce.time - expected)));
@@ -117,11 +120,11 @@ TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever l
     scene.setting.effects.contact.contact_time = 0.01;
     const Totals rest = run(scene, Method::event_driven, world);
     CHECK(static_cast<double>(rest.wall_collisions) <
-          1.01 * 400 / 0.01); // flights of what leaves with g t / 2 are a little shorter than t
+          1.01 * 400 / 0.01); // flights that start with g t / 2 are a little shorter than t
     CHECK(rest.wall_collisions > 100);
     CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g);
 
-    scene = ball(47, 0.8); // 50 would come down at a sync, which counts as a touch
+    scene = ball(47, 0.8); // a start at 50 would reach the floor at a sync, which counts as a touch
     DiscSystem thin = [&] {
         set_drag(scene, 1e-13);
         return system_of(scene, Method::event_driven, world);
@@ -144,7 +147,7 @@ TEST_CASE("effects: a gas in the air loses energy at the rate of twice that of i
     set_drag(scene, 0.01);
     DiscSystem system = system_of(scene, Method::event_driven, world);
     const Totals start = system.totals();
-    // d(K + U)/dt = -2 c K, by Simpson's rule: K is smooth in elastic collisions.
+    // d(K + U)/dt = -2 c K, integrated by Simpson's rule. Elastic collisions do not make K jump.
     double integral = 0;
     constexpr int last = 40;
     for (int step = 0; step <= last; ++step) {
@@ -170,7 +173,7 @@ TEST_CASE("effects: what a wall pushes through the air goes with it") {
     DiscSystem system = system_of(scene, Method::event_driven, world);
     advance_to(system, 1000);
     const DiscState disc = only_disc(system, world);
-    CHECK(disc.x - 1 == Approx(0.05 * 1000).margin(1e-6)); // it hops by c u t^2 / 8
+    CHECK(disc.x - 1 == Approx(0.05 * 1000).margin(1e-6)); // the disc hops by c u t^2 / 8
     CHECK(disc.vx == Approx(0.05).margin(1e-4));
     CHECK(disc.wall_collisions > 1000);
 }

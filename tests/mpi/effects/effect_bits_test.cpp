@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes with effects have the bits of the plain statements of both methods, for windows and strips
-// of several kinds, and the plain dynamics' bits where an effect's parameters make it none.
+// Scenes with effects have the bits of the references of both methods, for several windows and
+// strips. If an effect's parameters switch it off, they have the bits of the plain dynamics.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -18,7 +18,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// Gases with the bodies taken out of their way: discs that would overlap one are left out.
+/// Gases among obstacles: discs that would overlap an obstacle are left out.
 std::vector<TestScene> obstructed_scenes() {
     std::vector<TestScene> scenes;
     for (const TestScene& gas : {gas(300, 0.05, 0.8, 511), gas(196, 0.3, 0.3, 512)}) {
@@ -38,7 +38,7 @@ std::vector<TestScene> obstructed_scenes() {
                 {x, y, x + random.uniform(-0.2, 0.2) * size, y + random.uniform(-0.2, 0.2) * size});
         }
         list.segments.push_back({0, 0.3 * size, 0.3 * size,
-                                 0.25 * size}); // a funnel's two sides, of which one meets a wall
+                                 0.25 * size}); // two sides of a funnel; one of them ends at a wall
         list.segments.push_back({0.3 * size, 0.25 * size, 0.3 * size, 0.1 * size});
         scene.discs = gas.discs;
         make_room_for_obstacles(scene);
@@ -64,7 +64,7 @@ TEST_CASE(
     }
 }
 
-// Every pair of contact, sides and gravity is met in some scene.
+// Every pair of contact, sides and gravity occurs in some scene.
 TEST_CASE("effects: sides and gravity have the references' bits, alone and together") {
     const Boundary lossy{BoundaryKind::wall, 0.7, 0, 0}, piston{BoundaryKind::moving, 1, 0, -0.03},
         rising{BoundaryKind::moving, 0.9, 0, 0.02};
@@ -93,8 +93,8 @@ TEST_CASE("effects: sides and gravity have the references' bits, alone and toget
     }
 }
 
-// Discs among bodies of both kinds, some touching each other or a wall; with what else changes how
-// they are met.
+// Discs among obstacles of both kinds, some of which touch each other or a wall, with other effects
+// that change the collisions.
 TEST_CASE("effects: obstacles have the references' bits, with restitution, gravity and drag too") {
     for (TestScene scene : obstructed_scenes()) {
         Effects& effects = scene.setting.effects;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of discs that fall, and of discs that are slowed down.
+// Known results for discs that fall, and for discs under drag.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double g = 0.01;
 
-/// One disc of radius 1 that is let go at a height above the floor.
+/// One disc of radius 1 that starts from rest at a height above the floor.
 TestScene ball(double height, double restitution) {
     TestScene scene = empty_scene("ball", 128, 1, 1);
     add_disc(scene, 64, 1 + height, 0.0625, 0);
@@ -61,8 +61,8 @@ TEST_CASE("effects: a ball bounces when Galileo says") {
             expected += flight;
         }
         CHECK(n >= (restitution == 1 ? 5u : 23u));
-        CHECK(worst < 1e-9); // places are rounded to 2^-46, speeds at impact are some 1: errors of
-                             // a few 1e-14 grow with each bounce
+        CHECK(worst < 1e-9); // positions are rounded to 2^-46, and impact speeds are some 1: errors
+                             // of a few 1e-14, which grow with each bounce
     }
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("effects: an elastic ball comes back to its height after ten thousand 
     CHECK(static_cast<double>(rest.wall_collisions) < 400 / 0.01);
     CHECK(rest.wall_collisions > 100);
     CHECK(rest.kinetic_energy + rest.potential_energy - g <
-          0.05 * 0.02 * g); // no higher than the contact time takes it
+          0.05 * 0.02 * g); // the height that the contact time permits
 }
 
 TEST_CASE("effects: a gas that falls keeps its energy") {
@@ -94,7 +94,7 @@ TEST_CASE("effects: a gas that falls keeps its energy") {
     scene.setting.effects.gravity = {0.004, -0.01};
     DiscSystem system = system_of(scene, Method::event_driven, world);
     const Totals start = system.totals();
-    for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
+    for (const std::int64_t step : {37, 100, 203}) { // some of these steps are between syncs
         advance_to(system, step);
         const Totals now = system.totals();
         CHECK(now.kinetic_energy + now.potential_energy ==
@@ -104,8 +104,7 @@ TEST_CASE("effects: a gas that falls keeps its energy") {
     CHECK(system.totals().pair_collisions > 400);
 }
 
-// Over a floor of temperature T an ideal gas has the density exp(-g y / T), whatever the disc's
-// size.
+// Above a floor of temperature T an ideal gas has the density exp(-g y / T), for discs of any size.
 TEST_CASE("effects: the barometric formula over a thermal floor") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(2000, 0.02, 0.4, 604);
@@ -132,7 +131,7 @@ TEST_CASE("effects: the barometric formula over a thermal floor") {
             {largest, known - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - known});
     }
     CHECK(all.size() == scene.discs.size());
-    CHECK(largest * std::sqrt(n) < 1.95); // passed by one sample in a thousand (Kolmogorov)
+    CHECK(largest * std::sqrt(n) < 1.95); // one sample in a thousand exceeds this (Kolmogorov)
 }
 
 TEST_CASE("effects: drag's clock is right to some ulp") {
@@ -148,7 +147,7 @@ TEST_CASE("effects: drag's clock is right to some ulp") {
             CHECK(time_of_drag_clock(rate, drag_clock(rate, n)) == Approx(n).epsilon(1e-13));
         }
     }
-    CHECK(worst < 32 * 0x1p-53); // a rounding of the exponent and some of each halving
+    CHECK(worst < 32 * 0x1p-53); // a rounding of the exponent, and some in each halving
 }
 
 TEST_CASE(
@@ -159,7 +158,7 @@ TEST_CASE(
     scene.setting.effects.drag = rate;
     DiscSystem system = system_of(scene, Method::event_driven, world);
     const double start = system.totals().kinetic_energy;
-    for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
+    for (const std::int64_t step : {37, 100, 203}) { // some of these steps are between syncs
         advance_to(system, step);
         const Totals now = system.totals();
         CHECK(now.kinetic_energy ==

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growing discs: what can be worked out by hand, and the bits of the method's plain statement.
+// Growing discs: results computed by hand, and the bits of the reference.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr Boundary periodic_side{BoundaryKind::periodic, 1, 0, 0};
 
-/// Where a rank has the disc; NaN where no rank has it.
+/// The disc on the rank that has it; NaN on all others.
 DiscState disc_of(const DiscSystem& system, DiscId id, const Communicator& world) {
     double numbers[] = {0, 0, 0, 0};
     std::uint64_t owner = 0;
@@ -48,7 +48,7 @@ TEST_CASE("growth: two discs at rest meet when they have grown, and part faster 
     DiscSystem system = system_of(scene, Method::event_driven, world);
     advance_to(system, 12);
     const DiscState p = disc_of(system, 0, world), q = disc_of(system, 1, world);
-    // They met at -1/4 relative to their surfaces, so each one leaves at 1/4.
+    // The surfaces met with -1/4, so each disc leaves at 1/4.
     CHECK(p.x == Approx(18 - 4 * 0.25).epsilon(1e-14));
     CHECK(q.x == Approx(22 + 4 * 0.25).epsilon(1e-14));
     CHECK(p.vx == Approx(-0.25).epsilon(1e-14));
@@ -71,7 +71,8 @@ TEST_CASE("growth: discs of two masses that fly towards each other, and a disc a
     advance_to(system, 6);
     const DiscState p = disc_of(system, 0, world), q = disc_of(system, 1, world),
                     at_wall = disc_of(system, 2, world);
-    // Surfaces meet at -3/2 - 3/4, and part so: w = 3/4 + 9/4 = 3, and the momentum is 1/2.
+    // Surfaces meet with -3/2 - 3/4 and part with the opposite: w = 3/4 + 9/4 = 3, and the momentum
+    // is 1/2.
     CHECK(p.vx == Approx(-0.625).epsilon(1e-14));
     CHECK(q.vx == Approx(2.375).epsilon(1e-14));
     CHECK(p.vy == Approx(0.125).epsilon(1e-14));
@@ -120,7 +121,7 @@ TEST_CASE("growth: transposed scenes give transposed discs") {
 
 TEST_CASE("growth: discs that have no more room end the run with a sentence") {
     const Communicator world = Communicator::world();
-    TestScene scene = lattice(4, 1.2); // square: it jams long before discs cover nine tenths
+    TestScene scene = lattice(4, 1.2); // a square lattice jams long before its packing is 0.9
     scene.steps = 1;
     scene.setting.effects.growth = 0.25;
     std::string text;
@@ -130,14 +131,14 @@ TEST_CASE("growth: discs that have no more room end the run with a sentence") {
         text = error.what();
     }
     INFO(text);
-    // They touch at 1.2 times; the message names what is safe before that.
+    // They touch when radii are 1.2 times the first; the message names an earlier step.
     CHECK(text.find("discs jam after step 0.79") != std::string::npos);
     CHECK(text.find("(radii 1.19") != std::string::npos);
 }
 
 namespace {
 
-/// Whether the scene's discs have no more room at that rate of growth.
+/// Whether the scene's discs jam at that rate of growth.
 bool do_jam(TestScene scene, double growth, const Communicator& ranks,
             const std::optional<double>& window) {
     scene.setting.effects.growth = growth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs of several radii and masses: the references' bits, the plain dynamics' where they are
-// equal, and what is known of mixtures.
+// Discs of several radii and masses: the references' bits, the plain dynamics' bits if all discs
+// are equal, and known results for mixtures.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -31,17 +31,17 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     return scene;
 }
 
-/// Three sizes, masses that are no function of them.
+/// Three sizes, with masses that are not a function of them.
 std::vector<TestScene> mixtures() {
     const std::vector<Species> three{{12, 2.5, 3}, {60, 1, 1.3}, {150, 0.3, 0.07}};
-    std::vector<Species> many; // more than are searched one by one
+    std::vector<Species> many; // more species than are searched one by one
     for (int k = 0; k < 40; ++k)
         many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.04 * k, 1 + 0.5 * (k % 4)});
     return {mixture(three, 40, 0.6, 701), mixture(three, 31, 0.2, 702),
             mixture(many, 30, 0.4, 703)};
 }
 
-/// Points, and segments, in the room that discs leave: `n` of each.
+/// Points and segments between discs, `n` of each.
 void put_bodies_between(TestScene& scene, std::size_t n, std::uint64_t seed) {
     Random random(seed);
     const double size = scene.setting.box_size;
@@ -90,7 +90,8 @@ TEST_CASE("effects: mixtures among obstacles have the references' bits") {
         put_bodies_between(scene, 5, 711);
         scene.setting.effects.fixed_bodies.restitution = 0.9;
         for (InputDisc& disc : scene.discs)
-            disc.vx *= 2, disc.vy *= 2; // so that many meet something else in the same micro-step
+            // so that many discs have a second collision in the same micro-step
+            disc.vx *= 2, disc.vy *= 2;
         for (const Method method : {Method::time_stepped, Method::event_driven})
             check_bits(scene, method);
     }
@@ -173,8 +174,8 @@ TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching 
     }
 }
 
-// Each class has kT = <m v^2> / 2 per disc. Samples are several collisions apart; N discs' energy
-// over one sample scatters by 1 / sqrt(N).
+// Each species has kT = <m v^2> / 2 per disc. Samples are several collisions apart. In one sample
+// the energy of N discs has a relative error of 1 / sqrt(N).
 TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energies") {
     const Communicator world = Communicator::world();
     TestScene scene = mixture({{100, 1.5, 8}, {200, 1, 2}, {300, 0.5, 0.5}}, 80, 0.2, 704);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of discs among fixed bodies.
+// Known results for discs among obstacles.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,9 +18,9 @@ namespace {
 
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 
-/// Fixed discs of radius 2 on a shaken square grid in a box of side 10 n, and discs of radius 0.25
-/// that do not meet between them. Between periodic sides the grid is moved, so that the sides cut
-/// the fixed discs.
+/// Fixed discs of radius 2 on a shaken square grid in a box of side 10 n, and between them discs of
+/// radius 0.25 that never collide with each other. With periodic sides the grid is shifted, so that
+/// the sides cut fixed discs.
 TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
     TestScene scene = empty_scene("Lorentz gas", 10 * static_cast<double>(n), 0.25, 1);
     Random random(701);
@@ -48,7 +48,7 @@ TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
     return scene;
 }
 
-/// A body in the middle and a segment; all that moved along the diagonal, where sides are periodic.
+/// An obstacle in the middle and a segment, both shifted along the diagonal if sides are periodic.
 TestScene sinai_billiard(bool is_periodic, double moved) {
     TestScene scene = empty_scene("Sinai's billiard", 20, 0.5, is_periodic ? 96 : 64);
     if (is_periodic) scene.setting.effects.boundaries.fill(periodic);
@@ -80,7 +80,7 @@ std::vector<DiscState> all_discs(const DiscSystem& system, const Communicator& w
 } // namespace
 
 // The mean free path of a billiard is pi (free area) / (perimeter): N. Chernov, J. Stat. Phys. 88,
-// 1 (1997). Here centres move: bodies are larger by a radius, the box is smaller.
+// 1 (1997). Here centres move, so obstacles are larger by a radius, and the box is smaller.
 TEST_CASE(
     "effects: the mean free path in a Lorentz gas is what geometry says, under both methods") {
     const Communicator world = Communicator::world();
@@ -96,16 +96,16 @@ TEST_CASE(
             const Totals end = run(scene, method, world);
             const double path = 400 * 0.5 * 512 / static_cast<double>(end.wall_collisions);
             CHECK(end.wall_collisions > 5000); // a relative error of 1.4 % at most
-            // In the time-stepped method a disc loses next to nothing: at most one collision in a
-            // step of a twentieth of a path.
+            // The time-stepped method loses hardly any collision, because a disc flies only a
+            // twentieth of a mean free path in a step.
             CHECK(path == Approx(known).epsilon(method == Method::time_stepped ? 0.05 : 0.03));
             CHECK(end.kinetic_energy == Approx(400 * 0.125).epsilon(1e-12));
         }
     }
 }
 
-// Sinai's billiard spreads an error of 1e-16 by a factor of some ten per collision: a dozen can be
-// taken back.
+// Sinai's billiard multiplies an error of 1e-16 by some ten in each collision, so a dozen
+// collisions can be reversed.
 TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls and periodic") {
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
@@ -151,10 +151,10 @@ TEST_CASE("effects: where the seams are in a periodic box is of no account, unde
 }
 
 // Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): fixed discs of radius R on a triangular
-// lattice with gaps w trap points in cells of area A. They hop to the next cell, l off, through
-// three gaps after a mean time of pi A / (3 w v): D = l^2 / 4 over that. It is right
-// for narrow gaps (Klages and Dellago, J. Stat. Phys. 101, 145 (2000)); 26 columns and 30 rows are
-// a lattice in a square to 0.1 %.
+// lattice with gaps w trap points in cells of area A. Points go to a neighbouring cell at the
+// distance l, through one of three gaps, after a mean time of pi A / (3 w v). So D = l^2 / 4
+// divided by this time. It holds for narrow gaps (Klages and Dellago, J. Stat. Phys. 101, 145
+// (2000)). 26 columns and 30 rows fit a square to 0.1 %.
 TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from trap to trap") {
     const Communicator world = Communicator::world();
     constexpr double w = 0.1, spacing = 2 + w, size = 26 * spacing, point = 0.001;
@@ -177,13 +177,15 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
     }
     DiscSystem system = system_of(scene, Method::event_driven, world);
     std::vector<DiscState> before = all_discs(system, world);
-    std::vector<double> x(before.size(), 0), y(before.size(), 0); // since the lag began
+    // displacements since the lag began
+    std::vector<double> x(before.size(), 0), y(before.size(), 0);
     double squares_at_first_lag = 0, squares_at_lag = 0;
     for (std::int64_t step = first_lag; step <= scene.steps; step += first_lag) {
         advance_to(system, step);
         const std::vector<DiscState> now = all_discs(system, world);
         double squares = 0;
-        for (std::size_t i = 0; i < now.size(); ++i) { // none flies half the box in so many steps
+        // in so many steps no disc flies through half the box
+        for (std::size_t i = 0; i < now.size(); ++i) {
             x[i] += std::remainder(now[i].x - before[i].x, size);
             y[i] += std::remainder(now[i].y - before[i].y, size);
             squares += x[i] * x[i] + y[i] * y[i];
@@ -202,7 +204,7 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
     const double hop = spacing / std::sqrt(3.0), residence = std::numbers::pi * area / (3 * w);
     CHECK(measured ==
           Approx(hop * hop / (4 * residence))
-              .epsilon(0.07)); // a standard error of 1.8 %, and what the theory leaves out
+              .epsilon(0.07)); // a standard error of 1.8 %, and corrections to the theory
 }
 
 TEST_CASE("effects: discs that fall through elastic pins keep their energy, and lossy ones come to "
@@ -242,7 +244,7 @@ TEST_CASE("effects: discs of several species meet obstacles where their own radi
     scene.setting.effects.fixed_bodies = {
         {{50, 50, 4}}, {{50, 0, 50, 19.25}, {50, 20.75, 50, 45}}, 1};
     add_disc(scene, 10, 50, 2, 0);
-    add_disc(scene, 20, 20, 2, 0); // to a slit of 1.5
+    add_disc(scene, 20, 20, 2, 0); // a disc that flies to a slit of 1.5
     add_disc(scene, 90, 50, -2, 0);
     add_disc(scene, 40, 20.1, 2, 0);
     for (const Method method : {Method::time_stepped, Method::event_driven}) {

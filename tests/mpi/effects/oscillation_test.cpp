@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls that oscillate: bits of the plain statement of the method, and a ball on a shaken plate
-// beside its own path in long double.
+// Walls that oscillate: the bits of the reference, and a ball on a shaken plate compared with its
+// path in long double.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,8 @@ Boundary shaken(double amplitude, double period, double phase, double restitutio
     return {BoundaryKind::oscillating, restitution, 0, 0, amplitude, period, phase};
 }
 
-/// A ball above a plate, by small steps and halving. Heights are those of its lowest point.
+/// A ball above a plate, computed with small steps and bisection. Heights are those of the ball's
+/// lowest point.
 struct Ball {
     Long height, speed, gravity, amplitude, period, phase, restitution, time = 0;
     int n_hits = 0;
@@ -31,7 +32,8 @@ struct Ball {
     Long plate_speed(Long at) const {
         return amplitude * 2 * std::numbers::pi_v<Long> / period * std::cos(angle(at));
     }
-    /// By how much a hit makes errors larger at most: a later hit is by a plate of another speed.
+    /// The largest factor by which a hit multiplies errors, because a later hit meets the plate at
+    /// another speed.
     Long growth() const {
         const Long rate = 2 * std::numbers::pi_v<Long> / period;
         return 2 + 2 * (1 + restitution) * amplitude * rate * rate / gravity;
@@ -61,7 +63,7 @@ struct Ball {
     }
 };
 
-/// A disc of radius 1 in a box of 40, before the wall `side`, which pulls it.
+/// A disc of radius 1 in a box of 40, near the wall `side`, to which gravity pulls it.
 TestScene ball_before(std::size_t side, const Ball& ball) {
     TestScene scene = empty_scene("ball on a plate", 40, 1, 400);
     const double sign = side % 2 == 0 ? 1 : -1, line = side % 2 == 0 ? 1 : 39;
@@ -72,7 +74,7 @@ TestScene ball_before(std::size_t side, const Ball& ball) {
     else
         add_disc(scene, 20, place, 0, speed);
     Effects& effects = scene.setting.effects;
-    // The sine of the other sign is half a turn later.
+    // A sine of the opposite sign is one half of a period later.
     effects.boundaries[side] = shaken(
         static_cast<double>(ball.amplitude), static_cast<double>(ball.period),
         static_cast<double>(ball.phase) + (side % 2 == 0 ? 0 : std::numbers::pi),
@@ -88,7 +90,7 @@ TEST_CASE("oscillation: a ball on a plate is where a plain search says, before a
     const Communicator world = Communicator::world();
     const std::vector<Ball> balls{{5, 0, 0.02, 0.5, 13, 0, 0.8},
                                   {3, 0.1, 0.1, 0.05, 0.7, 1, 0.9},  // a fast plate
-                                  {2, -0.2, 0.05, 1.5, 160, 2, 0.9}, // a slow one
+                                  {2, -0.2, 0.05, 1.5, 160, 2, 0.9}, // a slow plate
                                   {4, 0.2, 0.02, 0.3, 40, 4, 1}};
     for (const std::size_t side : {0u, 1u, 2u, 3u}) {
         for (Ball ball : balls) {
@@ -115,14 +117,15 @@ TEST_CASE("oscillation: a ball on a plate is where a plain search says, before a
     }
 }
 
-// Where the plate falls more slowly than the disc would, the disc stays on it.
+// If the plate falls more slowly than the disc would, the disc stays on it.
 TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
     const Communicator world = Communicator::world();
     for (const double restitution : {0.0, 0.5}) {
         TestScene scene = empty_scene("carried disc", 40, 1, 160);
         add_disc(scene, 20, 1.3, 0, 0);
         Effects& effects = scene.setting.effects;
-        effects.boundaries[2] = shaken(0.5, 40, 0, restitution); // 0.0123 of acceleration
+        // the plate's acceleration is 0.0123
+        effects.boundaries[2] = shaken(0.5, 40, 0, restitution);
         effects.gravity.y = -0.02;
         effects.contact.contact_time = 0.25;
         SceneParameters checked = scene_of(scene);
@@ -139,14 +142,14 @@ TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
                 CHECK(disc.vy == Approx(speed).margin(0.0325 * 0.25));
             }
         }
-        // Not much more often than once per contact time.
+        // Not many more than one in each contact time.
         CHECK(system.totals().wall_collisions < 960); // 1.5 times 160 / 0.25
     }
 }
 
 namespace {
 
-/// Gases and a rack, small ones: the reference searches all pairs.
+/// Small gases and a small rack, because the reference searches all pairs.
 std::vector<TestScene> few_discs() {
     std::vector<TestScene> scenes{gas(60, 0.1, 0.8, 531), gas(49, 0.5, 0.3, 532),
                                   break_shot(4, 0.5, 3, 0.1)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes held to the plain statements of both methods, bit for bit.
+// Compares scenes with the references of both methods, bit by bit.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,11 @@
 
 namespace carrom::test {
 
-/// Checks a scene against the rule's own statement: windows of several lengths, and a run that is
-/// stopped and begun again on the way. Shapes share the calls out (shape_parts.hpp).
-/// **Collective.**
+/// Compares a scene with the reference: windows of several lengths, and a run that is stopped and
+/// started again. The calls are divided among machine shapes (shape_parts.hpp). **Collective.**
 void check_bits(const TestScene& scene, Method method);
 
-/// A thin gas, a dense one, a rack that is broken and a cradle.
+/// A dilute gas, a dense one, a break shot and a cradle.
 std::vector<TestScene> base_scenes();
 
 } // namespace carrom::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rough discs: the references' bits, the plain dynamics' where they are smooth, and what mechanics
-// says of a collision.
+// Rough discs: the references' bits, the plain dynamics' bits if they are smooth, and collisions by
+// the laws of mechanics.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,7 +22,7 @@ ContactEffect rough(double restitution, double tangential, double friction, doub
     return {ContactKind::rough, restitution, 0.001, tangential, friction, inertia};
 }
 
-/// A disc as mechanics sees it.
+/// A disc as a rigid body.
 struct Solid {
     long double x, y, vx, vy, spin, radius, mass, inertia; ///< inertia in units of m r^2
 
@@ -30,13 +30,13 @@ struct Solid {
     long double energy() const {
         return 0.5L * mass * (vx * vx + vy * vy) + 0.5L * moment() * spin * spin;
     }
-    /// About a point.
+    /// Angular momentum about a point.
     long double angular_momentum(long double px, long double py) const {
         return mass * ((x - px) * vy - (y - py) * vx) + moment() * spin;
     }
 };
 
-/// Two discs that meet obliquely and turn already, before and after.
+/// Two spinning discs that collide obliquely, before and after.
 struct Meeting {
     std::array<Solid, 2> before, after;
 };
@@ -88,14 +88,14 @@ Meeting meet(const ContactEffect& contact, Method method, const Communicator& wo
                                 meeting.before[k].radius,
                                 meeting.before[k].mass,
                                 contact.inertia};
-            meeting.before[k].x += meeting.before[k].vx * row[6]; // both where they meet
+            meeting.before[k].x += meeting.before[k].vx * row[6]; // moves both to where they meet
             meeting.before[k].y += meeting.before[k].vy * row[6];
         }
     }
     return meeting;
 }
 
-/// Normal and tangential relative velocity of the surfaces where they touch.
+/// Normal and tangential relative velocity of the surfaces at the contact.
 std::array<long double, 2> surface_velocity(const std::array<Solid, 2>& pair) {
     const long double ex = pair[1].x - pair[0].x, ey = pair[1].y - pair[0].y,
                       length = std::sqrt(ex * ex + ey * ey);
@@ -152,10 +152,10 @@ TEST_CASE("effects: smooth discs are the plain dynamics to the bit, whatever the
     }
 }
 
-// Momentum, angular momentum of each disc about the point of contact (the impulse acts there),
-// restitution along and across the normal, and the energy that the formulas leave: with the reduced
-// mass m and a = q / (1 + q) of moments of inertia q m r^2, m/2 ((1 - e^2) g_n^2 + a (1 - b^2)
-// g_t^2) is lost where surfaces stick.
+// Checks momentum, the angular momentum of each disc about the point of contact (where the impulse
+// acts), both restitutions, and the energy that remains. With the reduced mass m and a = q / (1 +
+// q) for moments of inertia q m r^2, the loss is m/2 ((1 - e^2) g_n^2 + a (1 - b^2) g_t^2) if
+// surfaces stick.
 TEST_CASE("effects: a collision of rough discs conserves what it must, and loses what its "
           "coefficients say") {
     const Communicator world = Communicator::world();
@@ -194,7 +194,7 @@ TEST_CASE("effects: a collision of rough discs conserves what it must, and loses
                                           a * (1 - b * b) * slip * slip);
                 CHECK(energy(before) - energy(after) ==
                       Approx(static_cast<double>(lost)).margin(1e-14 * energy(before)));
-            } else { // slides: the tangential impulse is the friction's share of the normal one
+            } else { // if they slide, the tangential impulse is `friction` times the normal one
                 const long double push = reduced * (1 + contact.restitution) * std::fabs(normal) *
                                          contact.friction;
                 CHECK(static_cast<double>(std::fabs(slip - left)) ==
@@ -206,8 +206,8 @@ TEST_CASE("effects: a collision of rough discs conserves what it must, and loses
     }
 }
 
-// A gas of perfectly rough discs keeps its energy and shares it: one half of kT goes to each of
-// three ways to move.
+// A gas of perfectly rough discs conserves its energy and distributes it equally: kT / 2 for each
+// of the three degrees of freedom of a disc.
 TEST_CASE(
     "effects: a gas of perfectly rough discs keeps its energy, and a third of it goes to spins") {
     const Communicator world = Communicator::world();
@@ -224,8 +224,8 @@ TEST_CASE(
         CHECK(now.kinetic_energy + now.rotational_energy == Approx(start).epsilon(1e-12));
         share += now.rotational_energy / start / n_samples;
     }
-    // Of 3 N halves of kT, N are spins': the share scatters by 2/3 sqrt(1 / (3 N)) or so in a
-    // sample; samples are some ten collisions apart.
+    // Spins are N of the 3 N degrees of freedom. In one sample their share has an error of about
+    // 2/3 sqrt(1 / (3 N)); samples are some ten collisions apart.
     CHECK(share == Approx(1.0 / 3).margin(4 * 2.0 / 3 / std::sqrt(3 * 400.0 * n_samples)));
     CHECK(system.totals().overlapping_pairs == 0);
 }

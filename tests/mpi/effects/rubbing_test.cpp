@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls and obstacles that rub and slide: what mechanics says of a disc that meets one and of one
-// that rolls on a floor, the same bits on every machine shape, and what the check knows.
+// Walls and obstacles that rub and slide: collisions and rolling by the laws of mechanics, the same
+// bits on every machine shape, and the self-check.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -27,7 +27,7 @@ struct Motion {
     double vx = 0, vy = 0, spin = 0;
 };
 
-/// Of the scene's only disc, which begins with that spin. **Collective.**
+/// The motion of the scene's only disc, which begins with that spin. **Collective.**
 Motion motion_after(const TestScene& scene, double spin, Method method, const Communicator& world,
                     std::uint64_t n_bounces) {
     SceneParameters all = scene_of(scene);
@@ -57,12 +57,13 @@ Motion motion_after(const TestScene& scene, double spin, Method method, const Co
     return sum;
 }
 
-/// A body with an outward normal (nx, ny), whose surface goes by with u along (-ny, nx).
+/// A body with an outward normal (nx, ny), whose surface moves with u along (-ny, nx).
 struct Body {
     double nx, ny, u;
 };
 
-/// Along t = (-ny, nx), of the surface of a disc of radius 2 over the body's.
+/// The velocity along t = (-ny, nx) of the surface of a disc of radius 2 relative to the body's
+/// surface.
 double slip(const Motion& disc, const Body& body) {
     return disc.vy * body.nx - disc.vx * body.ny - body.u - 2 * disc.spin;
 }
@@ -71,8 +72,8 @@ double normal_of(const Motion& disc, const Body& body) {
     return disc.vx * body.nx + disc.vy * body.ny;
 }
 
-/// The impulse acts where the surfaces touch: it changes the angular momentum about the centre by
-/// -r times what it changes the momentum along t by.
+/// The impulse acts where the surfaces touch. So the change of angular momentum about the centre is
+/// -r times the change of momentum along t.
 void check_blow(const Motion& before, const Motion& after, const Body& body, const Surface& surface,
                 const ContactEffect& contact) {
     const double along = (after.vy - before.vy) * body.nx - (after.vx - before.vx) * body.ny;
@@ -87,7 +88,7 @@ void check_blow(const Motion& before, const Motion& after, const Body& body, con
         CHECK(along == Approx(h > 0 ? -most : most).epsilon(1e-12));
 }
 
-/// Of a disc of radius 2 that comes to the side from the middle of the box.
+/// A disc of radius 2 that flies from the middle of the box to the side.
 TestScene towards(std::size_t side, const Surface& surface, const ContactEffect& contact) {
     TestScene scene = empty_scene("to a wall", 64, 2, 50);
     constexpr std::array vx{-1.0, 1.0, 0.125, 0.125}, vy{0.125, 0.125, -1.0, 1.0};
@@ -119,7 +120,8 @@ TEST_CASE("effects: a wall that rubs acts on velocity and spin as mechanics says
                     const Motion before{scene.discs[0].vx, scene.discs[0].vy, turns ? 0.15 : 0};
                     const Motion after = motion_after(scene, before.spin, method, world, 1);
                     const auto [nx, ny] = normals[side];
-                    // The velocity of a side is along +x or +y, which is t or against it.
+                    // The velocity of a side is along +x or +y, which is the direction of t or the
+                    // opposite one.
                     const Body body{nx, ny, surface.velocity * (nx - ny)};
                     CHECK(normal_of(after, body) == Approx(0.75).epsilon(1e-12));
                     check_blow(before, after, body, surface, contact);
@@ -148,7 +150,7 @@ TEST_CASE("effects: obstacles that rub act on velocity and spin as mechanics say
                     const bool turns = contact.kind == ContactKind::rough;
                     const Motion before{1, 0.125, turns ? -0.2 : 0};
                     const Motion after = motion_after(scene, before.spin, method, world, 1);
-                    // The line of centres when surfaces touch; the segment's normal.
+                    // The line of centres when surfaces touch; for the segment its normal.
                     double nx = -40 / std::hypot(4, 40), ny = 4 / std::hypot(4, 40);
                     if (!is_segment) {
                         const double dx = 16 - 40, dy = 32 - 30, b = dx + 0.125 * dy,
@@ -167,9 +169,9 @@ TEST_CASE("effects: obstacles that rub act on velocity and spin as mechanics say
     }
 }
 
-// A disc that lies on a floor, and that gravity pulls to the right, too: it rolls with g_x / (1 +
-// q) if the friction can turn it, which takes mu g_y >= g_x q / (1 + q); otherwise it slides with
-// g_x - mu g_y, and mu g_y / (q r) turns it. The floor acts once in a contact time of 1/16.
+// A disc that lies on a floor while gravity also pulls it to the right. If mu g_y >= g_x q / (1 +
+// q), friction makes it roll with the acceleration g_x / (1 + q). Otherwise it slides with g_x - mu
+// g_y, and turns with mu g_y / (q r). The floor acts once in a contact time of 1/16.
 TEST_CASE(
     "effects: a rough disc that is pulled along a floor rolls, or slides, as mechanics says") {
     const Communicator world = Communicator::world();

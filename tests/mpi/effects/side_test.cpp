@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of walls that take energy, give it, or move.
+// Known results for walls that take energy, give energy, or move.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,14 +36,14 @@ TEST_CASE("effects: walls of one temperature give it to a gas, under both method
             side = {BoundaryKind::thermal, 1, 0.5, 0};
         DiscSystem system = system_of(scene, method, world);
         advance_to(system, 1500);
-        // E / N is T with the variance T^2 / N: 30 samples that are hardly correlated leave 1 % or
-        // so.
+        // E / N has the mean T and the variance T^2 / N. 30 nearly independent samples have an
+        // error of some 1 %.
         CHECK(mean_energy(system, 30, 150) == Approx(0.5).epsilon(0.04));
     }
 }
 
-// Without collisions discs from a wall of temperature T_k fill the box with a density ~ 1 /
-// sqrt(T_k): <v^2> / 2 = sqrt(T_1 T_2) (Knudsen's gas between two plates).
+// Without collisions, discs from a wall of temperature T_k fill the box with a density proportional
+// to 1 / sqrt(T_k), so <v^2> / 2 = sqrt(T_1 T_2) (Knudsen's gas between two plates).
 TEST_CASE("effects: an ideal gas between walls of two temperatures has their geometric mean") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(1000, 0.02, 0.5, 606);
@@ -53,7 +53,8 @@ TEST_CASE("effects: an ideal gas between walls of two temperatures has their geo
     effects.boundaries[1] = {BoundaryKind::thermal, 1, 9, 0};
     DiscSystem system = system_of(scene, Method::event_driven, world);
     advance_to(system, 4000);
-    // Slow discs stay long, so samples are correlated; single energies scatter by a few times 3.
+    // Slow discs take long to cross the box, so samples are correlated; energies of single discs
+    // vary by a few times 3.
     CHECK(mean_energy(system, 20, 400) == Approx(3).epsilon(0.06));
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("effects: walls take what their restitution says") {
         add_disc(scene, 8, 8, 1, 0);
         scene.setting.effects.boundaries[0].restitution = 0.5;
         scene.setting.effects.boundaries[1].restitution = 0.25;
-        scene.steps = 40; // right at 7, then 14 / 0.25 = 56 steps back
+        scene.steps = 40; // reaches the right side at 7, then flies 14 / 0.25 = 56 steps back
         CHECK(run(scene, method, world).kinetic_energy == 0.5 * 0.0625);
         scene.steps = 70;
         CHECK(run(scene, method, world).kinetic_energy == 0.5 * 0.0625 * 0.25);
@@ -81,7 +82,7 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     advance_to(system, scene.steps);
     long double x = 40, v = 0.7, t = 0;
     int n = 0;
-    for (;; ++n) { // between the wall at 1 and the piston at 101 - u t
+    for (;; ++n) { // flies between the wall at 1 and the piston at 101 - u t
         const long double speed = -static_cast<long double>(u);
         const long double to_piston = (101 + speed * t - x) / (v - speed),
                           to_wall = v < 0 ? (1 - x) / v : 1e9L;
@@ -99,8 +100,8 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     }
 }
 
-// A wall catches up with a disc that gravity pulls away from it: of x = d + (v - u) t + g t^2 / 2 =
-// 0 the first root. At the end the disc is far from where any wall has been.
+// A wall hits a disc that gravity pulls away from it, at the first root of x = d + (v - u) t + g
+// t^2 / 2 = 0. At the end the disc is far from all positions of the wall.
 TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
     const Communicator world = Communicator::world();
     for (const std::size_t side : {0u, 1u, 2u, 3u}) {
@@ -124,7 +125,7 @@ TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
         const long double after = 2.0L * u - (v + g * hit), rest = 32 - hit;
         const long double x = u * hit + after * rest +
                               0.5L * g * rest *
-                                  rest; // of the disc's edge, from where the wall began
+                                  rest; // position of the disc's edge relative to the wall's start
         CHECK(system.totals().wall_collisions == 1);
         for (const DiscState& disc : system.shown()) {
             const double at = side < 2 ? disc.x : disc.y,
@@ -134,9 +135,9 @@ TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
     }
 }
 
-// All four walls move in: each component of a velocity times its length is an adiabatic invariant,
-// so E L^2 (p V^2, V = L^2) stays; and every impulse J of a wall with the speed u does the work J
-// u.
+// All four walls move in. Each component of a velocity times its length is an adiabatic invariant,
+// so E L^2 is constant (p V^2 with V = L^2). An impulse J of a wall with the speed u does the work
+// J u.
 TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is the work done") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(1500, 0.01, 1, 607);
@@ -150,7 +151,7 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     system.log_to(&log);
     const double length = scene.setting.box_size - 2 * scene.setting.radius;
     const double start = system.totals().kinetic_energy;
-    const auto steps = static_cast<std::int64_t>(length / (8 * u)); // L falls by a quarter
+    const auto steps = static_cast<std::int64_t>(length / (8 * u)); // L decreases by a quarter
     advance_to(system, steps);
     const double end = system.totals().kinetic_energy,
                  now = length - 2 * u * static_cast<double>(steps);
@@ -164,8 +165,8 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     CHECK(end > 1.7 * start);
 }
 
-// Discs that do not meet leave when each one's flight, unfolded at the closed walls, says; they
-// stand where they left.
+// Discs that never collide leave at the time and place that follow from their flights, unfolded at
+// the closed walls. They stay where they left.
 TEST_CASE("effects: discs leave through open sides when their flights say, and are counted") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thermostats: the same bits on every machine shape, what each keeps, and what the check knows.
+// Thermostats: the same bits on every machine shape, what each conserves, and the self-check.
 #include <cmath>
 #include <span>
 #include <string>
@@ -26,8 +26,8 @@ std::vector<Thermostat> thermostats() {
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 constexpr Boundary sheared{BoundaryKind::sheared, 1, 0, 0};
 
-/// Plain discs, rough ones, and those of two species, between walls, periodic or sheared sides;
-/// they lose energy in collisions.
+/// Plain discs, rough ones, and discs of two species, between walls, periodic or sheared sides.
+/// They lose energy in collisions.
 std::vector<TestScene> driven_scenes() {
     std::vector<TestScene> scenes;
     for (const char* sides : {"walls", "periodic", "sheared"}) {
@@ -47,7 +47,7 @@ std::vector<TestScene> driven_scenes() {
             if (sides != std::string("walls")) effects.boundaries.fill(periodic);
             if (sides == std::string("sheared")) {
                 effects.boundaries[2] = effects.boundaries[3] = sheared;
-                effects.shear = 0.004; // over a height of 56: twice the speed of discs
+                effects.shear = 0.004; // this shear over a height of 56 is twice the speed of discs
             }
             scenes.push_back(scene);
         }
@@ -87,7 +87,7 @@ TEST_CASE("effects: a check finds out what a thermostat has not given") {
     SceneParameters other = scene_of(scene);
     other.method = Method::event_driven;
     other.effects.thermostat = {};
-    other.effects.contact.kind = ContactKind::restitution; // as there are effects at all
+    other.effects.contact.kind = ContactKind::restitution; // the scene must have effects
     DiscSystem system = system_of(scene, Method::event_driven, world);
     system.check_every_step(other);
     CHECK_THROWS_AS(advance_to(system, 30), CheckFailure);
@@ -103,7 +103,7 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
         const double n = 200;
         scene.setting.effects.thermostat = thermostats()[3];
         DiscSystem rescaled = system_of(scene, Method::event_driven, world);
-        advance_to(rescaled, 20); // a multiple of 5
+        advance_to(rescaled, 20); // a sync, because 20 is a multiple of 5
         Totals totals = rescaled.totals();
         double mass = 0, momentum_x = 0, momentum_y = 0;
         for (const InputDisc& disc : scene.discs) {
@@ -124,7 +124,7 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
     }
 }
 
-// Their mean velocity is a rounding off theirs: that rounding must not be multiplied to a heat.
+// The mean velocity differs from theirs by a rounding error, which must not be amplified to heat.
 TEST_CASE("effects: discs that all fly alike stay so when velocities are rescaled") {
     const Communicator world = Communicator::world();
     for (const double mass : {0.1, 0.3, 0.37, 7.7}) {
@@ -164,7 +164,7 @@ TEST_CASE("effects: discs that become too fast to be counted end the run with a 
     }
 }
 
-// Without collisions each disc is alone: after a time t the mean squares are known.
+// Without collisions discs are independent, so the mean squares after a time t are known.
 TEST_CASE(
     "effects: free discs between kicks, new velocities and Ornstein and Uhlenbeck's process") {
     const Communicator world = Communicator::world();

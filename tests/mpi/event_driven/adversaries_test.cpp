@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes made to break windows that are replayed in blocks: signals that travel any distance in no
-// time, blows from where a block does not search, ties on every boundary, speeds that no bound
-// foresees. And the validation switched off, which must be seen to matter.
+// Scenes in which block runs fail most easily: chains of collisions that cross any distance in no
+// time, hits from beyond a block's halo, equal times on every boundary, and speeds beyond any
+// bound. Also a test that results are wrong without the validation.
 #include <cmath>
 #include <string>
 
@@ -15,7 +15,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// A line of still, touching discs with room at both ends; the first is struck.
+/// A line of touching discs at rest with room at both ends; the first one is hit.
 TestScene struck_line(std::size_t n, bool along_y) {
     TestScene scene = empty_scene("struck line of " + std::to_string(n),
                                   static_cast<double>(n) + 24, 0.5, 12);
@@ -25,8 +25,8 @@ TestScene struck_line(std::size_t n, bool along_y) {
     return along_y ? transposed(scene) : shuffled(scene, n);
 }
 
-/// Many short touching lines in a field of still discs, each struck at one end while a window is
-/// under way.
+/// Many short lines of touching discs among discs at rest. Each line is hit at one end in the
+/// middle of a window.
 TestScene struck_lines(std::uint64_t seed) {
     Random random(seed);
     TestScene scene = empty_scene("struck lines, seed " + std::to_string(seed), 96, 0.5, 16);
@@ -58,7 +58,7 @@ TestScene shock() {
     return shuffled(scene, 77);
 }
 
-/// Rows of discs that all but touch their six neighbours; some are kicked.
+/// Rows of discs that nearly touch their six neighbours; some discs get a velocity.
 TestScene tight_hexagons() {
     TestScene scene = empty_scene("hexagonal lattice, gaps of 1e-12", 40, 0.5, 4);
     const double spacing = 1 + 1e-12;
@@ -75,7 +75,7 @@ TestScene tight_hexagons() {
     return scene;
 }
 
-/// Every contact at a multiple of 1/8, as are the windows' ends.
+/// Every contact is at a multiple of 1/8, and so are the ends of windows.
 TestScene dyadic_ties() {
     TestScene scene = lattice(20, 1.5);
     scene.name = "dyadic ties";
@@ -141,7 +141,7 @@ TEST_CASE("exact: without the validation the struck lines go wrong") {
     const Communicator world = Communicator::world();
     int n_wrong = 0;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        if (shape_part() && n_wrong > 3) break; // that will do
+        if (shape_part() && n_wrong > 3) break; // enough failures have been found
         TestScene scene = struck_lines(seed);
         const EventDrivenResult expected = expected_of(scene, world, 3000000);
         Shape shape = small_blocks(2, 1, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact engine against the event-driven reference, bit for bit, for windows over a factor of
-// 30, blocks, halos and strips of all kinds. ctest runs this for many numbers of ranks and threads.
+// The event-driven engine against the event-driven reference, bit by bit, for windows over a factor
+// of 30, and blocks, halos and strips of many kinds. ctest runs this for many numbers of ranks and
+// threads.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,13 +19,13 @@ using namespace carrom::test;
 
 namespace {
 
-/// Runs each scene in `n_shapes` ways; about `most_predictions` of the reference's predicates to
-/// each.
+/// Runs each scene in `n_shapes` ways. The reference of each computes about `most_predictions`
+/// predicates.
 void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n_shapes,
                              std::size_t most_predictions) {
     const Communicator world = Communicator::world();
     const auto machine = static_cast<std::size_t>(
-        world.size() + omp_get_max_threads()); // other ways on other shapes
+        world.size() + omp_get_max_threads()); // other machine shapes make other runs
     for (std::size_t s = 0; s < scenes.size(); ++s) {
         TestScene scene = scenes[s];
         if (scene.cascades_when_event_driven || !is_wanted(scene, s)) continue;
@@ -49,12 +50,13 @@ void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n
     }
 }
 
-/// Gases of ten thousand discs, thin, of middling density, and dense: about `n_collisions` for each
-/// disc.
+/// Dilute, moderately dense, and dense gases of ten thousand discs, with about `n_collisions` for
+/// each disc.
 std::vector<TestScene> cascades(double n_collisions) {
     std::vector<TestScene> scenes;
     for (const auto& [packing, collisions_per_step] :
-         {std::pair{0.1, 0.047}, {0.4, 0.36}, {0.65, 1.48}}) { // Enskog's
+         // packings, and collision rates by Enskog
+         {std::pair{0.1, 0.047}, {0.4, 0.36}, {0.65, 1.48}}) {
         TestScene scene = gas(10000, packing, 0.125, 3000 + scenes.size());
         scene.steps = static_cast<std::int64_t>(std::ceil(n_collisions / collisions_per_step));
         scenes.push_back(shuffled(scene, 3000));

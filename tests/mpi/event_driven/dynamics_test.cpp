@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the event-driven method keeps whatever happens: energy, discs that do not overlap, the same
-// state at every stop and after every restart; and what it refuses.
+// Conservation of energy, no overlaps, and the same state at every stop and after every restart, in
+// the event-driven method. Also the scenes that it rejects.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -42,7 +42,8 @@ double deepest_overlap(const std::vector<DiscState>& discs, double time, double 
     return deepest;
 }
 
-/// Collisions of pairs neither of which has met anything else since it met the other.
+/// Collisions of pairs that have collided with each other before, with no other collision of either
+/// disc in between.
 std::size_t n_repeated(std::vector<Collision> log, std::size_t n_discs) {
     const auto key = [](const Collision& c) {
         return std::tuple(static_cast<double>(c.micro_step) + c.time, c.generation, c.p,
@@ -62,7 +63,7 @@ std::size_t n_repeated(std::vector<Collision> log, std::size_t n_discs) {
     return n;
 }
 
-/// What ends a run of the scene; empty if nothing does.
+/// The message with which a run of the scene ends early; empty if it does not.
 std::string failure_of(const TestScene& scene, const Communicator& world, int& code) {
     try {
         DiscSystem system = start(scene, world);

@@ -18,8 +18,8 @@ namespace carrom::test {
 
 namespace {
 
-/// Two scenes that follow each other differ in one respect, so neighbours go to different parts,
-/// and so do every n-th. Where many threads would run at once, every second one has no shape.
+/// Successive scenes differ in one respect, so neighbours go to different parts, and so do every
+/// n-th ones. If many threads would run at once, every second scene has no part.
 bool belongs_to_part(std::size_t number, int n_threads) {
     const std::optional<ShapePart> part = shape_part();
     if (!part) return true;
@@ -50,7 +50,8 @@ EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
             }
             expected = {hash_of(reference.discs()), reference.wall_collisions(),
                         reference.pair_collisions()};
-        } catch (const std::runtime_error&) { // a step too much; `expected` is what was before it
+        } catch (const std::runtime_error&) {
+            // The reference gave up a step; `expected` has the state before it.
         }
     }
     world.broadcast(expected);

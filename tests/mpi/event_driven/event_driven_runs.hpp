@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of the event-driven method on all ranks, and what they must give.
+// Runs of the event-driven method on all ranks, and their expected results.
 #pragma once
 
 #include "event_driven/event_driven_engine.hpp"
@@ -16,13 +16,13 @@ struct EventDrivenResult {
     friend bool operator==(const EventDrivenResult&, const EventDrivenResult&) = default;
 };
 
-/// Whether the scene, `number` in its list, is to be run: it belongs to the shape's part
-/// (shape_parts.hpp), and $CARROM_TEST_SCENE, if set, is a part
-/// of its name (to inspect one scene).
+/// Whether to run the scene with this number in its list. It must belong to the part of this
+/// machine shape (shape_parts.hpp). If $CARROM_TEST_SCENE is set, the scene's name must contain it,
+/// which serves to inspect one scene.
 bool is_wanted(const TestScene& scene, std::size_t number);
 
-/// What the event-driven reference gives, worked out on rank 0. Cuts the scene's steps short where
-/// the reference would take long: its price is the number of discs per event. **Collective.**
+/// The result of the event-driven reference, computed on rank 0. Reduces the scene's steps if the
+/// reference would take long, because it costs N predicates per event. **Collective.**
 EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
                               std::size_t most_predictions);
 
@@ -31,22 +31,21 @@ struct Shape {
     BlockTuning exact;
 };
 
-/// A way to run a scene: windows, blocks, halo, cuts. The numbers meet one another in many
-/// combinations.
+/// A setting for a run: windows, blocks, halo, cuts. Successive numbers give many combinations.
 Shape shape_number(std::size_t number, double diameter_time);
 
-/// Windows of `window` micro-steps, and blocks of `side` reaches that look `halo` reaches further.
+/// Windows of `window` micro-steps, and blocks of `side` reaches with a halo of `halo` reaches.
 Shape small_blocks(double window, int halo, double side);
 
-/// A run from arbitrary shares of the discs, in an arbitrary order. **Collective.**
+/// A run in which each rank starts with random discs in a random order. **Collective.**
 EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape,
                                    const Communicator& world, unsigned seed);
 
-/// The share of rank `world.rank()` when discs are dealt at random.
+/// The share of rank `world.rank()` when discs are distributed at random.
 DiscStates dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed);
 
-/// The time in which the fastest disc goes one diameter, in micro-steps; a 60th of the run if that
-/// is longer.
+/// The time in micro-steps in which the fastest disc flies one diameter; at least a 60th of the
+/// run.
 double diameter_time(const TestScene& scene);
 
 } // namespace carrom::test

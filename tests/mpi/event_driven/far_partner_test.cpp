@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run may be wrong in its halo, and what is wrong there may be fast. Then a disc from beyond the
-// ring strikes an own disc in the block's middle, and neighbours do not inspect either. The ring's
-// histories show nothing (docs/understanding/method.md, section 9.3): partners are checked as well.
+// A block run may be wrong in its halo, and a wrong disc there may be fast. Such a disc may come
+// from beyond the ring and hit an own disc in the middle of the block. The histories of the ring do
+// not show that (docs/understanding/method.md, section 9.3), so partners are checked as well.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -17,10 +17,10 @@ using namespace carrom::test;
 
 namespace {
 
-/// Blocks of 18 x 18 in a box of 54 whose floor is very hot. Disc 0 falls towards the floor, near
-/// the end of what the block in the corner sees. Disc 1, which that block does not see, turns it
-/// away in time. Without disc 1 it leaves the floor a thousand times faster, towards disc 2 in the
-/// middle of the corner's block. Returns a scene without steps if the draw leads elsewhere.
+/// Blocks of 18 x 18 in a box of 54 with a very hot floor. Disc 0 falls towards the floor, near the
+/// end of the halo of the block in the corner. Disc 1, which is not in this halo, deflects it in
+/// time. Without disc 1 it leaves the floor a thousand times faster, towards disc 2 in the middle
+/// of the corner's block. Returns a scene without steps if this draw leads elsewhere.
 TestScene hot_floor(std::uint64_t seed) {
     TestScene scene = empty_scene("hot floor, seed " + std::to_string(seed), 54, 0.5, 3);
     scene.setting.sync_every = 3;
@@ -33,8 +33,8 @@ TestScene hot_floor(std::uint64_t seed) {
     add_disc(scene, 30.3 + 0.8 * meeting, 0.95 - 0.6 * meeting, -0.8, 0.6);
     const auto [away, along] = scene.setting.thermal_draw(floor, 0, 0, 2);
     const double speed = std::sqrt(along * along + away * away);
-    const double x = along / speed, y = away / speed; // the direction
-    const double cosine = 0.5 / speed; // of a graze that gives disc 2 a velocity of 1/2
+    const double x = along / speed, y = away / speed; // direction of the flight
+    const double cosine = 0.5 / speed; // for a graze that gives disc 2 a velocity of 1/2
     const double side = std::sqrt(1 - cosine * cosine);
     const double way = 20.5 / -x;
     add_disc(scene, 9 + side * y, 0.5 + way * y - side * x);

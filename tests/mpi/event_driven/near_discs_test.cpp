@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A block's run may get discs of its ring wrong if these cannot meet an own disc. How far a disc
-// can come depends on how fast it becomes in the window, which its owner may know alone
-// (docs/understanding/method.md, section 8.2). In these scenes two discs at rest, more than a
-// diameter on either side of a block's end, are struck by others that the block beyond it does not
-// see, and meet.
+// can come depends on its largest speed in the window, which possibly only its owner knows
+// (docs/understanding/method.md, section 8.2). In these scenes there are two discs at rest, more
+// than a diameter away from a block's end on either side. Discs that the other block does not
+// contain hit them, so that they meet.
 #include <cstdint>
 #include <string>
 
@@ -16,8 +16,8 @@ using namespace carrom::test;
 
 namespace {
 
-/// Pairs of rows of discs of diameter 1 at rest that nearly touch, each pair in a square of its
-/// own. A disc strikes each row from its far end, so that the near ends fly towards each other.
+/// Pairs of rows of discs of diameter 1 at rest that nearly touch, each pair in its own square. A
+/// disc hits each row at its far end, so that the near ends fly towards each other.
 TestScene rows_that_meet(std::uint64_t seed) {
     constexpr double square = 9;
     constexpr int n_squares = 5;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a block run is checked by comparing event histories (docs/understanding/method.md,
-// section 9.4). The obvious simpler rule marks discs instead. A run accepts itself unless a marked
-// disc has touched one of its own, directly or through others. It is wrong, and this file keeps the
-// smallest scenes that show it.
+// Why a block run is checked by comparing event histories (docs/understanding/method.md, section
+// 9.4). The obvious simpler rule marks discs instead. A run counts as correct unless a marked disc
+// has touched one of its own discs, directly or through others. This rule is wrong, and this file
+// keeps the smallest scenes that show it.
 //
-// The simpler rule lives here only, on top of the reference engine. Marking is as careful as it can
-// be: every disc that is not the block's own is marked from the start.
+// The simpler rule exists only here, on top of the reference engine. Marking is as careful as
+// possible: every disc that is not an own disc of the block is marked from the start.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// A block owns [low, high) of x and sees `halo` reaches more on either side.
+/// A block that owns [low, high) of x and has a halo of `halo` reaches on either side.
 struct Column {
     double low = 0, high = 0;
     bool owns(const InputDisc& disc) const { return disc.x >= low && disc.x < high; }
@@ -117,8 +117,8 @@ bool are_equal(const std::vector<InputDisc>& a, const std::vector<InputDisc>& b)
         });
 }
 
-/// A row of halo + 1 still discs that touch, the first one left of x = 6. A block that ends there
-/// and searches `halo` reaches further sees all of them. It does not see the disc that strikes the
+/// A row of halo + 1 touching discs at rest, the first one left of x = 6. A block that ends there,
+/// with a halo of `halo` reaches, contains all of them. It does not contain the disc that hits the
 /// last one half-way through the step.
 TestScene unseen_blow(int halo) {
     TestScene scene = empty_scene("unseen blow, halo " + std::to_string(halo), 16, 0.5, 1);
@@ -130,8 +130,8 @@ TestScene unseen_blow(int halo) {
     return scene;
 }
 
-/// Rows of touching discs at rest across the cut at x = 12, each struck by a disc from the right,
-/// and a few discs that wander about.
+/// Rows of touching discs at rest across the cut at x = 12, each hit by a disc from the right, and
+/// a few other discs.
 TestScene random_rows(std::uint64_t seed) {
     Random random(seed);
     TestScene scene = empty_scene("rows, seed " + std::to_string(seed), 24, 0.5, 4);
@@ -150,7 +150,7 @@ TestScene random_rows(std::uint64_t seed) {
     return shuffled(scene, seed);
 }
 
-/// A run of the engine that searches `halo` reaches around blocks of `side` reaches.
+/// A run of the engine with blocks of `side` reaches and halos of `halo` reaches.
 EventDrivenResult by_engine(const TestScene& scene, int halo, double side) {
     const Shape shape = small_blocks(1, halo, side);
     return run_event_driven(scene, shape, Communicator::world(), 1);
@@ -166,7 +166,8 @@ TEST_CASE("exact: marks passed on by collisions miss a blow that nobody sees") {
         REQUIRE(scene.discs.size() == static_cast<std::size_t>(halo) + 2);
         const std::vector<InputDisc> expected = by_reference(scene);
         CHECK(expected.front().vx == -0.0625);
-        CHECK(by_simpler_rule(scene, 6, halo).front().vx == 0); // it still waits for its blow
+        // By the simpler rule the disc has not been hit
+        CHECK(by_simpler_rule(scene, 6, halo).front().vx == 0);
         CHECK(are_equal(by_simpler_rule(scene, 6, 2 * halo), expected));
         const EventDrivenResult bits = expected_of(scene, world, 1000000);
         for (const double side : {1.0, 2.5, 100.0}) CHECK(by_engine(scene, halo, side) == bits);
@@ -183,5 +184,5 @@ TEST_CASE("exact: marks passed on by collisions go wrong in random scenes, histo
         INFO(scene.name);
         CHECK(by_engine(scene, 2, 1 + static_cast<double>(seed % 4)) == bits);
     }
-    CHECK(n_wrong == 34); // as docs/understanding/method.md says
+    CHECK(n_wrong == 34); // the number in docs/understanding/method.md
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discs of several sizes in levels of cells have the reference's bits, in blocks with halos and in
-// runs of the whole box, between walls and periodic sides, at rest and growing.
+// runs of the whole box, between walls and periodic sides, with constant and growing radii.
 #include <array>
 #include <cmath>
 #include <string>
@@ -18,7 +18,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// Discs at random without overlaps in a box whose sides go round where they are periodic.
+/// Discs at random without overlaps, in a box that may be periodic along each axis.
 TestScene mixture(const std::vector<Species>& species, double box_size, double speed,
                   std::uint64_t seed, bool round_x, bool round_y) {
     TestScene scene = empty_scene("mixture " + std::to_string(seed), box_size,
@@ -37,7 +37,8 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     return scene;
 }
 
-/// Largest first. In the second the small ones fly several large diameters in a micro-step.
+/// Largest discs first. In the second mixture small discs fly several large diameters in a
+/// micro-step.
 std::vector<TestScene> mixtures(bool round_x, bool round_y) {
     std::vector<Species> many;
     for (int k = 0; k < 12; ++k)
@@ -61,7 +62,8 @@ std::string hash_of_run(const TestScene& scene, const Shape& shape, const Commun
     return to_string(StateHash{sums[0], sums[1]});
 }
 
-/// In many windows and blocks, with a level for each octave of sizes, and as the engine chooses.
+/// Runs with many windows and blocks, with a level for each octave of sizes and with the levels
+/// that the engine chooses.
 template <class Dynamics> void check_levels(TestScene scene, const Communicator& world) {
     INFO(scene.name);
     const std::string expected = to_string(expected_of(scene, world, 20000000).hash);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine of GPUs with its kernels on the CPU: its bits are those of the brute-force reference
-// on the scenes that tests share, and all that it adds up is what the engine of CPUs adds up.
+// The GPU engine with its kernels on the CPU: it has the bits of the brute-force reference in the
+// scenes that tests share, and its sums equal those of the CPU engine.
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -42,7 +42,7 @@ std::unique_ptr<Engine> cpu_engine(const SceneParameters& scene, StoredState sta
     return make_time_stepped_engine(scene, std::move(state), Communicator::world(), tuning);
 }
 
-/// All that two engines must have in common at a step.
+/// Everything that must be equal in two engines at a step.
 struct Sums {
     Totals totals;
     double stress[4] = {};
@@ -96,7 +96,7 @@ void check_against_reference(const std::vector<test::TestScene>& scenes) {
     }
 }
 
-/// A gas in a box of these sides, with discs of these species, or of one size.
+/// A gas with these effects, of discs of these species, or of one size.
 test::TestScene gas_with(const Effects& effects, double speed, std::uint64_t seed) {
     test::Random random(seed);
     test::TestScene scene = test::empty_scene("gas", 36, 1, 24);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of the kernels alone, against plain statements of what they do.
+// Single kernels against plain code with the same results.
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -19,7 +19,7 @@ TEST_CASE("sums in pieces are the exact sums of the host") {
         ExactSum exact(bound);
         std::vector<StressPieces> stripes(5);
         for (std::size_t k = 0; k < 1000; ++k) {
-            // From terms of less than a unit to the largest that a sum may have.
+            // Terms from less than a unit to the largest possible one
             const double term = random.uniform(-1, 1) * bound *
                                 std::ldexp(0x1p-11, -static_cast<int>(random.index(130)));
             exact.add(term);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A GPU against the serial device, without MPI and files: `device_table bits`, `device_table small`
-// and `device_table speed [largest N]` print a table each, and end with 1 where bits differ.
+// Compares a GPU with the serial device, without MPI and files: `device_table bits`, `device_table
+// small` and `device_table speed [largest N]` print a table each, and end with 1 if bits differ.
 //
-// "small" is what compute-sanitizer has time for. The speed of a gas is that of the issue of GPUs:
-// packing 0.2, speeds up to r/2 in a micro-step, or up to r/100.
+// "small" is small enough for compute-sanitizer. "speed" has gases of packing 0.2 with speeds up to
+// r/2, or up to r/100, in a micro-step.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,7 +36,7 @@ const DeviceKind& gpu() {
 #ifdef CARROM_HAS_CUDA
     return cuda_device();
 #else
-    return serial_device(); // so that the program itself can be tried
+    return serial_device(); // this program can be tried without a GPU, too
 #endif
 }
 

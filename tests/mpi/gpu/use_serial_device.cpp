@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linked into a copy of the program, gives it the serial device for a GPU.
+// Linked into a copy of the program, it provides the serial device in place of a GPU.
 #include "gpu/gpu.hpp"
 #include "gpu/serial_device.hpp"
 

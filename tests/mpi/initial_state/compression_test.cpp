@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dense starts by compression: held to distances of all pairs, and to the discs that one rank makes
-// alone.
+// Dense starts by compression, compared with the distances of all pairs and with the discs that one
+// rank makes alone.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ TEST_CASE("compressed discs do not overlap, and are the same on any ranks and th
           std::string("discs.count=200 discs.packing=0.2")}) {
         INFO(overrides);
         const SceneParameters scene = compressed_scene(overrides);
-        // Threads of more ranks would wait for each other.
+        // With several ranks, threads would wait for each other.
         const int n_threads = world.size() == 1 && scene.n_discs == 150 ? 2 : 1;
         const std::vector<InputDisc> all = on_root(
             first_discs(scene, nullptr, world, with_threads(n_threads)), world);
@@ -109,7 +109,8 @@ TEST_CASE("compressed discs do not overlap, and are the same on any ranks and th
             Communicator::of_this_rank());
         CHECK(all == alone);
         REQUIRE(all.size() == scene.n_discs);
-        // Walls take no drift away, so velocities are the drawn ones, scaled.
+        // Between walls the drift is not subtracted, so velocities are the drawn ones times a
+        // factor.
         const bool has_walls = !scene.effects.is_periodic_x() && !scene.effects.is_periodic_y();
         const double scale = all[0].vx / drawn_velocity(scene, 0).x;
         bool are_right = true;
@@ -124,7 +125,8 @@ TEST_CASE("compressed discs do not overlap, and are the same on any ranks and th
         CHECK(square == Approx(0.25 * 0.25 * static_cast<double>(all.size())).epsilon(1e-13));
         const double gap = least_gap(all, scene);
         CHECK(gap > 0);
-        if (scene.packing() > 0.5) CHECK(gap < 1e-3 * scene.radius); // they have come that near
+        // gaps are as small as required
+        if (scene.packing() > 0.5) CHECK(gap < 1e-3 * scene.radius);
     }
 }
 

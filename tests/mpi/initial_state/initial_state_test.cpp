@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first discs against references written without ranks, grids or chunks. Every rank count must
-// pass, so every rank count gives the same discs.
+// The first discs, compared with references without ranks, grids or chunks. Every number of ranks
+// must give the same discs.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ Discs all_by_id(const Discs& mine) {
     return all;
 }
 
-/// What velocities become, with long sums in the order of ids: those that are drawn, without drift
+/// The expected velocities, with long sums in the order of ids: drawn velocities without the drift
 /// along periodic axes, scaled to the energy of the scene.
 void give_velocities_by_hand(const SceneParameters& scene, Discs& discs) {
     const auto mass_of = [&](DiscId id) -> long double {
@@ -103,7 +103,7 @@ void give_velocities_by_hand(const SceneParameters& scene, Discs& discs) {
     }
 }
 
-/// Places are the same bits, velocities the same to rounding.
+/// Positions must be equal, velocities equal to rounding.
 void check_generated(const Discs& mine, const Discs& reference) {
     const Discs all = all_by_id(mine);
     if (!ranks().is_root()) return;
@@ -150,8 +150,8 @@ Discs inserted_by_the_rule(const SceneParameters& scene) {
     return discs;
 }
 
-/// The legacy generator, as one would write it in C: plain `rand`, all earlier discs compared. Sine
-/// and cosine are rounded correctly, because those of C libraries differ between processors.
+/// The legacy generator as written in C: plain `rand`, and a comparison with all earlier discs.
+/// Sine and cosine are rounded correctly, because those of C libraries differ between processors.
 Discs legacy_by_hand(std::uint64_t n, double box, double r) {
     std::srand(3210);
     const auto uniform = [](double low, double high) {
@@ -185,7 +185,7 @@ struct Listing {
     std::unique_ptr<std::istringstream> stream;
 };
 
-/// A listing as the program opens it: rank 0 has the stream, all have the scene.
+/// A list as the program opens it: rank 0 has the stream, all ranks have the scene.
 Listing listing_of(const std::string& text) {
     auto stream = std::make_unique<std::istringstream>(text);
     const SceneText input = read_scene_text(*stream, "t.in");
@@ -364,15 +364,16 @@ TEST_CASE("wrong lines are the same problems on every rank") {
 
 TEST_CASE("a start that jams gives way to the next one on any number of ranks") {
     std::size_t n_jams = 0;
-    const int n_seeds = ranks().size() == 1 ? 6 : 2; // jams are a thousand rounds of talk
+    const int n_seeds = ranks().size() == 1 ? 6 : 2; // a jam takes a thousand rounds of messages
     for (int seed = 1; seed <= n_seeds; ++seed) {
         CAPTURE(seed);
         SceneParameters scene = scene_of({"discs.radius=2.05", "discs.count=4",
                                           "discs.generator=lattice",
                                           fmt::format("discs.seed={}", seed)});
-        scene.generator = Generator::random; // the reader never asks for that at such a packing
+        // the reader of scenes rejects this generator at such a packing
+        scene.generator = Generator::random;
         const Discs by_the_rule = inserted_by_the_rule(scene);
-        // If the first start jams, the rule ends where it would end without that start.
+        // If the first start jams, the result is the one without this start.
         const Point without_first = places_by_the_rule(scene, 1).front();
         n_jams += by_the_rule.front().x == without_first.x &&
                   by_the_rule.front().y == without_first.y;
@@ -383,9 +384,11 @@ TEST_CASE("a start that jams gives way to the next one on any number of ranks") 
 }
 
 TEST_CASE("discs that jam in every try are refused on every rank") {
-    if (ranks().size() > 2) return; // a hundred thousand rounds of talk, which tell no more
+    // a jam takes a hundred thousand rounds of messages, and more ranks test nothing else
+    if (ranks().size() > 2) return;
     SceneParameters scene = scene_of(
         {"discs.radius=2.49", "discs.count=4", "discs.generator=lattice"});
-    scene.generator = Generator::random; // the reader never asks for that at such a packing
+    // the reader of scenes rejects this generator at such a packing
+    scene.generator = Generator::random;
     CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
 }

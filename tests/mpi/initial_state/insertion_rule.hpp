@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rule of random insertion without ranks, grids or batches, to compare with.
+// A plain implementation of random insertion, without ranks, grids or batches, for comparison.
 #pragma once
 
 #include <algorithm>
@@ -34,12 +34,11 @@ struct BoxOfRule {
     }
 };
 
-/// The rule of random insertion, word for word: all pairs, round after round, the largest discs
-/// first. Where sides are periodic, with all images. After 10000 rounds without a place all starts
-/// anew, with other numbers.
+/// Random insertion with all pairs, round after round, the largest discs first. Periodic sides have
+/// all images. After 10000 rounds without a placed disc it starts again, with other numbers.
 inline std::vector<Point> places_by_the_rule(const SceneParameters& scene, std::uint64_t start) {
     const BoxOfRule box(scene);
-    std::vector<double> radii; // by disc
+    std::vector<double> radii; // radius of each disc
     for (const Species& one : scene.effects.species)
         radii.insert(radii.end(), one.count, one.radius);
     radii.resize(scene.n_discs, scene.radius);
@@ -47,8 +46,9 @@ inline std::vector<Point> places_by_the_rule(const SceneParameters& scene, std::
     std::vector<int> placed_in(scene.n_discs, -1);
     const std::set<double> all_radii(radii.begin(), radii.end());
     for (auto radius = all_radii.rbegin(); radius != all_radii.rend(); ++radius) {
-        for (int& round : placed_in) round = round >= 0 ? 0 : -1; // before round 1, the first one
-        int last_round = 0; // in which a disc has found a place
+        // discs that have a place got it before round 1
+        for (int& round : placed_in) round = round >= 0 ? 0 : -1;
+        int last_round = 0; // last round in which a disc was placed
         const auto n_waiting = [&] {
             std::size_t n = 0;
             for (DiscId id = 0; id < scene.n_discs; ++id)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of discs that all ranks read at once, against the text that they were made from, and the
-// messages about wrong ones against those of a single reader.
+// Files of discs that all ranks read at once, compared with the text that they were made from.
+// Error messages are compared with those of a single reader.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ const Communicator& ranks() {
     return world;
 }
 
-/// A file that rank 0 writes and removes. **Collective.**
+/// A file that rank 0 writes, and removes at the end. **Collective.**
 class ListFile {
 public:
     explicit ListFile(const std::string& text)
@@ -56,7 +56,8 @@ SceneParameters scene_of(const std::string& file, std::size_t n_discs) {
                       "scene.toml");
 }
 
-/// A line for each of n discs, in an order in which all ranks' shares of ids stand in all parts.
+/// A line for each of n discs, in an order that mixes the ranks' shares of ids in all parts of the
+/// file.
 Texts lines_of(std::size_t n) {
     Texts lines;
     for (std::size_t k = 0; k < n; ++k) {
@@ -73,7 +74,7 @@ std::string joined(const Texts& lines, const std::string& end) {
     return text;
 }
 
-/// All discs on every rank, by id. Ids on ranks are those of their shares.
+/// All discs on every rank, by id. Each rank must have read the ids of its share.
 Discs read_all(const std::string& text, std::size_t n_discs) {
     const ListFile file(text);
     const SceneParameters scene = scene_of(file.name(), n_discs);
@@ -162,7 +163,7 @@ TEST_CASE("a fault in any part of a file gives the messages of one reader") {
             const Texts expected = problems_of_one_reader(text, n);
             INFO("line " << place << ": " << line.substr(0, 20));
             CHECK(problems_on_all(text, n) == expected);
-            // A mark of byte order is right in the first line; a line may be in its place.
+            // A byte order mark is allowed in the first line, and a line may be unchanged.
             if (!line.starts_with("\xEF") && line != lines[place]) CHECK(!expected.empty());
         }
     }

@@ -31,11 +31,11 @@ SceneParameters scene_of(const Texts& overrides) {
 
 struct Sums {
     double momentum_x = 0, momentum_y = 0, energy = 0, mass = 0;
-    std::vector<double> energies; ///< of each species
+    std::vector<double> energies; ///< energy of each species
     StateHash hash;
 };
 
-/// Plain sums over the discs of one rank alone.
+/// Plain sums over the discs of a single rank.
 Sums sums_of(const SceneParameters& scene, const std::vector<InputDisc>& discs) {
     Sums sums;
     sums.energies.resize(std::max<std::size_t>(1, scene.effects.species.size()));
@@ -85,7 +85,7 @@ TEST_CASE("generated discs have the energy that is asked for, and no drift along
                     const double scale = std::sqrt(2 * sums.energy * sums.mass),
                                  x = std::fabs(sums.momentum_x) / scale,
                                  y = std::fabs(sums.momentum_y) / scale;
-                    // A drawn sample's momentum is of the order of scale / sqrt(n).
+                    // A random sample has a momentum of about scale / sqrt(n).
                     if (all == walls) CHECK(x > 1e-4);
                     if (all != walls) CHECK(x < 1e-15);
                     if (all != round) CHECK(y > 1e-4);
@@ -98,7 +98,7 @@ TEST_CASE("generated discs have the energy that is asked for, and no drift along
 
 TEST_CASE("a temperature is that of every species, but for chance") {
     const Sums sums = sums_of(scene_of({species, "discs.temperature=2"}));
-    // The energy of n discs scatters by 1/sqrt(n).
+    // The energy of n discs has a relative error of 1 / sqrt(n).
     CHECK(sums.energies[0] / 300 == Approx(2).epsilon(4 / std::sqrt(300.0)));
     CHECK(sums.energies[1] / 500 == Approx(2).epsilon(4 / std::sqrt(500.0)));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints on 1 to 7 ranks: what is read is what was written, to the bit; the file does not show
-// who wrote it; a damaged one is noticed by all ranks.
+// Checkpoints on 1 to 7 ranks: what is read equals what was written, bit by bit; the file does not
+// depend on the ranks that wrote it; all ranks notice a damaged one.
 #include "checkpoint_tools.hpp"
 
 using namespace carrom;
@@ -135,14 +135,15 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
             write_checkpoint(folder.file(name), header, mine, world, settings, {}, columns.spans());
         };
         write("a.h5", 0, {1});
-        if (n == 777)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
-        write("b.h5", 1, {3});                                            // nor on the threads
-        write("c.h5", 2, {2, true});                                      // nor on who writes
+        // The file depends neither on the clock, nor on the number of threads, nor on the ranks
+        // that write.
+        if (n == 777) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+        write("b.h5", 1, {3});
+        write("c.h5", 2, {2, true});
         const std::string bytes = bytes_of(folder.file("a.h5"));
         const bool same_bytes = bytes == bytes_of(folder.file("b.h5")) &&
                                 bytes == bytes_of(folder.file("c.h5"));
-        CHECK(same_bytes); // not told byte by byte
+        CHECK(same_bytes); // one check, because one for each byte would print too much
     }
     if (world.is_root()) {
         const std::filesystem::directory_iterator files(folder.file("")), end;
@@ -168,7 +169,7 @@ TEST_CASE("what cannot be written is an error on every rank, and the older file 
         }
         CHECK(code == 4);
     }
-    if (world.is_root()) { // what was begun is gone
+    if (world.is_root()) { // the unfinished file is gone
         const std::filesystem::directory_iterator files(folder.file("")), end;
         CHECK(std::distance(files, end) == 2);
     }

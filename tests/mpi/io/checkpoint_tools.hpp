@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs and headers for tests of checkpoints, and what reading a checkpoint ends with.
+// Discs and headers for tests of checkpoints, and the error with which reading ends.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 
 namespace carrom::test {
 
-/// A folder for all ranks, gone at the end.
+/// A folder of all ranks, removed at the end.
 class TestFolder {
 public:
     explicit TestFolder(const Communicator& world)
@@ -51,7 +51,7 @@ private:
     std::string path_;
 };
 
-/// A disc whose numbers nobody would make up: every value that doubles have is fine in a state.
+/// A disc with unusual numbers: a state may contain any value of a double.
 inline DiscState odd_disc(DiscId id) {
     std::mt19937_64 random(id + 1);
     DiscState disc;
@@ -80,7 +80,7 @@ inline SideColumns spins_of(const std::vector<DiscState>& discs) {
     return columns;
 }
 
-/// The discs 0 .. n-1 on ranks by a rule that leaves some with none, in no order.
+/// Discs 0 .. n-1 in no order, distributed so that some ranks may have none.
 inline std::vector<DiscState> share(std::uint64_t n, const Communicator& world, unsigned method) {
     std::vector<DiscState> mine;
     const auto size = static_cast<std::uint64_t>(world.size());
@@ -125,8 +125,8 @@ inline std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The text and code of the error that reading ends with, the same on every rank; empty if it is
-/// read.
+/// The text and code of the error with which reading ends, the same on every rank; empty if the
+/// file can be read.
 inline std::string problem_of(const std::string& path, const Communicator& world) {
     try {
         read_checkpoint(path, world);

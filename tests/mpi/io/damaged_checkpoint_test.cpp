@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A damaged or forged checkpoint is an error on every rank, which names what is damaged.
+// A damaged or forged checkpoint is an error on every rank, and the message names the damaged part.
 #include "checkpoint_tools.hpp"
 
 using namespace carrom;
@@ -75,8 +75,8 @@ TEST_CASE("damage is told by the data set that it is in") {
 
 namespace {
 
-/// Flips one bit of each of these bytes in turn; every time all ranks must notice. Returns how many
-/// went unnoticed.
+/// Flips one bit of each of these bytes in turn, which all ranks must notice. Returns how many were
+/// not noticed.
 int unnoticed_flips(const std::vector<std::size_t>& places, const Communicator& world) {
     const TestFolder folder(world);
     const std::string path = folder.file("a.h5");
@@ -113,15 +113,14 @@ TEST_CASE("random flipped bits are noticed") {
 
 TEST_CASE("a flipped bit in any byte is noticed", "[.long]") {
     const Communicator world = Communicator::world();
-    std::vector<std::size_t> places(40000); // more than the file has
+    std::vector<std::size_t> places(40000); // more flips than the file has bytes
     for (std::size_t k = 0; k < places.size(); ++k) places[k] = k;
     CHECK(unnoticed_flips(places, world) == 0);
 }
 
 namespace {
 
-/// Gives a changed file the checksums that a writer would have given it, without those of
-/// `dropped`.
+/// Writes correct checksums into a changed file, without those of `dropped`.
 void write_checksums_again(const std::string& path, const std::string& dropped) {
     h5::File file = h5::open_file(path, h5::Access::write);
     Checksums sums;
@@ -157,7 +156,7 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
     samples.sums = {1, 2, 3};
     samples.have_first_places = samples.have_lengths = samples.have_velocities = true;
     samples.have_images = true;
-    for (DiscId id = 0; id < 20; ++id) // fewer than a piece: all are rank 0's
+    for (DiscId id = 0; id < 20; ++id) // less than one piece, so all discs are on rank 0
         if (world.is_root())
             samples.first_places.push_back({id, 0.01, 0.02, 1, -2, 0.1, 0.2, 3, -4});
     write_checkpoint(whole, some_header(), share(20, world, 0), world, {}, samples);
@@ -182,7 +181,7 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
         CHECK(problem.find("has no " + name) != std::string::npos);
         for (const double number : {std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::infinity(), 1e300}) {
-            // Any finite number is a velocity.
+            // Any finite number can be a velocity.
             if (std::isfinite(number) && column.is_there == &StoredSamples::have_velocities)
                 continue;
             const std::string other = forged("", [&](hid_t file) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder that another one replaces in the middle of a write: nothing gets a name in the other.
+// Another folder takes the place of a folder during a write. No file may get its name in the other
+// folder.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -30,7 +31,7 @@ TEST_CASE("files: a held folder keeps its files when another folder takes its na
     fs::create_directories(run + "/deep");
     auto held = std::make_unique<HeldFolder>(run);
     replace_file(run + "/deep/a", "mine");
-    replace_file(run + "//b", "mine"); // scenes may write two slashes
+    replace_file(run + "//b", "mine"); // paths in scenes may have two slashes
     CHECK(text_of(run + "/deep/a") == "mine");
     CHECK(text_of(run + "/b") == "mine");
 
@@ -39,7 +40,8 @@ TEST_CASE("files: a held folder keeps its files when another folder takes its na
         fs::create_directories(run + "/deep");
         std::ofstream(run + "/deep/a") << "another's";
     };
-    // The file is complete in the old folder, or begun in the new one, when it gets its name.
+    // In the first call the folder is replaced when the file is complete, in the second one it has
+    // been replaced before.
     CHECK_THROWS_AS(replace_file(run + "/deep/a",
                                  [&](const std::string& beside) {
                                      std::ofstream(beside) << "newer";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories and logs of collisions on 1 to 7 ranks: what is read is what was given, in order;
-// going on cuts back.
+// Trajectories and logs of collisions on 1 to 7 ranks: what is read equals what was given, in
+// order, and a restart cuts the file back.
 #include "io/trajectory.hpp"
 
 #include <filesystem>
@@ -62,7 +62,7 @@ TrajectoryLayout layout_of(std::uint64_t n) {
     return layout;
 }
 
-/// Whether rank 0 reads just these frames; true elsewhere.
+/// Whether rank 0 reads exactly these frames; true on other ranks.
 bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps,
            const Communicator& world, bool are_turning = false, double box_size = 64) {
     world.barrier();
@@ -120,7 +120,7 @@ TEST_CASE("frames are read as they were given, in the order of ids") {
             CHECK(is_right({}));
             append(0);
             append(7);
-            CHECK(is_right({})); // not yet committed
+            CHECK(is_right({})); // the frames are not yet committed
             trajectory.commit();
             CHECK(is_right({0, 7}));
             trajectory.describe();
@@ -141,13 +141,14 @@ TEST_CASE("going on takes a trajectory back to its last commit, and further back
             killed.append(step, share(300, step, world), 1.5);
             if (step == 5) killed.commit();
         }
-    } // never committed: as if killed
+    } // frames that are never committed, as after a kill
     Trajectory trajectory(path, layout_of(300), world);
     trajectory.go_on(20);
     trajectory.commit();
     CHECK(holds(path, 300, {0, 1, 2, 3, 4, 5}, world));
     trajectory.go_on(2);
-    CHECK(holds(path, 300, {0, 1, 2, 3, 4, 5}, world)); // the run may not begin yet
+    // cutting back changes nothing before the run begins
+    CHECK(holds(path, 300, {0, 1, 2, 3, 4, 5}, world));
     trajectory.commit();
     CHECK(holds(path, 300, {0, 1, 2}, world));
     trajectory.append(4, share(300, 4, world), 1.5);
@@ -185,10 +186,10 @@ TEST_CASE("going on to another last step gives its frames the box of that step")
         Trajectory killed(path, layout_with(80), world);
         killed.go_on(299);
         CHECK(holds(path, 40, steps, world, false, 64));
-    } // never committed
+    } // frames that are never committed
     CHECK_THROWS_AS(Trajectory(path, layout_of(41), world).go_on(299), CollectiveError);
     CHECK(holds(path, 40, steps, world, false, 64));
-    for (const double box_size : {80.0, 72.0}) { // longer, shorter
+    for (const double box_size : {80.0, 72.0}) { // a longer box, then a shorter one
         Trajectory trajectory(path, layout_with(box_size), world);
         trajectory.go_on(steps.back());
         trajectory.commit();
@@ -223,7 +224,7 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     const TestFolder folder(world);
     const std::string path = folder.file("c.h5");
     const auto append = [&](CollisionLog& log, std::int64_t begin, std::int64_t end) {
-        std::vector<LoggedCollision> mine; // a slice of them
+        std::vector<LoggedCollision> mine; // a rank has a slice of them
         const std::int64_t n = end - begin, p = world.size(), r = world.rank();
         for (std::int64_t k = begin + n * r / p; k < begin + n * (r + 1) / p; ++k)
             mine.push_back(collision(k));
@@ -254,7 +255,7 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
         killed.commit();
         CHECK(holds_log(40000));
         append(killed, 40000, 50000);
-        CHECK(holds_log(40000)); // not yet committed
+        CHECK(holds_log(40000)); // later rows are not yet committed
     }
     CollisionLog log(path, layout_of(100).system, world);
     log.go_on(100000);
@@ -263,13 +264,13 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     if (world.is_root()) CHECK(log.gaps() == std::vector<std::int64_t>{4001, 100000});
     log.go_on(1234);
     if (world.is_root()) CHECK(log.gaps().empty());
-    CHECK(holds_log(40000)); // the run may not begin yet
+    CHECK(holds_log(40000)); // cutting back changes nothing before the run begins
     log.commit();
     CHECK(holds_log(12340));
     append(log, 12340, 12350);
     log.commit();
     CHECK(holds_log(12350));
-    append(log, 12350, 400000); // over several segments
+    append(log, 12350, 400000); // so many rows lie in several segments
     log.commit();
     CHECK(holds_log(400000));
     CHECK((!world.is_root() || std::filesystem::exists(folder.file("c/0002.h5"))));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that a program changes between steps, copies in memory, and arrays by id: against what two
-// discs must do, against runs that were never cut, and on one rank against all ranks.
+// Discs that a program changes between steps, copies in memory, and arrays by id. They are compared
+// with two discs computed by hand, with uninterrupted runs, and on one rank with all ranks.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Scene periodic_gas(const char* method, std::int64_t steps) {
     return scene;
 }
 
-/// Turns all discs round.
+/// Reverses the velocities of all discs.
 void reverse(Simulation& simulation) {
     std::vector<Disc> discs = simulation.discs();
     for (Disc& disc : discs) disc.vx = -disc.vx, disc.vy = -disc.vy;
@@ -50,7 +50,8 @@ TEST_CASE("changes: a disc that is turned round comes back from where it was") {
     std::vector<Disc> discs = simulation.discs();
     for (Disc& disc : discs) disc.vx = -2, disc.y = 30;
     simulation.change_discs(discs);
-    simulation.advance(20); // from 30 to the wall at 5 in 12.5 steps, and back for 7.5 steps
+    // The disc flies from 30 to the wall at 5 in 12.5 steps, and back for 7.5 steps
+    simulation.advance(20);
     discs = simulation.gathered_discs();
     if (session.is_root())
         CHECK(discs ==
@@ -88,7 +89,7 @@ TEST_CASE("changes: what is there already changes no bit, and copies go on alike
         CHECK(cut.averages().first_step == 0);
         Simulation twin = cut.copy();
         CHECK(hash_of(twin) == before);
-        reverse(cut); // the twin does not follow
+        reverse(cut); // the copy is not affected
         CHECK(hash_of(cut) != before);
         CHECK(hash_of(twin) == before);
         twin.advance_to_end();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints and trajectories of the library: a run that is taken apart and put together again is
-// the uninterrupted one, and files show the discs that the simulation had.
+// Checkpoints and trajectories of the library: a run with stops and restarts equals the
+// uninterrupted one, and files contain the discs of the simulation.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST_CASE("checkpoints are written on a schedule, and the newest of a folder is 
     whole.keep_checkpoints({.folder = place, .every_steps = 12, .keep = 3});
     whole.advance_to(11);
     CHECK(names().empty());
-    whole.advance(30); // past steps 12, 24 and 36
+    whole.advance(30); // beyond steps 12, 24 and 36
     MPI_Barrier(MPI_COMM_WORLD);
     CHECK(names() == std::vector<std::string>{name(12), name(24), name(36)});
     {
@@ -99,7 +99,7 @@ TEST_CASE("checkpoints are written on a schedule, and the newest of a folder is 
         CHECK(hash_of(second) == hash_of(whole));
     }
     MPI_Barrier(MPI_COMM_WORLD);
-    const std::vector<std::string> last = names(); // older ones are removed beside the steps
+    const std::vector<std::string> last = names(); // older ones are removed while steps go on
     CHECK(std::count(last.begin(), last.end(), name(48)) == 1);
     CHECK(std::count(last.begin(), last.end(), name(50)) == 1);
     CHECK(std::count(last.begin(), last.end(), name(12)) == 0);
@@ -257,7 +257,7 @@ TEST_CASE("checkpoints and trajectories do not replace what is no plain file") {
     Simulation simulation(session, gas("event-driven", 1));
     const std::string pipe = folder.file("pipe"), victim = folder.file("victim");
     const std::string device = folder.file("device");
-    bool has_device = false; // root alone may make one
+    bool has_device = false; // only root can make a device file
     if (session.is_root()) {
         CHECK(::mkfifo(pipe.c_str(), 0600) == 0);
         has_device = ::mknod(device.c_str(), S_IFCHR | 0600, makedev(1, 3)) == 0;

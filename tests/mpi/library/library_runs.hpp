@@ -10,7 +10,7 @@
 
 namespace carrom::test {
 
-/// 300 discs that meet each other and the walls some times.
+/// 300 discs that collide some times with each other and with walls.
 inline Scene gas(const char* method, std::int64_t steps) {
     Scene scene;
     scene.set("box.size", 60).set("discs.count", 300).set("discs.radius", 0.75);
@@ -39,7 +39,7 @@ inline Sums sums_of(const std::vector<Disc>& discs) {
     return sums;
 }
 
-/// The texts of an InputError's problems, place first; empty where `act` throws none.
+/// The texts of an InputError's problems, with their places; empty if `act` throws none.
 template <class Act> std::string problems_of(const Act& act) {
     try {
         act();
@@ -49,7 +49,7 @@ template <class Act> std::string problems_of(const Act& act) {
     return {};
 }
 
-/// The code of the CollectiveError that `act` throws; success where it throws none.
+/// The code of the CollectiveError that `act` throws; `success` if it throws none.
 template <class Act> ExitCode code_of(const Act& act) {
     try {
         act();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that are made in code, stepped and read: against what two discs must do, against sums over
-// the discs themselves, and on one rank against all ranks.
+// Scenes made in code. Results are compared with two discs computed by hand, with sums over the
+// discs, and on one rank with all ranks.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ TEST_CASE("two discs that meet head on swap their velocities") {
     const Session session;
     for (const char* method : {"time-stepped", "event-driven"}) {
         Scene scene = empty_box(method, 50);
-        // Given out of order: ids count.
+        // Discs in another order than their ids
         scene.set_discs(std::vector<Disc>{{.id = 1, .x = 80, .y = 50, .vx = -1},
                                           {.id = 0, .x = 20, .y = 50, .vx = 1}});
         Simulation simulation(session, scene);
@@ -48,7 +48,7 @@ TEST_CASE("two discs that meet head on swap their velocities") {
             continue;
         }
         CHECK(discs.size() == 2);
-        if (discs.size() != 2) continue; // the others are in the next run
+        if (discs.size() != 2) continue; // the check above has failed
         CHECK(discs[0] == Disc{.id = 0, .x = 20, .y = 50, .vx = -1, .pair_collisions = 1});
         CHECK(discs[1] == Disc{.id = 1, .x = 80, .y = 50, .vx = 1, .pair_collisions = 1});
     }
@@ -187,7 +187,8 @@ TEST_CASE("a pilot chooses the setting of a scene with an accuracy") {
     Scene scene;
     scene.set("box.size", 60).set("discs.count", 300).set("discs.radius", 0.75);
     scene.set("discs.speed", 0.5).set("discs.seed", 91).set("time.steps", 20);
-    scene.set("time.accuracy", 0.001); // less than a pilot can see, so the choice is known
+    // smaller than the resolution of a pilot, so the choice is known
+    scene.set("time.accuracy", 0.001);
     std::vector<std::string> lines;
     Options options;
     options.messages = [&lines](const std::string& line) { lines.push_back(line); };

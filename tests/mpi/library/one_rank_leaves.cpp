@@ -15,8 +15,7 @@ using namespace carrom;
 
 namespace {
 
-/// Calls after the end of MPI are errors, and what is left goes without a word. Returns an exit
-/// code.
+/// Calls after the end of MPI are errors, and destructors print nothing. Returns an exit code.
 int end_mpi_first() {
     const Session session;
     Simulation simulation(session, test::gas("event-driven", 20));

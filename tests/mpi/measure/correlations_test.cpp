@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Correlations over decades of time, against frames of all discs that are compared pair by pair;
-// a restart between samples.
+// Correlations over decades of time, compared with frames of all discs pair by pair; also with a
+// restart between samples.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,14 +16,14 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr int n_correlated = 1300; ///< more than a run of ids that a rank has
+constexpr int n_correlated = 1300; ///< more than the ids in one rank's run
 constexpr int n_light = 1100, sample_steps = 2, last_sample = 90;
 
-using SeenFrame = std::vector<SeenDisc>; ///< in the order of ids
+using SeenFrame = std::vector<SeenDisc>; ///< the discs of a frame, in the order of ids
 
 double mass_of_mixture(DiscId id) { return id < n_light ? 1 : 4; }
 
-/// Places are made continuous by nearest images, and seen from the centre of mass.
+/// Makes positions continuous by nearest images, relative to the centre of mass.
 void unwrap(std::vector<SeenFrame>& frames, double side) {
     for (std::size_t t = 1; t < frames.size(); ++t)
         for (std::size_t i = 0; i < frames[t].size(); ++i) {
@@ -44,7 +44,7 @@ void unwrap(std::vector<SeenFrame>& frames, double side) {
 
 constexpr int all_samples = last_sample + 1;
 
-/// What a row has from column "count" on, without errors, for ids from `begin` to `end` and origins
+/// The expected columns from "count" on, without errors, for ids from `begin` to `end` and origins
 /// from `first` to before `last`.
 std::vector<double> correlations_of(const std::vector<SeenFrame>& frames, int lag, int spacing,
                                     int begin, int end, double k, double overlap, int first = 0,
@@ -114,7 +114,7 @@ TEST_CASE("measurements: correlations are those of frames, pair by pair") {
         const int ends[][2] = {{0, n_correlated}, {0, n_light}, {n_light, n_correlated}};
         for (std::size_t table = 0; table < 3; ++table) {
             INFO(tables[table].name);
-            // 1, 2, 3, 4, then 6, 8, 12, 16 ... 64, and 96 is too long
+            // lags 1, 2, 3, 4, then 6, 8, 12, 16 ... 64; 96 is too long
             REQUIRE(tables[table].rows.size() == 12);
             for (const std::vector<double>& row : tables[table].rows) {
                 const int lag = static_cast<int>(row[0]) / sample_steps;

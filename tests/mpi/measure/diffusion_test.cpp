@@ -73,14 +73,15 @@ std::vector<Flying> all_flying(const DiscSystem& system, const Communicator& wor
     return all;
 }
 
-/// By hand: the run is sampled every step, in which no disc gets as far as half the box. Along
-/// periodic axes all is seen from the centre of mass.
+/// Computed by hand: the run is sampled every step, in which no disc flies through half the box.
+/// Along periodic axes positions are relative to the centre of mass.
 struct ByHand {
     double period_x, period_y;
     std::vector<double> masses;
     std::vector<Flying> before{}, first{};
     std::vector<std::array<double, 2>> flown{};
-    std::array<std::vector<double>, 4> squares{}, products{}; ///< of each time, over windows
+    /// at each time, averaged over windows
+    std::array<std::vector<double>, 4> squares{}, products{};
 
     void inspect(const std::vector<Flying>& now, std::size_t step) {
         const auto nearest = [](double d, double period) {
@@ -99,7 +100,7 @@ struct ByHand {
         for (auto& one : flown) one = {0, 0};
         add(now, 0);
     }
-    /// The mean of `number(i)`, or 0 where walls stop the centre of mass.
+    /// The mean of `number(i)` over the discs, or 0 if walls stop the centre of mass.
     template <class Number> double centre(double period, const Number& number) const {
         double sum = 0, mass = 0;
         for (std::size_t i = 0; i < masses.size(); ++i) {
@@ -198,7 +199,7 @@ TEST_CASE("measurements: diffusion is the same for who sees all discs drift") {
         advance_to(system, sampler, 65);
         return sampler.tables();
     };
-    // So few steps that rounding, which grows with each collision, stays far below the bound.
+    // Rounding errors grow with each collision. In so few steps they stay far below the bound.
     const std::vector<MeasuredTable> still = tables_with_drift(0), drifting = tables_with_drift(3);
     for (const auto& [table, column] :
          {std::pair{"diffusion", "D"}, std::pair{"velocity_autocorrelation", "squares"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured tables against what is known of gases.
+// Measured tables compared with known results for gases.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -14,8 +14,8 @@ using namespace carrom::test;
 
 namespace {
 
-/// The largest distance between a distribution that was counted in bins and the one that
-/// `cumulative` says, at the bins' ends.
+/// The largest distance between a distribution that was counted in bins and `cumulative`, at the
+/// ends of bins.
 template <class Cumulative>
 double largest_distance(const std::vector<double>& counts, const std::vector<double>& ends,
                         double all, const Cumulative& cumulative) {
@@ -31,7 +31,7 @@ constexpr double kolmogorov_one_in_a_thousand = 1.95;
 
 } // namespace
 
-// Summed over a fine grid of differences: of two independent points in [0, a] the difference d has
+// Summed over a fine grid of differences. The difference d of two independent points in [0, a] has
 // the density (a - |d|) / a^2.
 TEST_CASE("measurements: the share of ideal pairs is the integral of their differences' density") {
     const double a = 3, b = 2;
@@ -40,7 +40,7 @@ TEST_CASE("measurements: the share of ideal pairs is the integral of their diffe
         double sum = 0;
         for (int i = 0; i < n; ++i) {
             const double x = (i + 0.5) / n * r, height = std::sqrt(r * r - x * x);
-            // The integral over y of (b - y) / b^2, both signs of x and of y.
+            // The integral over y of (b - y) / b^2, times four for the signs of x and y.
             sum += 4 * (a - x) / (a * a) * (b * height - height * height / 2) / (b * b) * r / n;
         }
         CHECK(share_of_ideal_pairs(a, b, r) == Approx(sum).epsilon(1e-4));
@@ -64,8 +64,8 @@ TEST_CASE("measurements: discs that do not meet are anywhere: g is 1") {
     }
 }
 
-// Contact value: Z - 1 = 2 eta g(sigma); Henderson's g(sigma) = (1 - 7 eta / 16) / (1 - eta)^2
-// (Mol. Phys. 30, 971 (1975)).
+// The contact value g(sigma) follows from Z - 1 = 2 eta g(sigma). Henderson: g(sigma) = (1 - 7 eta
+// / 16) / (1 - eta)^2 (Mol. Phys. 30, 971 (1975)).
 TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sides, and g of hard "
           "discs") {
     const Communicator world = Communicator::world();
@@ -90,8 +90,8 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
                            n_samples * n,
                            maxwell) < kolmogorov_one_in_a_thousand / std::sqrt(n_samples * n));
 
-    // Bulk discs at this packing, and walls: Z_box = Z_bulk + 0.98 / sqrt(N)
-    // (docs/understanding/validation.md).
+    // Pressure of the bulk at this packing, and the effect of walls: Z_box = Z_bulk + 0.98 /
+    // sqrt(N) (docs/understanding/validation.md).
     const double pressure = n * kT / (scene.box.x * scene.box.x) * (1.57036 + 0.98 / std::sqrt(n));
     for (const char* side : {"left", "right", "bottom", "top"}) {
         const double measured_pressure = column_of(tables, "wall_pressure", side)[0],
@@ -101,8 +101,8 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
         CHECK(error < 0.05 * pressure);
         CHECK(measured_pressure == Approx(pressure).margin(4 * error));
     }
-    // Nothing inside a diameter; just outside, the contact value (less what g falls by in half a
-    // bin).
+    // g is 0 inside a diameter. Just outside it is the contact value, minus the decrease over half
+    // a bin.
     const std::vector<double> g = column_of(tables, "radial_distribution", "g");
     for (std::size_t k = 0; k < 40; ++k) CHECK(g[k] == 0);
     const double contact = (1 - 7 * eta / 16) / ((1 - eta) * (1 - eta));
@@ -115,7 +115,8 @@ TEST_CASE("measurements: the density over a thermal floor falls as the barometri
     test.setting.effects.contact.kind = ContactKind::none;
     test.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, 1, 0};
     const double height = 3 / (test.setting.box_size -
-                               2 * test.setting.radius); // the box is three heights high
+                               // the box is three times the height of the gas
+                               2 * test.setting.radius);
     test.setting.effects.gravity.y = -height;
     test.setting.sync_every = 16;
     test.steps = 100000;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Heaps at rest against statics: what the floor bears, and the forces across each height, at two
-// rates of syncs. And they have the same bits on every machine shape.
+// Heaps at rest compared with statics: the weight on the floor, and the forces across each height,
+// at two rates of syncs. Also the same bits on every machine shape.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -18,15 +18,15 @@ constexpr double g = 0.01, width = 24;
 constexpr std::int64_t at_rest = 320, end = 350;
 constexpr double n_rows = 8, row_height = width / n_rows;
 
-/// Discs of two sizes and masses, which fall on the floor of a box. Its sides are smooth, so they
-/// bear no weight.
+/// Discs of two sizes and masses that fall to the floor of a box with smooth walls, which bear no
+/// weight.
 TestScene heap(std::int64_t sync_every) {
     TestScene scene = empty_scene("a heap", width, 1, end);
     Random random(641);
     for (int k = 0; k < 80; ++k)
         add_disc(scene, 1.5 + 2.3 * (k % 10) + random.uniform(-0.1, 0.1),
                  1.5 + 2.3 * static_cast<double>(k / 10) + random.uniform(-0.1, 0.1));
-    random.shuffle(scene.discs); // the species do not lie on each other
+    random.shuffle(scene.discs); // mixes the species
     for (std::size_t k = 0; k < scene.discs.size(); ++k) scene.discs[k].id = k;
     scene.setting.sync_every = sync_every;
     Effects& effects = scene.setting.effects;
@@ -50,7 +50,7 @@ SceneParameters measured_heap(const TestScene& test) {
     return scene;
 }
 
-/// What lies higher than the lines of a row presses on them, as a mean over the row.
+/// The weight above the lines in a row of cells per length, averaged over the row.
 double pressure_in_row(const std::vector<SeenDisc>& discs, double low) {
     double sum = 0;
     for (const SeenDisc& disc : discs)
@@ -79,7 +79,7 @@ TEST_CASE("measurements: a heap at rest presses the floor and itself as statics 
                                   exchange = table_of(tables, "wall_exchange").rows.front();
         CHECK(walls[2] * width == Approx(40 * g + 40 * 2 * g).epsilon(0.01));
         CHECK(walls[10] == 0);                        // discs at rest do not collide
-        CHECK(exchange[4] == Approx(0).margin(1e-6)); // nor are they given energy
+        CHECK(exchange[4] == Approx(0).margin(1e-6)); // and they get no energy
         const std::vector<SeenDisc> discs = seen_discs(shared, world);
         const MeasuredTable& profiles = table_of(tables, "profiles");
         REQUIRE(profiles.rows.size() == 8);
@@ -87,7 +87,7 @@ TEST_CASE("measurements: a heap at rest presses the floor and itself as statics 
             const auto found = std::find(profiles.columns.begin(), profiles.columns.end(), name);
             return static_cast<std::size_t>(found - profiles.columns.begin());
         };
-        for (std::size_t row = 1; row < 4; ++row) { // below, the floor's discs lack its forces
+        for (std::size_t row = 1; row < 4; ++row) { // the lowest row lacks the floor's forces
             const double expected = pressure_in_row(discs, static_cast<double>(row) * row_height);
             INFO("row " << row << ", expected " << expected);
             CHECK(profiles.rows[row][column("vy")] == Approx(0).margin(1e-6));

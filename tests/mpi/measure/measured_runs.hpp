@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs that are measured, on all ranks.
+// Runs with measurements, on all ranks.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace carrom::test {
 
-/// Asks for the quantities that every box between walls has.
+/// Adds the quantities that can be measured in every box between walls.
 inline SceneParameters measured(const TestScene& test, Method method, std::int64_t every_steps,
                                 std::int64_t from_step = 0) {
     SceneParameters scene = scene_of(test);
@@ -32,7 +32,7 @@ inline SceneParameters measured(const TestScene& test, Method method, std::int64
     return scene;
 }
 
-/// The discs are dealt to the ranks by their ids, and run with all threads.
+/// Distributes the discs over the ranks by their ids, and uses all threads.
 inline DiscSystem system_of(const SceneParameters& scene, const TestScene& test,
                             const Communicator& world) {
     std::vector<InputDisc> mine;
@@ -46,7 +46,7 @@ inline DiscSystem system_of(const SceneParameters& scene, const TestScene& test,
     return {scene, std::move(mine), world, tuning};
 }
 
-/// To that step, sampling on the way.
+/// Advances to that step, with all samples that are due.
 inline void advance_to(DiscSystem& system, Sampler& sampler, std::int64_t step) {
     sampler.sample_if_due();
     while (system.step() < step) {
@@ -55,11 +55,11 @@ inline void advance_to(DiscSystem& system, Sampler& sampler, std::int64_t step) 
     }
 }
 
-/// Whether both are the same number, or none.
+/// Whether both numbers are equal, or both are NaN.
 inline bool are_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-/// Checks that a run that is stored at `stop` and goes on has the tables and averages at the end
-/// that it has without a stop.
+/// Checks that a run that is stored at `stop` and continued has the same tables and averages as one
+/// without a stop.
 inline void check_going_on(const SceneParameters& scene, const TestScene& test, std::int64_t stop,
                            std::int64_t last, const Communicator& world) {
     DiscSystem whole = system_of(scene, test, world);
@@ -95,7 +95,7 @@ inline void check_going_on(const SceneParameters& scene, const TestScene& test, 
     }
 }
 
-/// A disc as the box sees it now; velocities are per step.
+/// A disc in the box's coordinates, now; velocities are per step.
 struct SeenDisc {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;

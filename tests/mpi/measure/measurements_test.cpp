@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every count and sum of the tables, against one computed from all discs as the run shows them,
-// pair by pair; and the same after measuring has been stored and gone on with.
+// Every count and sum of the tables, compared with values computed from all discs, pair by pair;
+// also with a restart.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -21,7 +21,7 @@ struct Seen {
     double x = 0, y = 0, vx = 0, vy = 0;
 };
 
-/// All discs on every rank, ids ascending.
+/// All discs on every rank, by ascending id.
 std::vector<Seen> all_of(const DiscSystem& system, const Communicator& world) {
     std::vector<Seen> mine;
     const double unit = system.velocity_unit(), time = system.clock();
@@ -33,7 +33,7 @@ std::vector<Seen> all_of(const DiscSystem& system, const Communicator& world) {
     return all;
 }
 
-/// The tables as one would fill them by hand.
+/// The expected tables, computed in the simplest way.
 struct ByHand {
     std::vector<double> pairs = std::vector<double>(20, 0), vx = pairs, vy = pairs, speeds = pairs,
                         x = pairs, y = pairs, displacement;
@@ -170,7 +170,7 @@ TEST_CASE("measurements: what walls have got is what discs have lost") {
         test.setting.effects = each.effects;
         test.setting.sync_every = 16;
         test.steps = 80;
-        if (each.effects.drag != 0) continue; // it takes momentum too
+        if (each.effects.drag != 0) continue; // drag takes momentum, too
         const SceneParameters scene = measured(test, each.method, 8);
         DiscSystem system = system_of(scene, test, world);
         const Totals before = system.totals();
@@ -180,7 +180,8 @@ TEST_CASE("measurements: what walls have got is what discs have lost") {
         const auto n = static_cast<double>(after.n_discs);
         const auto impulse = [&, tables = sampler.tables()](const char* side) {
             const bool is_upright = side[0] == 'l' ||
-                                    side[0] == 'r'; // a piston changes the others' length
+                                    // a piston changes the length of the other sides
+                                    side[0] == 'r';
             double sum = 0;
             const std::vector<double> pressures = column_of(tables, "wall_pressure_history", side);
             for (std::size_t k = 0; k < pressures.size(); ++k) {
@@ -201,8 +202,7 @@ TEST_CASE("measurements: what walls have got is what discs have lost") {
         for (const char* side : {"left", "right", "bottom", "top"})
             collisions += column_of(sampler.tables(), "wall_pressure",
                                     std::string(side) + "_collisions")[0];
-        // A corner is two of them at once in the event-driven method, and counts once under the
-        // other.
+        // A corner is two collisions in the event-driven method, and one in the time-stepped one.
         CHECK(collisions == static_cast<double>(after.wall_collisions));
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi6 and Voronoi neighbours, against bisectors of all pairs and against lattices. Discs of
+// psi6 and Voronoi neighbours, compared with bisectors of all pairs and with lattices. Discs of
 // different radii have the neighbours of the radical tessellation.
 #include <cmath>
 #include <complex>
@@ -26,7 +26,7 @@ struct Case {
     Method method;
     Effects effects;
     std::size_t n_discs = 120;
-    double height = 1; ///< of the box, over its width
+    double height = 1; ///< height of the box over its width
 };
 
 std::vector<Case> cases() {
@@ -75,7 +75,7 @@ SceneParameters with_psi6(const TestScene& test, Method method) {
 struct Point {
     DiscId id = 0;
     double x = 0, y = 0;
-    double squared_radius = 0; ///< 0 if all are equal
+    double squared_radius = 0; ///< squared radius of the disc; 0 if all discs are equal
 };
 
 std::vector<Point> all_points(const DiscSystem& system, const Communicator& world) {
@@ -100,8 +100,9 @@ void set_radii(std::vector<Point>& points, const Effects& effects, double step) 
     }
 }
 
-/// Neighbours by the definition: some of the line from which tangents to both are equally long, the
-/// bisector if radii are equal, is in the box, and tangents to all others are longer.
+/// Neighbours by the definition. Consider the line of points with equally long tangents to both
+/// discs, which for equal radii is the bisector. Two discs are neighbours if some point of this
+/// line is in the box and tangents from it to all other discs are longer.
 class Bisectors {
 public:
     Bisectors(std::vector<Point> points, const Extent& box, bool is_periodic_x, bool is_periodic_y)
@@ -139,7 +140,7 @@ private:
                      share = 0.5 + (p.squared_radius - q.squared_radius) / (2 * square);
         const double x = p.x + share * (q.x - p.x), y = p.y + share * (q.y - p.y);
         double low = -1e9, high = 1e9;
-        const auto keep = [&](double slope, double limit) { // slope t <= limit
+        const auto keep = [&](double slope, double limit) { // keeps points with slope t <= limit
             if (slope > 0) high = std::min(high, limit / slope);
             if (slope < 0) low = std::max(low, limit / slope);
             if (slope == 0 && limit < 0) high = low;
@@ -161,7 +162,7 @@ private:
     Extent box_;
 };
 
-/// What the tables should have.
+/// The expected tables.
 struct ByHand {
     std::vector<double> psi6, neighbours = std::vector<double>(13, 0),
                               moduli = std::vector<double>(20, 0), pairs = moduli, g6 = moduli;
@@ -300,7 +301,7 @@ TEST_CASE("measurements: in a triangular lattice without end psi6 is 1") {
     CHECK(sums.neighbours[6] == 12 * 14);
     CHECK(sums.real.value() == Approx(12 * 14).epsilon(1e-13));
     CHECK(sums.imaginary.value() == Approx(0).margin(1e-10));
-    for (std::size_t k = 2; k < 10; ++k) // from the first neighbours on
+    for (std::size_t k = 2; k < 10; ++k) // bins from the first neighbours on
         CHECK(sums.products[k].value() ==
               Approx(static_cast<double>(sums.pairs[k])).epsilon(1e-12));
 }
@@ -315,8 +316,8 @@ TEST_CASE("measurements: in a piece of a triangular lattice psi6 is 1 inside") {
     const SceneParameters scene = scene_of(test);
     DiscSystem system = system_of(scene, test, world);
     const HexaticSums sums = hexatic_order(system, 1.5, 1000);
-    CHECK(sums.neighbours[6] >= 81); // those inside
-    CHECK(sums.moduli.back() >= 81); // from 0.999 on
+    CHECK(sums.neighbours[6] >= 81); // the discs inside
+    CHECK(sums.moduli.back() >= 81); // the bin from 0.999 on
     std::vector<Point> points;
     for (const InputDisc& disc : test.discs) points.push_back({disc.id, disc.x, disc.y});
     std::vector<double> counts(13, 0);
@@ -326,7 +327,7 @@ TEST_CASE("measurements: in a piece of a triangular lattice psi6 is 1 inside") {
     for (std::size_t k = 0; k < counts.size(); ++k)
         CHECK(static_cast<double>(sums.neighbours[k]) == counts[k]);
     CHECK(sums.real.value() == Approx(all.real()).margin(1e-9));
-    CHECK(std::abs(orders[60] - 1.0) < 1e-13); // the middle one
+    CHECK(std::abs(orders[60] - 1.0) < 1e-13); // the disc in the middle
 }
 
 TEST_CASE("measurements: a Voronoi cell of six equal neighbours is a hexagon") {

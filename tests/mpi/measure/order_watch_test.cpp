@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The order that a run watches is psi6 of its discs at the watch's own steps, does not depend on
-// ranks, and goes on after a restart.
+// The watched order is psi6 at the watch's own steps. It does not depend on ranks, and continues
+// after a restart.
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t last_step = 150;
 
-/// Dense discs between walls, with gravity, whose energies are watched as well.
+/// Dense discs between walls under gravity, so that energies are watched as well.
 TestScene dense_discs() {
     TestScene test = gas(100, 0.68, 2, 5);
     test.setting.effects.gravity = {0, -0.01};
@@ -66,7 +66,8 @@ TEST_CASE("measurements: the watched order is the psi6 of all discs at steps of 
     REQUIRE(watched.size() >= 2);
     CHECK(watched[0].name == "psi6");
     CHECK(watched[0].mean.value == Approx(mean).epsilon(1e-12));
-    CHECK(watched[1].mean.value > watched[0].mean.value); // moduli of discs do not cancel
+    // moduli are at least the modulus of the mean
+    CHECK(watched[1].mean.value > watched[0].mean.value);
     const std::array<double, 4> quarters = quarters_of(psi6);
     for (std::size_t k = 0; k < quarters.size(); ++k)
         CHECK(watched[0].quarters[k] == Approx(quarters[k]).epsilon(1e-12));
@@ -106,7 +107,7 @@ TEST_CASE("measurements: the order of some discs is that of each of them") {
     const Communicator world = Communicator::world();
     const TestScene test = dense_discs();
     DiscSystem system = system_of(scene_with_steps(test), test, world);
-    const HexaticSums sums = sampled_order(system, 33); // every fourth id
+    const HexaticSums sums = sampled_order(system, 33); // uses every fourth id
     const std::vector<BondOrder> orders = bond_orders(system);
     ExactSum real(200), modulus(200);
     for (std::size_t k = 0; k < orders.size(); ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is measured in boxes with periodic sides: pairs as nearest images, displacements on through
-// the seams.
+// Measurements in boxes with periodic sides: pairs as nearest images, and displacements continued
+// through the seams.
 #include <array>
 #include <cmath>
 #include <map>
@@ -49,7 +49,7 @@ std::vector<Case> cases() {
             {"rough discs, each its own class", Method::event_driven, each_its_own}};
 }
 
-/// A gas that flies some box lengths in its time, a few between syncs.
+/// A gas that flies several box lengths in the run, a few of them between syncs.
 TestScene fast_gas(const Effects& effects) {
     TestScene test = gas(150, 0.15, 2, 75);
     test.setting.effects = effects;
@@ -89,18 +89,20 @@ double to_nearest_image(double d, double period) {
 
 namespace {
 
-/// By hand: the run is sampled every step, in which no disc gets as far as half the box.
+/// Computed by hand: the run is sampled every step, in which no disc flies through half the box.
 struct ByHand {
     double period_x, period_y, largest_distance;
     std::vector<Seen> before{};
     std::vector<std::array<double, 2>> flown{};
     std::vector<double> pairs = std::vector<double>(20, 0), squares{};
-    std::map<std::string, std::vector<double>> pairs_of{}; ///< of two species, by the column's name
+    /// pairs of two species, by the column's name
+    std::map<std::string, std::vector<double>> pairs_of{};
     double farthest = 0;
-    bool is_mixed = false;   ///< the first 40 discs have mass 2, all others 1
-    bool is_stopped = false; ///< discs give momentum to what stands along the periodic axis
+    bool is_mixed = false; ///< the first 40 discs have mass 2, all others 1
+    /// discs give momentum to an obstacle or a wall along the periodic axis
+    bool is_stopped = false;
 
-    /// Of the discs' centre of mass since the beginning; 0 where something holds it.
+    /// Displacement of the centre of mass since the beginning; 0 if an obstacle or a wall stops it.
     double centre(std::size_t axis) const {
         double sum = 0, mass = 0;
         for (std::size_t i = 0; i < flown.size(); ++i) {
@@ -142,8 +144,8 @@ struct ByHand {
     }
 };
 
-/// g of two species, as in "1_2": pairs over those of points, a ring's area over the box's, for
-/// each sample.
+/// g of two species, as in "1_2": the number of pairs divided by that of points, which is the area
+/// of a ring over that of the box.
 void check_g(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
              const std::string& species, const std::vector<double>& counted,
              std::size_t n_samples) {
@@ -266,10 +268,10 @@ TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's p
         double mean = 0, slope = 0;
         for (std::size_t k = 0; k < 5; ++k) {
             mean += g[50 + k] / 5;
-            slope += (static_cast<double>(k) - 2) * g[50 + k] / 10; // a bin
+            slope += (static_cast<double>(k) - 2) * g[50 + k] / 10; // slope for each bin
         }
-        // Five bins of some 6700 pairs: their line's end scatters by about 1 %, and leaves 0.5 % of
-        // the curve out.
+        // Five bins have some 6700 pairs each. The end of the line through them has an error of
+        // about 1 %, and the curvature that it ignores is 0.5 %.
         CHECK(mean - 2.5 * slope == Approx(has_contacts ? 1.7719 : 1).epsilon(0.03));
         for (std::size_t k = 0; k < 50 && has_contacts; ++k) CHECK(g[k] == 0);
     }

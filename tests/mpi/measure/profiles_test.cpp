@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Profiles on a grid, against sums over all discs of each cell; a restart inside a block.
+// Profiles on a grid, compared with sums over all discs of each cell; also with a restart inside a
+// block.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::size_t n_x = 5, n_y = 3;
 
-/// The discs of a cell, sample by sample of a block.
+/// The discs of a cell, for each sample of a block.
 using ProfileCell = std::vector<std::vector<SeenDisc>>;
 
 double mass_of(const SeenDisc& disc) { return disc.id < 100 ? 1 : 4; }
@@ -27,7 +28,7 @@ struct CentredSums {
     double mass = 0, vx = 0, vy = 0, xx = 0, xy = 0, yy = 0, heat_x = 0, heat_y = 0;
 };
 
-/// Two passes: first the velocity of the centre of mass, then squares about it.
+/// Two passes: first the velocity of the centre of mass, then squares relative to it.
 CentredSums centred(const std::vector<SeenDisc>& discs) {
     CentredSums sums;
     for (const SeenDisc& disc : discs) {
@@ -45,7 +46,7 @@ CentredSums centred(const std::vector<SeenDisc>& discs) {
     return sums;
 }
 
-/// Squares and heat about the mean of each sample alone. Of n discs that leaves (n - 1) / n of the
+/// Squares and heat relative to the mean of each sample. For n discs this leaves (n - 1) / n of the
 /// squares, and (n - 1)(n - 2) / n^2 of the third powers.
 std::vector<double> row_of_cell(const ProfileCell& cell, double area) {
     std::vector<SeenDisc> all;
@@ -132,7 +133,8 @@ TEST_CASE("measurements: profiles are what the discs of each cell give") {
         for (std::size_t k = 0; k < expected.size(); ++k) {
             total += table.rows[k][3];
             CHECK(table.rows[k][0] == (k < n_x * n_y ? 13 : 28));
-            for (std::size_t column = 0; column < expected[k].size(); ++column) // but for contacts
+            // all columns except those of contacts
+            for (std::size_t column = 0; column < expected[k].size(); ++column)
                 CHECK(table.rows[k][3 + column + (column < 9 ? 0 : 3)] ==
                       Approx(expected[k][column]).epsilon(1e-11).margin(1e-13));
         }
@@ -140,7 +142,7 @@ TEST_CASE("measurements: profiles are what the discs of each cell give") {
     }
 }
 
-/// All of this rank's collisions of pairs.
+/// Records this rank's collisions of pairs.
 struct Recorded : PairFollower {
     void take(std::span<const PairEvent> more) override {
         events.insert(events.end(), more.begin(), more.end());
@@ -198,7 +200,7 @@ TEST_CASE("measurements: collisions' stress is shared along the line between cen
         for (Boundary& side : test.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
         SceneParameters scene = with_profiles(test, method);
         scene.measurements->give("profile_columns", 13);
-        scene.measurements->give("profile_rows", 22); // some are lower than a radius
+        scene.measurements->give("profile_rows", 22); // some cells are lower than a radius
         DiscSystem system = system_of(scene, test, world);
         Sampler sampler(scene, system, world);
         advance_to(system, sampler, 13);
@@ -236,10 +238,11 @@ TEST_CASE("measurements: collisions' stress is shared along the line between cen
             const std::array<double, 4> sums = contact_sums(
                 events, static_cast<double>(cell % 13) * width,
                 static_cast<double>(cell / 13) * height, width, height, scene.box);
-            const double per = 1 / (width * height * 15); // over 15 steps
+            const double per = 1 / (width * height * 15); // impulses are summed over 15 steps
             CHECK(xx[13 * 22 + cell] == Approx(sums[0] * per).margin(1e-9));
             CHECK(xy[13 * 22 + cell] == Approx(sums[1] * per).margin(1e-9));
-            const std::size_t k = 13 * 22 + cell; // about the mean of discs there, if there is one
+            // relative to the mean of the discs in the cell, if there are any
+            const std::size_t k = 13 * 22 + cell;
             if (std::isnan(vx[k])) continue;
             CHECK(heat_x[k] + vx[k] * xx[k] + vy[k] * xy[k] == Approx(sums[2] * per).margin(1e-9));
             CHECK(heat_y[k] + vx[k] * xy[k] + vy[k] * yy[k] == Approx(sums[3] * per).margin(1e-9));
@@ -273,8 +276,9 @@ TEST_CASE("measurements: any grid of profiles adds up to the same totals") {
                                              many = profiles_on(test, method, 13, 22, world);
             REQUIRE(table_of(one, "profiles_total").rows.size() == 2);
             CHECK(table_of(one, "profiles_total").rows == table_of(many, "profiles_total").rows);
-            // Half the trace of the collisions' part is P - N kT / A, and "pressure" has both from
-            // sums of its own. The first block is two intervals long, and the second one three.
+            // Half the trace of the collisions' part is P - N kT / A. The quantity "pressure" has
+            // both numbers from other sums. The first block is two intervals long, and the second
+            // one three.
             const std::vector<double> pressures = column_of(one, "pressure_history", "pressure"),
                                       kT = column_of(one, "pressure_history", "temperature"),
                                       xx = column_of(one, "profiles_total", "contact_xx"),
@@ -284,7 +288,7 @@ TEST_CASE("measurements: any grid of profiles adds up to the same totals") {
             CHECK((xx[0] + yy[0]) / 2 == Approx((contact(0) + contact(1)) / 2).epsilon(1e-10));
             CHECK((xx[1] + yy[1]) / 2 ==
                   Approx((contact(2) + contact(3) + contact(4)) / 3).epsilon(1e-10));
-            // Species add up, in each cell.
+            // In each cell the sum over species is the total.
             for (const char* column : {"count", "contact_xx", "contact_xy", "contact_yy"}) {
                 const std::vector<double> all = column_of(many, "profiles", column),
                                           light = column_of(many, "profiles_1", column),
@@ -300,6 +304,6 @@ TEST_CASE("measurements: profiles go on inside a block") {
     const Communicator world = Communicator::world();
     const TestScene test = profiled_mixture();
     const SceneParameters scene = with_profiles(test, Method::event_driven);
-    // One sample of the second block has been taken at the stop.
+    // At the stop one sample of the second block has been taken.
     check_going_on(scene, test, 21, 40, world);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of the usual quantities over time, against totals of the run and sums over all discs.
+// The table of the usual quantities over time, compared with totals of the run and sums over all
+// discs.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -82,8 +83,9 @@ TEST_CASE("measurements: thermo has the run's energy, collisions and pressure at
             after_first.erase(after_first.begin());
             CHECK(after_first == column_of(tables, "pressure_history", part));
         }
-        // kT of an interval is an integral over time (simulation/sync_every_test.cpp holds it to
-        // samples of every step). It is about between that at both ends, and is it if kT is kept.
+        // kT of an interval is an integral over time (compared with samples of every step in
+        // simulation/sync_every_test.cpp). It lies roughly between the values at both ends, and
+        // equals them if kT is conserved.
         const std::vector<double> kt = column_of(tables, "thermo", "temperature"),
                                   means = column_of(tables, "pressure_history", "temperature");
         for (std::size_t k = 0; k < means.size(); ++k) {
@@ -98,7 +100,8 @@ TEST_CASE("measurements: thermo has the run's energy, collisions and pressure at
 TEST_CASE("measurements: thermo goes on from what was stored, to the same rows") {
     const Communicator world = Communicator::world();
     for (const Case& each : cases()) {
-        if (each.effects.contact.kind == ContactKind::rough) continue; // spins take more to store
+        // a restart of rough discs would also need their spins
+        if (each.effects.contact.kind == ContactKind::rough) continue;
         INFO(each.name);
         const TestScene test = test_of(each);
         SceneParameters scene = with_thermo(test, each);

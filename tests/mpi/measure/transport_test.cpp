@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Transport coefficients, against Helfand's moments of discs that have not reached the box's sides;
-// a restart between samples.
+// Transport coefficients, compared with Helfand's moments of discs that have not reached the box's
+// sides; also with a restart between samples.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -15,8 +15,8 @@ using namespace carrom::test;
 
 namespace {
 
-/// A dense square of discs in the middle of a periodic box. They meet each other, and in the time
-/// of the test none gets to a side.
+/// A dense square of discs in the middle of a periodic box. They collide with each other, and none
+/// reaches a side during the test.
 TestScene cluster() {
     TestScene test = gas(400, 0.2, 0.1, 29);
     const double shift = test.setting.box_size;
@@ -35,7 +35,8 @@ SceneParameters with_transport(const TestScene& test, Method method) {
     return scene;
 }
 
-/// xy, (xx - yy) / 2, and those of heat along x and y; as seen from the centre of mass.
+/// The moments of stress xy and (xx - yy) / 2, and of heat along x and y, relative to the centre of
+/// mass.
 using Moments = std::array<double, 4>;
 
 Moments moments_of(const std::vector<SeenDisc>& discs) {
@@ -45,7 +46,7 @@ Moments moments_of(const std::vector<SeenDisc>& discs) {
     Moments moments{};
     for (const SeenDisc& disc : discs) {
         const double vx = disc.vx - ux, vy = disc.vy - uy, energy = (vx * vx + vy * vy) / 2;
-        moments[0] += disc.vx * disc.y; // the stress has the drift's momentum flux
+        moments[0] += disc.vx * disc.y; // the stress includes the momentum flux of the drift
         moments[1] += (disc.vx * disc.x - disc.vy * disc.y) / 2;
         moments[2] += energy * (disc.x);
         moments[3] += energy * (disc.y);
@@ -76,7 +77,8 @@ TEST_CASE("measurements: transport is the spread of Helfand's moments") {
             kinetic += disc.vx * disc.vx + disc.vy * disc.vy;
         }
         const double kT = (kinetic - n * (ux * ux + uy * uy)) / (2 * (n - 1));
-        // In the frame of the centre of mass, energies move with the rest of the velocity.
+        // In the frame of the centre of mass, positions of energies move with the velocity of the
+        // drift.
         for (std::size_t t = 0; t < moments.size(); ++t) {
             const double energy = kT * (n - 1);
             moments[t][2] -= ux * energy * 5 * static_cast<double>(t);

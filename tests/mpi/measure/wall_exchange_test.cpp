@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What walls give to discs, against the balance of all discs: energy and momentum come from nowhere
-// else, but for gravity. And a restart between samples.
+// Energy and momentum from walls, compared with the balance of all discs, which get both only from
+// walls and gravity. Also with a restart between samples.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -32,7 +32,7 @@ Balance balance_of(const std::vector<SeenDisc>& discs, double gravity) {
     return sum;
 }
 
-/// Walls that heat, cool, take energy and come in.
+/// Walls that heat, cool, take energy and move in.
 TestScene between_walls(double gravity) {
     TestScene test = gas(300, 0.2, 0.5, 91);
     Effects& effects = test.setting.effects;
@@ -96,7 +96,7 @@ TEST_CASE("measurements: walls give what the discs gain") {
                       Approx(after.x - before.x).margin(1e-9));
                 CHECK(normal[2] - normal[3] + shear[0] + shear[1] ==
                       Approx(after.y - before.y + gravity * 5 * 900).margin(1e-9));
-                CHECK(heat[2] <= 0); // it takes energy
+                CHECK(heat[2] <= 0); // this wall takes energy
             }
             CHECK(exchanged > 10);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After an agreement all ranks throw the same, or none does. How a run ends is tested with
+// After an agreement all ranks throw the same, or none does. The end of runs is tested with
 // failing_program.
 #include "parallel/agreement.hpp"
 
@@ -11,7 +11,7 @@ using carrom::Problem;
 
 namespace {
 
-/// What `agree` throws, as "code text"; empty if nothing.
+/// The error that `agree` throws, as "code text"; empty if there is none.
 std::string agreed(const Communicator& world, bool ok) {
     try {
         carrom::agree(world, ok, "rank " + std::to_string(world.rank()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reductions, broadcasts and gathers against what each rank can work out alone.
+// Reductions, broadcasts and gathers, compared with results that each rank can compute alone.
 #include "parallel/communicator.hpp"
 
 #include <array>
@@ -68,7 +68,7 @@ TEST_CASE("a zero comes out of a reduction without a sign") {
 }
 
 TEST_CASE("sums wrap and add element by element, also in many messages") {
-    const Communicator world = Communicator::world(24); // three numbers a message
+    const Communicator world = Communicator::world(24); // three numbers in each message
     const auto n = static_cast<std::uint64_t>(world.size()),
                rank = static_cast<std::uint64_t>(world.rank());
     CHECK(world.sum(rank) == n * (n - 1) / 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any-to-any exchange, the stream to rank 0 and slabs, with contents that every rank can work out
+// Any-to-any exchange, the stream to rank 0 and slabs, with contents that every rank can compute
 // alone.
 #include "parallel/exchange.hpp"
 
@@ -15,7 +15,7 @@ using carrom::Received;
 
 namespace {
 
-/// What `sender` has for `receiver`: nothing, little or much.
+/// The data from `sender` to `receiver`: nothing, little or much.
 std::vector<std::uint64_t> parcel(int trial, int sender, int receiver) {
     std::mt19937 random(static_cast<unsigned>(trial * 10007 + sender * 101 + receiver));
     const std::size_t sizes[] = {0, 0, 1, 7, 200};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fails in the way its argument names, on all ranks, on rank 0, or on the last one while the others
-// wait for it.
+// Fails in the way that its argument names: on all ranks, on rank 0, or on the last one while the
+// others wait for it.
 #include <chrono>
 #include <csignal>
 #include <stdexcept>
@@ -16,11 +16,11 @@
 
 namespace {
 
-bool is_abort_stuck = false; ///< as where a signal has come amid MPI's own bookkeeping
+bool is_abort_stuck = false; ///< as if a signal interrupts MPI's own bookkeeping
 
 constexpr double patience_seconds = 1;
 
-/// Keeps a rank that leaves by an exception, as a disk does that stalls while files are removed.
+/// Delays a rank that leaves by an exception, like a slow disk while files are removed.
 struct LateLeaver {
     ~LateLeaver() {
         if (is_late) std::this_thread::sleep_for(std::chrono::seconds(10));
@@ -65,7 +65,7 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
 
 } // namespace
 
-/// Stands before MPI's own.
+/// Replaces MPI's own function.
 extern "C" int MPI_Abort(MPI_Comm communicator, int code) {
     while (is_abort_stuck) std::this_thread::sleep_for(std::chrono::seconds(1));
     return PMPI_Abort(communicator, code);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchanges over random symmetric graphs. What a rank sends is a function of (exchange, sender,
-// receiver), so each receiver knows what it must get without asking.
+// Exchanges over random symmetric graphs. The data that a rank sends is a function of (exchange,
+// sender, receiver), so each receiver can compute what it must get.
 #include "parallel/neighbour_exchange.hpp"
 
 #include <algorithm>
@@ -30,8 +30,8 @@ std::vector<Item> parcel(std::size_t exchange, int sender, int receiver, std::si
     return items;
 }
 
-/// Rank's neighbours in the exchange's random graph, itself perhaps among them, the same edges seen
-/// from every rank, in a shuffled order.
+/// A rank's neighbours in the exchange's random graph, possibly including itself, in random order.
+/// Every rank finds the same edges.
 std::vector<int> neighbours_of(std::size_t exchange, int rank, int n_ranks) {
     std::vector<int> neighbours;
     for (int other = 0; other < n_ranks; ++other) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces of ids, and records that come to them from any ranks, with contents that every rank can
-// work out alone.
+// Pieces of ids, with records from any ranks whose contents every rank can compute alone.
 #include "parallel/pieces.hpp"
 
 #include <algorithm>
@@ -68,7 +67,7 @@ TEST_CASE("pieces cover all ids, and each rank has a run of them") {
             for (int rank = 0; rank < size; ++rank) {
                 const std::uint64_t first = pieces.first_of(rank), last = pieces.first_of(rank + 1);
                 CHECK(last - first <= pieces.n_rounds());
-                // No rank has more than an eighth and a piece above its share.
+                // No rank has more than an eighth and one piece above its share.
                 const auto share = static_cast<double>(n) / size;
                 CHECK(static_cast<double>(pieces.begin(last) - pieces.begin(first)) <=
                       1.125 * share + static_cast<double>(Pieces::least_rows));

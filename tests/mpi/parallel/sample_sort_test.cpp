@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distributed sort against std::stable_sort of everybody's records, which each rank makes for
-// itself.
+// The distributed sort, compared with std::stable_sort of all ranks' records, which each rank can
+// make itself.
 #include "parallel/sample_sort.hpp"
 
 #include <functional>
@@ -13,7 +13,8 @@ using carrom::Communicator;
 
 namespace {
 
-/// Sorted by key alone; origin and place tell equal ones apart and show whether the sort is stable.
+/// Sorted by key alone. Origin and place distinguish equal records and show whether the sort is
+/// stable.
 struct Record {
     double key;
     int origin, place;
@@ -48,7 +49,8 @@ std::vector<Record> records_of(const Filling& filling, int rank, int n_ranks) {
     return records;
 }
 
-/// Slices are gathered as counts and compared with the same stretch of the reference.
+/// Compares each slice with the stretch of the reference that begins at the sum of the slices
+/// before.
 void check_sort(const Communicator& world, const Filling& filling, int n_slices, bool is_balanced) {
     std::vector<Record> all;
     for (int rank = 0; rank < world.size(); ++rank) {
@@ -69,7 +71,7 @@ void check_sort(const Communicator& world, const Filling& filling, int n_slices,
     CHECK(total == all.size());
     if (total != all.size()) return;
     CHECK(std::equal(slice.begin(), slice.end(), all.begin() + static_cast<std::ptrdiff_t>(begin)));
-    // Equal records stay together: a slice never begins with the key its predecessor ends with.
+    // Equal records stay together: a slice never begins with the last key of the slice before.
     if (!slice.empty() && begin > 0) CHECK(all[begin - 1].key < slice.front().key);
     const double share = static_cast<double>(total) / n_slices;
     const double excess = 1 + world.size() / 64.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with periodic sides have the bits of the plain statements of the methods, which search all
-// pairs of all images.
+// Boxes with periodic sides have the bits of the references of the methods, which search all pairs
+// of all images.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -68,9 +68,8 @@ TEST_CASE("periodic: beside other effects, the event-driven method has the refer
         check_bits(scene, Method::event_driven);
         scene.setting.effects.contact = {ContactKind::none, 1, 0.001};
         check_bits(scene, Method::event_driven);
-        scene = moved_along(
-            base,
-            along_x); // some end as a heap: a short contact time would make that many collisions
+        scene = moved_along(base, along_x);
+        // Some scenes end as a heap, in which a short contact time would make very many collisions.
         scene.setting.effects.contact = {ContactKind::restitution, 0.9, 0.02};
         scene.setting.effects.boundaries[2].restitution = 0.7;
         scene.setting.effects.boundaries[3] = {BoundaryKind::moving, 1, 0, -0.01};
@@ -96,8 +95,8 @@ TEST_CASE("periodic: among fixed bodies, both methods have the reference's bits"
     }
 }
 
-// A disc falls round the box, past images of bodies in boxes that it has not been in at the last
-// sync. Bodies take what gravity gives.
+// A disc falls around the box, past images of obstacles in boxes that it was not in at the last
+// sync. The obstacles take the energy that gravity gives.
 TEST_CASE("periodic: gravity along periodic sides with bodies has the reference's bits") {
     for (const auto& boundaries : {both, along_x, along_y}) {
         for (const TestScene& base : {base_scenes()[0], base_scenes()[1]}) {

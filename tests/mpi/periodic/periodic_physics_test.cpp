@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of gases in boxes with periodic sides.
+// Known results for gases in boxes with periodic sides.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,9 +22,9 @@ TestScene periodic_gas(std::size_t n, double packing, double speed, std::uint64_
 }
 
 /// Z = P L^2 / (N kT) from the impulses of all collisions (the virial theorem). Momentum is
-/// conserved, so of the 2 N degrees of freedom two are the motion of all together, and kT = (E -
-/// P^2 / 2N) / (N - 1): with that Z - 1 is 2 eta times the contact value of the pair correlation of
-/// N discs, whatever N. `n_collisions` to come to equilibrium, four times as many to measure.
+/// conserved, so two of the 2 N degrees of freedom are the common motion, and kT = (E - P^2 / 2N) /
+/// (N - 1). With this kT, Z - 1 is 2 eta times the contact value of the pair correlation, for any
+/// N. The run takes `n_collisions` to reach equilibrium and four times as many to measure.
 /// **Collective.**
 double compressibility(std::size_t n, double packing, double n_collisions,
                        const Communicator& world) {
@@ -66,7 +66,7 @@ TEST_CASE("periodic: momentum and energy are conserved to rounding under both me
         const auto n = static_cast<double>(end.pair_collisions);
         CHECK(n > 5000);
         CHECK(end.wall_collisions == 0);
-        // Each collision rounds two velocities, of at most some 4, by half an ulp each.
+        // Each collision rounds two velocities, of up to some 4, by half an ulp each.
         const double bound = n * 4 * 2 * 0x1p-53;
         CHECK(std::fabs(end.momentum_x - start.momentum_x) < bound);
         CHECK(std::fabs(end.momentum_y - start.momentum_y) < bound);
@@ -75,8 +75,8 @@ TEST_CASE("periodic: momentum and energy are conserved to rounding under both me
     }
 }
 
-// At rest together N discs have 3 N - 2 ways to move, N of them turning. Of the others a class of
-// N_k discs has 2 N_k (1 - m_k / M), M being all mass.
+// If the total momentum is 0, N discs have 3 N - 2 degrees of freedom, N of which are rotations. Of
+// the others a species of N_k discs has 2 N_k (1 - m_k / M), where M is the total mass.
 TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energy, and shares it "
           "among masses and spins") {
     const Communicator world = Communicator::world();
@@ -95,7 +95,7 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     const Totals start = system.totals();
     advance_to(system, 120);
     constexpr int n_samples = 20;
-    std::array<double, 3> energies{}; // of the species' flight, of spins
+    std::array<double, 3> energies{}; // energies of both species' translation, and of rotation
     for (int sample = 0; sample < n_samples; ++sample) {
         advance_to(system, system.step() + 20);
         for (const DiscState& disc : system.discs())
@@ -146,11 +146,12 @@ TEST_CASE("periodic: a disc alone flies on, and comes in where it has left") {
     }
 }
 
-// The virial series (Clisby and McCoy 2006) to its tenth term at packings 0.1 and 0.3: a bulk gas,
-// without extrapolation from walls.
+// The bulk pressure by the virial series to its tenth term (Clisby and McCoy 2006), at packings 0.1
+// and 0.3. Without walls no extrapolation is needed.
 TEST_CASE("periodic: the pressure of the bulk gas") {
     const Communicator world = Communicator::world();
-    // N discs have some 1/N less: at packing 0.3 about 0.1 %. 60,000 collisions scatter by 0.3 %.
+    // N discs have a pressure that is lower by a share of about 1 / N, 0.1 % at packing 0.3. With
+    // 60,000 collisions the error is 0.3 %.
     CHECK(compressibility(900, 0.1, 15000, world) == Approx(1.23614).epsilon(0.008));
     CHECK(compressibility(900, 0.3, 15000, world) == Approx(2.06316).epsilon(0.01));
 }

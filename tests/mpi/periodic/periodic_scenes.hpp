@@ -28,7 +28,7 @@ inline const char* name_of(const std::array<Boundary, 4>& boundaries) {
     return boundaries == both ? "both" : boundaries == along_x ? "x" : "y";
 }
 
-/// Everything moved on, through the seams.
+/// Shifts everything, through the seams.
 inline TestScene moved(TestScene scene, double dx, double dy) {
     const double length = scene.setting.box_size;
     for (InputDisc& disc : scene.discs) {
@@ -38,7 +38,7 @@ inline TestScene moved(TestScene scene, double dx, double dy) {
     return scene;
 }
 
-/// Where an axis has walls, discs stay where they do not cross them.
+/// Along an axis with walls, discs are not shifted, so that they do not cross the walls.
 inline TestScene moved_along(const TestScene& scene, const std::array<Boundary, 4>& boundaries) {
     TestScene result = moved(scene, boundaries[0] == periodic ? 0.3125 : 0,
                              boundaries[2] == periodic ? 0.46875 : 0);
@@ -47,8 +47,8 @@ inline TestScene moved_along(const TestScene& scene, const std::array<Boundary, 
     return result;
 }
 
-/// A row of discs all along an axis, through the seam, the first of which is struck: equal gaps, or
-/// all touch but one.
+/// A row of discs along a whole axis, through the seam, the first of which is hit. Gaps are equal,
+/// or all discs but one touch.
 inline TestScene ring(std::size_t n, double gap, bool is_along_y) {
     const double pitch = 2 + gap, length = static_cast<double>(n) * pitch + (gap == 0 ? 1 : 0);
     TestScene scene = empty_scene("ring of " + std::to_string(n) + ", gap " + number(gap), length,
@@ -63,7 +63,7 @@ inline TestScene ring(std::size_t n, double gap, bool is_along_y) {
     return scene;
 }
 
-/// Discs that all have to do with each other at one time, across both seams.
+/// Discs that all collide at one time, across both seams.
 inline TestScene tied(std::size_t k) {
     TestScene scene = lattice(k, 1.5);
     scene.name = "tied lattice of " + std::to_string(k * k);
@@ -75,7 +75,7 @@ inline TestScene tied(std::size_t k) {
     return scene;
 }
 
-/// Two discs in a box in which there is just room for each between the images of the other.
+/// Two discs in a box with just enough room for each between the images of the other.
 inline TestScene narrow() {
     TestScene scene = empty_scene("two discs in a narrow box", 4 * (1 + 2e-6), 1, 40);
     add_disc(scene, 1.1, 1.2, 0.7, 0.31);
@@ -83,7 +83,7 @@ inline TestScene narrow() {
     return scene;
 }
 
-/// Few discs that fly through the box many times between syncs.
+/// A few discs that fly through the box many times between syncs.
 inline TestScene fast(std::size_t n) {
     TestScene scene = gas(n, 0.1, 1, 811);
     scene.name = "fast gas of " + std::to_string(n);
@@ -95,7 +95,8 @@ inline TestScene fast(std::size_t n) {
     return scene;
 }
 
-/// Left and right warm, bottom and top periodic: draws of all images of a disc are the same.
+/// Left and right sides are thermal, bottom and top periodic: all images of a disc draw the same
+/// random numbers.
 inline TestScene between_warm_walls(const TestScene& base) {
     TestScene scene = moved_along(base, along_y);
     scene.setting.effects.boundaries[0] = {BoundaryKind::thermal, 1, 0.3, 0};
@@ -105,8 +106,8 @@ inline TestScene between_warm_walls(const TestScene& base) {
     return scene;
 }
 
-/// Bodies on a corner and at the seams, which are seen from all sides; segments that end on a seam,
-/// run along one and stand near one.
+/// Obstacles at a corner and at the seams, with images on all sides; segments that end on a seam,
+/// run along a seam or stand near one.
 inline TestScene among_bodies(const TestScene& base, const std::array<Boundary, 4>& boundaries) {
     TestScene scene = moved_along(base, boundaries);
     const double size = scene.setting.box_size;
@@ -121,7 +122,7 @@ inline TestScene among_bodies(const TestScene& base, const std::array<Boundary, 
     return scene;
 }
 
-/// One disc, which flies through the box `speed` times in a step, and a body around the corner.
+/// One disc, which flies through the box `speed` times in a step, and an obstacle at the corner.
 inline TestScene sinai(const char* name, double radius, double reach, double speed, double x,
                        double y, double angle) {
     TestScene scene = empty_scene(name, 10, radius, 12);
@@ -132,8 +133,9 @@ inline TestScene sinai(const char* name, double radius, double reach, double spe
     return scene;
 }
 
-/// With little room; with none between bodies, where a disc is trapped and may touch two images of
-/// one at once; flights of many boxes; a disc on a seam that touches a body from the other side.
+/// Scenes with little room; with no gap between obstacles, where a disc is trapped and may touch
+/// two images of an obstacle at once; with flights of many boxes; and with a disc on a seam that
+/// touches an obstacle from the other side.
 inline std::vector<TestScene> scenes_of_one_disc() {
     TestScene touching = sinai("a disc on the seam at a body", 1, 3, 0.3, 0, 5, 0.2);
     touching.setting.effects.fixed_bodies.discs = {{7, 5, 2}};
@@ -159,8 +161,8 @@ inline std::vector<TestScene> base_scenes() {
     return scenes;
 }
 
-/// Large discs first, then small ones, wherever there is room for them and all images; speeds in
-/// large diameters per step.
+/// Large discs first, then small ones, at random positions without overlaps, images included.
+/// Speeds are in large diameters per step.
 inline TestScene mixture(const std::vector<Species>& species, double box_size, double speed,
                          std::uint64_t seed) {
     TestScene scene = empty_scene("mixture " + std::to_string(seed), box_size,
@@ -175,7 +177,7 @@ inline TestScene mixture(const std::vector<Species>& species, double box_size, d
     return scene;
 }
 
-/// Masses that are no function of radii; sizes 1 : 50 apart; more species than are searched one by
+/// Masses that are not a function of radii; sizes 1 : 50; more species than are searched one by
 /// one; few discs with many images.
 inline std::vector<TestScene> mixtures() {
     std::vector<Species> many;
@@ -187,7 +189,7 @@ inline std::vector<TestScene> mixtures() {
             mixture({{1, 2, 7}}, 9, 3, 825)};
 }
 
-/// The scene between two walls: discs that are in their way stand aside.
+/// The scene between two walls. Discs that overlap the walls are moved aside.
 inline TestScene between_walls(TestScene scene, const std::array<Boundary, 4>& boundaries) {
     scene.setting.effects.boundaries = boundaries;
     const double length = scene.setting.box_size;
@@ -212,7 +214,7 @@ inline ContactEffect rough(double restitution, double tangential, double frictio
     return {ContactKind::rough, restitution, 0.002, tangential, friction, 0.5};
 }
 
-/// Every other disc smaller and lighter.
+/// Makes every second disc smaller and lighter.
 inline void split_into_species(TestScene& scene) {
     const double radius = scene.setting.radius;
     scene.setting.effects.species.clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of uniform shear: nothing depends on where the seam is or on the frame, the profile
-// of velocities is a line, and kinetic theory knows the stresses.
+// Known results for uniform shear: nothing depends on the position of the seam or on the frame, the
+// velocity profile is a straight line, and stresses agree with kinetic theory.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,14 +20,15 @@ using namespace carrom::test;
 
 namespace {
 
-/// Bits do not depend on the shape, so long runs are made on small ones alone.
+/// Bits do not depend on the machine shape, so only small shapes make long runs.
 bool is_left_to_small_shapes(const Communicator& world) {
     return world.size() * omp_get_max_threads() > 2;
 }
 
 constexpr Boundary sliding{BoundaryKind::sheared, 1, 0, 0};
 
-/// A gas that flows from the start, with that rate over the speed of its discs per diameter.
+/// A gas with the flow from the start. `rate` is relative to the speed of its discs divided by the
+/// diameter.
 TestScene flowing_gas(std::size_t n, double packing, double rate, double restitution) {
     TestScene scene = gas(n, packing, 0.1, 911);
     scene.setting.effects.boundaries = {periodic, periodic, sliding, sliding};
@@ -52,7 +53,7 @@ TensorEstimate stresses_of(const TestScene& scene, Method method, const Communic
     return averages_of(scene, method, world).pressure_tensor;
 }
 
-/// The same flow with everything `up` higher; what has crossed the seam has its row's velocity.
+/// The same flow, shifted upwards by `up`. Discs that cross the seam get the velocity of their row.
 TestScene lifted(TestScene scene, double up) {
     const double height = scene.setting.box().y, rate = scene.setting.effects.shear;
     for (InputDisc& disc : scene.discs) {
@@ -67,7 +68,8 @@ TestScene lifted(TestScene scene, double up) {
 
 } // namespace
 
-// Rounding grows as trajectories part, by some e-fold in each collision: there are four per disc.
+// Rounding errors grow by a factor of about e in each collision. There are four collisions per
+// disc, so the errors stay small.
 TEST_CASE("shear: stresses depend neither on the frame nor on where the seam is") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
@@ -88,7 +90,7 @@ TEST_CASE("shear: stresses depend neither on the frame nor on where the seam is"
 
 namespace {
 
-/// In units of sqrt(m kT) / diameter: Gass (1971).
+/// In units of sqrt(m kT) / diameter, by Gass (1971).
 double enskog_viscosity(double packing) {
     const double bn = 2 * packing, chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
     return 1.022 / (2 * std::sqrt(std::numbers::pi)) * (1 / chi + bn + 0.8729 * chi * bn * bn);
@@ -96,8 +98,8 @@ double enskog_viscosity(double packing) {
 
 } // namespace
 
-// In each of ten layers the mean of vx less the line scatters by sqrt(T / n) of a layer's n discs
-// and samples; four times that is allowed. Samples follow each other by several collisions.
+// In each of ten layers the mean of vx minus the line has an error of sqrt(T / n), where n counts a
+// layer's discs in all samples; four times that is allowed. Samples are several collisions apart.
 TEST_CASE("shear: the profile of velocities is a line") {
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;
@@ -131,8 +133,9 @@ TEST_CASE("shear: the profile of velocities is a line") {
               4 * std::sqrt(squares[k]) / counts[k]);
 }
 
-// Restitution 0.99 keeps the temperature where the work of the flow and the losses agree. The rate
-// is 0.13 of the thermal speed per diameter. Four standard errors are 0.06 of the viscosity.
+// At restitution 0.99 the temperature is the one at which the work of the flow equals the losses.
+// The rate is 0.13 of the thermal speed per diameter. Four standard errors are 0.06 of the
+// viscosity.
 TEST_CASE("shear: the viscosity is Enskog's") {
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;
@@ -144,13 +147,14 @@ TEST_CASE("shear: the viscosity is Enskog's") {
     CHECK(viscosity / unit == Approx(enskog_viscosity(0.3)).epsilon(0.08));
 }
 
-// The same without losses: a thermostat that rescales velocities about the flow takes what the flow
-// gives. It keeps kT about the flow at its own, but for the mean velocity, a share of 1 / n.
+// The same without losses: a thermostat that rescales velocities relative to the flow takes the
+// energy that the flow gives. It keeps kT relative to the flow constant, except for the mean
+// velocity, a share of 1 / n.
 TEST_CASE("shear: elastic discs whose velocities are rescaled have Enskog's viscosity") {
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;
     TestScene scene = flowing_gas(1000, 0.3, 0.1, 1);
-    // Their own at the start, so that the flow has its rate from then on.
+    // The thermostat uses the initial temperature, so the rate is right from the start.
     const double thermal = scene.setting.effects.shear * 2 * scene.setting.radius / 0.1,
                  kt = thermal * thermal;
     scene.setting.effects.thermostat = {ThermostatKind::rescale, 0, 0, kt, 0};
@@ -163,9 +167,10 @@ TEST_CASE("shear: elastic discs whose velocities are rescaled have Enskog's visc
     CHECK(viscosity / unit == Approx(enskog_viscosity(0.3)).epsilon(0.08));
 }
 
-// Grad's moments of a thin gas (Vega Reyes, Santos and Garzo, J. Fluid Mech. 719, 431 (2013)): with
-// the cooling rate zeta and beta in units of that of viscous relaxation, -Pxy / Pyy is the root of
-// zeta / beta. The density changes that by some per cent, and errors are as large.
+// Grad's moments of a dilute gas (Vega Reyes, Santos and Garzo, J. Fluid Mech. 719, 431 (2013)):
+// with the cooling rate zeta and beta in units of the rate of viscous relaxation, -Pxy / Pyy is the
+// root of zeta / beta. The finite density changes that by some per cent, and the errors are as
+// large.
 TEST_CASE("shear: a granular gas has the stress ratio of Grad's moments") {
     const Communicator world = Communicator::world();
     if (is_left_to_small_shapes(world)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sheared sides: the bits of the plain statements of both methods, which search all pairs of all
-// images as they move, and what mechanics says of a disc that meets one.
+// Sheared sides: the bits of the references of both methods, which search all pairs of all moving
+// images, and a collision with an image by the laws of mechanics.
 #include <cmath>
 #include <vector>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr Boundary sliding{BoundaryKind::sheared, 1, 0, 0};
 
-/// Between sides that are sheared so that the row above gains `speed` of the discs' own speeds.
+/// The scene between sheared sides. The row above moves at `speed` times the discs' own speeds.
 TestScene sheared(const TestScene& base, double speed) {
     TestScene scene = moved_along(base, both);
     scene.setting.effects.boundaries = {periodic, periodic, sliding, sliding};
@@ -81,17 +81,18 @@ TEST_CASE("shear: at the rate 0 sheared sides are periodic ones, to the bit") {
     }
 }
 
-// A disc rests near the top. The row above carries the image of one that rests near the bottom past
-// it: it comes with the velocity (1, 0), and they touch with the line of centres at 45 degrees. As
-// equal discs do, they exchange what is along that line: (1/2, -1/2).
+// A disc rests near the top. Another one rests near the bottom, and the row above carries its image
+// past the first one, with the velocity (1, 0). They touch with the line of centres at 45 degrees.
+// Equal discs exchange the velocity components along that line: (1/2, -1/2).
 TEST_CASE("shear: a disc at rest is struck by an image that its row carries along") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = empty_scene("struck by an image", 20, 1, 8);
         scene.setting.effects.boundaries = {periodic, periodic, sliding, sliding};
-        scene.setting.effects.shear = 0.05; // times a height of 20
+        scene.setting.effects.shear = 0.05; // times the height of 20 this is a speed of 1
         scene.setting.sync_every = 4;
-        const double half = std::sqrt(2.0); // of the separation when they touch, after 2 steps
+        // component of the separation when they touch, after 2 steps
+        const double half = std::sqrt(2.0);
         add_disc(scene, 10, 19, 0, 0);
         add_disc(scene, 10 - half - 2, 19 + half - 20, 0, 0);
         DiscSystem system = system_of(scene, method, world);

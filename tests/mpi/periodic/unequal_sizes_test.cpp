@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs whose radii differ by up to a factor of 30 have the bits of the plain statements of both
-// methods, which search all pairs: between walls, periodic and sheared sides.
+// Discs whose radii differ by up to a factor of 30 have the bits of the references of both methods,
+// which search all pairs: between walls, periodic and sheared sides.
 #include <string>
 #include <vector>
 

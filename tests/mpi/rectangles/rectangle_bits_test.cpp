@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rectangles have the bits of the plain statements of both methods, lying and standing, and the
-// same scene turned over its diagonal has the same bits with x and y exchanged.
+// Wide and tall rectangles have the bits of the references of both methods. The same scene
+// reflected at its diagonal has the same bits with x and y exchanged.
 #include <algorithm>
 #include <vector>
 
@@ -20,7 +20,7 @@ struct State {
     double spin = 0;
 };
 
-/// By id, on every rank. **Collective.**
+/// The states of all discs by id, on every rank. **Collective.**
 std::vector<State> states_of(const TestScene& scene, Method method, const Communicator& world) {
     DiscSystem system = system_of(scene, method, world);
     advance_to(system, scene.steps);
@@ -38,7 +38,7 @@ std::vector<State> states_of(const TestScene& scene, Method method, const Commun
     return all;
 }
 
-/// A mirror at the diagonal turns spins round.
+/// A reflection at the diagonal reverses spins.
 bool are_turned(const State& a, const State& b) {
     const DiscState &p = a.disc, &q = b.disc;
     return p.x == q.y && p.y == q.x && p.vx == q.vy && p.vy == q.vx && p.tau == q.tau &&

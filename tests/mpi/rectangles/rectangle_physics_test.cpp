@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of gases in rectangles: the pressure does not depend on the box's shape, and strips
-// lie along the longer side.
+// Known results for gases in rectangles: the pressure does not depend on the box's shape, and
+// strips are cut across the longer side.
 #include <cmath>
 #include <numbers>
 
@@ -40,7 +40,7 @@ Averages averages_of(const SceneParameters& scene, const Communicator& world) {
     return averaging.averages();
 }
 
-/// The own discs' extent, of all of them where a rank is alone.
+/// The extent of the own discs; of all discs if there is one rank.
 Box room_of(const DiscSystem& system, const Communicator& world) {
     double high[] = {-1e300, -1e300}, low[] = {-1e300, -1e300};
     for (const DiscState& disc : system.discs()) {
@@ -69,7 +69,7 @@ TEST_CASE("rectangles: a periodic box of 10 to 1 has the square's pressure") {
     CHECK(wide.compressibility.error < 0.01);
     CHECK(difference(square.compressibility, wide.compressibility) < 4);
     CHECK(difference(wide.pressure_tensor.xx, wide.pressure_tensor.yy) < 4);
-    // Z of N discs of zero total momentum is that of the bulk to within (Z - 1) / N.
+    // For N discs of zero total momentum Z differs from the bulk's by at most (Z - 1) / N.
     CHECK(std::fabs(wide.compressibility.value - known_z) <
           4 * wide.compressibility.error + 3 * (known_z - 1) / static_cast<double>(n));
 }

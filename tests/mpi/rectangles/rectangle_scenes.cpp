@@ -46,7 +46,7 @@ void add_walled(std::vector<Case>& all, const TestScene& base) {
     add(all, dragged, "drag", dragged.setting.effects, false);
 }
 
-/// Every other disc smaller and lighter.
+/// Makes every second disc smaller and lighter.
 std::vector<Species> two_species(std::size_t n) {
     std::vector<Species> all;
     for (std::size_t k = 0; k < n; ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a disc takes beyond one of an even gas counts when memory is checked.
+// The memory check includes the extra bytes a disc where discs are clustered.
 #include "catch.hpp"
 
 #include "core/errors.hpp"
@@ -11,8 +11,8 @@ using namespace carrom;
 TEST_CASE("a scene that would just fit is refused where discs crowd") {
     const Communicator world = Communicator::world();
     const auto available = static_cast<double>(world.min(memory_per_rank(world))) * world.size();
-    // Between what a disc takes in an even gas, at most 110 bytes, and with 48 more where they
-    // crowd.
+    // Between the bytes a disc in a homogeneous gas, at most 110, and those with 48 more for
+    // clustered discs.
     constexpr double bytes_between = 130;
     SceneParameters scene;
     for (const Method method : {Method::event_driven, Method::time_stepped}) {

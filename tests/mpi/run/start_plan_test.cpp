@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan of how a run begins, from options and names of files alone: no disc is made, and the
+// The plan of how a run begins, from options and names of files alone. No disc is made, and the
 // checkpoints of these tests are empty files.
 #include "run/start/start_plan.hpp"
 
@@ -54,7 +54,7 @@ std::string planned(const RunOptions& options, const Communicator& world) {
     return text_of(plan_start(options, {}, world));
 }
 
-/// Whether the text of the problems has these words.
+/// Whether the text of the problems contains these words.
 bool is_refused(const RunOptions& options, const std::string& words, const Communicator& world) {
     try {
         plan_start(options, {}, world);
@@ -119,7 +119,7 @@ TEST_CASE("a run that was killed before its first checkpoint begins with the cop
     CHECK(plan.scene.steps == 5);
     CHECK(plan.restart.from == RestartPlan::From::own_folder);
     CHECK(plan.restart.candidates.empty());
-    options.input = place.of("one.toml"); // a scene that is named comes before the copy
+    options.input = place.of("one.toml"); // a named scene has priority over the copy
     CHECK(plan_start(options, {}, world).scene.steps == 10);
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("a plan to restart from a file or from a folder names it") {
                                      "in " +
                                          options.restart + "\n  " + options.restart +
                                          "/checkpoint-000000000003.h5\n");
-    options.restart = place.of("run"); // the folder of a run has them in a subfolder
+    options.restart = place.of("run"); // the folder of a run, whose checkpoints are in a subfolder
     const StartPlan plan = plan_start(options, {}, world);
     CHECK(plan.restart.place == options.restart + "/checkpoints");
     CHECK(plan.restart.candidates.size() == 1);
@@ -170,7 +170,7 @@ TEST_CASE("options that lead to no start are an error of the plan") {
     CHECK(is_refused(options, "the run has no folder to search", world));
     options.resume = false;
     options.overrides = {"time.steps=-1", "box.size=0"};
-    CHECK(is_refused(options, "time.steps", world)); // and all others with it
+    CHECK(is_refused(options, "time.steps", world)); // all problems are reported together
     CHECK(is_refused(options, "box.size", world));
     options.overrides = {"output.trajectory.every_steps=1"};
     CHECK(is_refused(options, "'output.folder' is missing", world));

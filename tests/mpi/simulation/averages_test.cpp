@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Averages over a run against plain sums over all discs, taken apart from it.
+// Averages over a run compared with plain sums over all discs.
 #include <cmath>
 #include <numbers>
 
@@ -75,14 +75,14 @@ void check_pressures(const Averages& averages, const test::TestScene& test, cons
               .epsilon(1e-10));
 }
 
-/// The integral of stress so far; tests/physics/virial_test.cpp has it from logged collisions.
+/// The integral of stress so far. tests/physics/virial_test.cpp compares it with logged collisions.
 Tensor stress_of(const DiscSystem& system) {
     MotionSample sample = motion_sample(system);
     integrate(system, system.stress_sums(), sample);
     return sample.stress;
 }
 
-/// The 41 steps of 100 discs below. Integrals are per micro-step, of which a step has 4.
+/// For the 41 steps of 100 discs below. Integrals are per micro-step; a step has 4 of them.
 void check_tensor(const Averages& averages, const Tensor& first, const Tensor& last, double area,
                   double square) {
     CHECK(averages.pressure_tensor.xx.value ==
@@ -94,7 +94,7 @@ void check_tensor(const Averages& averages, const Tensor& first, const Tensor& l
           Approx(averages.pressure.value * area / (100 * averages.temperature.value)));
 }
 
-/// Those of the list that are dealt to this rank.
+/// The discs of the list that this rank gets.
 std::vector<InputDisc> own_of(const std::vector<InputDisc>& discs, const Communicator& world) {
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : discs)
@@ -129,7 +129,8 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         averaging.begin_anew();
         const PlainSums first = sums_of(gathered(system.discs(), world), 4);
         const Tensor first_stress = stress_of(system);
-        // Samples are 10 steps apart, a quarter of the run: it is short, and keeps its energy.
+        // Samples are 10 steps apart, a quarter of the run, because the run is short and conserves
+        // its energy.
         PlainSums at_block = first, at_sample = first, now;
         std::int64_t block_begin = 7, sample_step = 7;
         std::vector<double> frequencies, speeds;
@@ -190,7 +191,7 @@ TEST_CASE("averages: any number of blocks ends as 64 to 127, and stops on the wa
     CHECK(often.collision_frequency.error == once.collision_frequency.error);
     CHECK(often.pressure.value == once.pressure.value);
     CHECK(often.pressure_tensor.xy.error == once.pressure_tensor.xy.error);
-    CHECK(once.temperature.is_conserved); // over many whole flights
+    CHECK(once.temperature.is_conserved); // averaged over many whole flights
 }
 
 TEST_CASE("averages: discs at rest, or none that collide, give numbers and no error") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine against the brute-force reference, bit for bit, on every scene the tests have, for
-// windows, cells, strips and storage orders of all kinds. ctest runs this for many numbers of ranks
-// and threads.
+// The engine against the brute-force reference, bit by bit, on every scene of the tests, for many
+// windows, cells, strips and orders in memory. ctest runs this for many numbers of ranks and
+// threads.
 #include "core/state_hash.hpp"
 #include "simulation/disc_system.hpp"
 
@@ -20,7 +20,7 @@ using namespace carrom;
 
 namespace {
 
-/// What every machine shape must give, worked out on rank 0.
+/// The result that every machine shape must have, computed on rank 0.
 struct Expected {
     StateHash hash;
     reference::Counters counters;
@@ -49,8 +49,8 @@ Totals run(const test::TestScene& scene, const Tuning& tuning, const Communicato
     return system.totals();
 }
 
-/// Ways to run a scene. They meet in all combinations over the scenes, and each scene meets others
-/// on other machine shapes.
+/// Settings of a run. All combinations occur in some scene, and a scene has other settings on other
+/// machine shapes.
 std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count,
                             const Communicator& world) {
     const std::optional<double> windows[] = {std::nullopt, 1.0, 4.0, 64.0, 0.5, 0.09};

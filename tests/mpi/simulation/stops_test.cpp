@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs that stop at each step, as one that is analysed while it goes on: windows go on after stops,
-// and each stop has the state of the plain statements of the methods.
+// Runs that stop at each step, as a program does that analyses them: windows go on after stops, and
+// at each stop the state equals that of the reference.
 #include <array>
 #include <string>
 
@@ -21,7 +21,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// A disc meets another one in some ten steps, so that a window would be several steps long.
+/// A disc collides once in some ten steps, so that a window would be several steps long.
 TestScene slow_gas(bool is_periodic) {
     TestScene scene = gas(200, 0.3, 0.1, 611);
     scene.steps = 40;
@@ -55,7 +55,7 @@ template <class Reference> void check_each_stop(bool is_periodic, Method method)
         INFO(scene.name << ", step " << system.step());
         const StateHash here = hash_at(system, world);
         if (world.is_root()) CHECK(to_string(here) == to_string(hash_of(reference.discs())));
-        // Totals redistribute all discs, so that a window ends before its time.
+        // Totals redistribute all discs, which ends a window early.
         if (system.step() % 7 != 5) continue;
         const StateHash of_totals = system.totals().hash;
         if (world.is_root()) CHECK(to_string(of_totals) == to_string(here));
@@ -80,11 +80,12 @@ TEST_CASE("stops: each has the state of the reference, whatever is asked for the
 
 TEST_CASE("stops: a single block goes on in its window after them") {
     const Communicator world = Communicator::world();
-    if (world.size() > 1 || omp_get_max_threads() > 1) return; // windows end at stops there
+    // on several ranks or threads windows end at stops
+    if (world.size() > 1 || omp_get_max_threads() > 1) return;
     for (const bool is_periodic : {false, true}) {
         const TestScene scene = slow_gas(is_periodic);
         const std::uint64_t in_one_call = n_windows(scene, scene.steps);
-        // The first stop of all shows that nobody redistributes.
+        // At the first stop the engine still expects a redistribution, which ends a window.
         CHECK(n_windows(scene, 1) <= 2 * in_one_call);
         CHECK(2 * in_one_call < static_cast<std::uint64_t>(scene.steps) / 2);
     }

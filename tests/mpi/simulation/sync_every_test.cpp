@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages do not depend on how often states are synchronised, and those of the temperature are
-// integrals over time. Syncs round states, so trajectories part after some fifteen collisions of
+// integrals over time. Syncs round states, so trajectories diverge after some fifteen collisions of
 // each disc. These runs are shorter.
 #include <algorithm>
 #include <cmath>
@@ -28,8 +28,7 @@ struct GasKind {
     bool only_event_driven = false;
 };
 
-/// Contact times are short, because a sync resets them: that is a change of physics, not of
-/// averages.
+/// Contact times are short, because a sync resets them, which would change the physics.
 std::vector<GasKind> kinds() {
     const auto for_each_side = [](Effects& effects, const Boundary& side) {
         effects.boundaries.fill(side);
@@ -55,7 +54,7 @@ std::vector<GasKind> kinds() {
         {"walls that lose energy",
          [=](Effects& e) {
              for_each_side(e, {.restitution = 0.5});
-             e.contact.contact_time = 1e-7; // of walls, too
+             e.contact.contact_time = 1e-7; // the contact time holds at walls, too
          }},
         {"dragged", [](Effects& e) { e.drag = 0.02; }, true},
         {"falling", [](Effects& e) { e.gravity = {0.001, -0.004}; }, true},
@@ -75,7 +74,8 @@ std::vector<GasKind> kinds() {
 
 struct Result {
     Averages averages;
-    double sampled_temperature = 0; ///< from energies at all steps, taken to change evenly
+    /// from the energies at all steps, with linear changes between steps
+    double sampled_temperature = 0;
 };
 
 Result run(const GasKind& kind, Method method, std::int64_t sync_every) {
@@ -102,7 +102,7 @@ Result run(const GasKind& kind, Method method, std::int64_t sync_every) {
     return result;
 }
 
-/// Within a tenth of the error; of what has none, within a thousandth of the value.
+/// Equal to within a tenth of the error, or to a thousandth of the value if there is no error.
 void check_same(std::string_view name, const Estimate& one, const Estimate& other) {
     const double error = std::isfinite(one.error) ? 0.1 * one.error : 1e-3 * std::fabs(one.value);
     CAPTURE(name, one.value, other.value, one.error);
@@ -127,7 +127,7 @@ TEST_CASE("averages: sync_every does not change them, whatever changes the energ
             }
             const bool has_drift = kind.name.find("periodic") != std::string::npos,
                        loses_discs = kind.name == "open side";
-            if (has_drift || loses_discs) continue; // kT is not the energy of a disc
+            if (has_drift || loses_discs) continue; // here kT is not the energy per disc
             CHECK(often.averages.temperature.value ==
                   Approx(often.sampled_temperature).epsilon(0.003));
         }

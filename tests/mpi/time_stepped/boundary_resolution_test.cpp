@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Resolution across strips against the rule itself: walk everybody's candidates in order, keep one
-// if its discs are free.
+// Resolution across strips, compared with the rule itself: walk through all candidates in order,
+// and keep one if both discs are free.
 #include "time_stepped/boundary_resolution.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr DiscId no_disc = ~DiscId{0};
 
-/// A candidate as everybody knows it: by ids; a wall has no second disc.
+/// A candidate with global numbers: ids; a wall has no second disc.
 struct Meeting {
     double time;
     DiscId p, q;
@@ -44,8 +44,8 @@ Meetings walked(const Meetings& all) {
     return kept;
 }
 
-/// Discs in a row, each with a few candidates with the ones behind it and some with walls; times
-/// from a few, so that many tie.
+/// Discs in a row, each with a few candidates with later discs and some with walls. There are only
+/// a few times, so many are equal.
 Meetings random_meetings(std::uint32_t seed, DiscId n_discs, int per_disc, std::uint32_t n_times) {
     std::mt19937 random(seed);
     Meetings all;
@@ -59,13 +59,13 @@ Meetings random_meetings(std::uint32_t seed, DiscId n_discs, int per_disc, std::
                 all.insert({time, p, q});
         }
     }
-    // A pair has one contact in a micro-step: the first.
+    // A pair has only one contact in a micro-step, the first one.
     std::set<std::pair<DiscId, DiscId>> pairs;
     std::erase_if(all, [&](const Meeting& m) { return !pairs.insert({m.p, m.q}).second; });
     return all;
 }
 
-/// Each disc with the next: the verdict on the last waits for that on the first.
+/// Each disc with the next one, so the verdict on the last pair depends on the first.
 Meetings chain(DiscId n_discs, bool is_tied) {
     Meetings all;
     for (DiscId p = 0; p + 1 < n_discs; ++p)
@@ -75,13 +75,13 @@ Meetings chain(DiscId n_discs, bool is_tied) {
 }
 
 struct Setting {
-    int owner_stride; ///< discs in a row that one rank owns, dealt out in turn: 1 makes every pair
-                      ///< one of two ranks
+    int owner_stride; ///< number of successive discs with one owner; at 1 every pair
+                      ///< has discs of two ranks
     int rounds;
     std::uint64_t per_slice;
 };
 
-/// The part of `all` that this rank sees, decided by all ranks together; as sets of ids.
+/// All ranks together decide the candidates that each of them knows; returned as sets of ids.
 Meetings decided(const Communicator& world, const Meetings& all, const Setting& setting) {
     const auto owner = [&](DiscId id) {
         return static_cast<int>(id / static_cast<DiscId>(setting.owner_stride) %

@@ -18,7 +18,7 @@ struct Checked {
     std::vector<Problem> problems;
 };
 
-/// Options that are numbers, and their words.
+/// Names of options that are numbers, and the words after them.
 using Words = std::vector<std::pair<std::string, std::string>>;
 
 Checked checked(const Words& words, RunOptions given = {}) {
@@ -39,13 +39,13 @@ Action action_of(std::vector<std::string> words) {
     return parse_command_line(static_cast<int>(words.size()), arguments.data());
 }
 
-/// The places of the problems of a command line that is wrong whatever the input is.
+/// The places of the problems of a command line that is wrong for any input.
 std::vector<std::string> refused_places(const std::vector<std::string>& words) {
     const Action action = action_of(words);
     CHECK_FALSE(action.needs_mpi);
     std::vector<std::string> places;
     try {
-        action.act(Communicator::world()); // of this process alone
+        action.act(Communicator::world()); // runs on this process alone
     } catch (const InputError& error) {
         for (const Problem& problem : error.problems()) places.push_back(problem.place);
     }
@@ -148,7 +148,8 @@ TEST_CASE("only simulations need MPI, and only runs wait for the end of a step t
     }
     CHECK(action_of({"carrom", "run", "a.in"}).needs_mpi);
     CHECK(action_of({"carrom", "run", "a.in"}).stops_on_request);
-    CHECK_FALSE(action_of({"carrom", "run", "-"}).stops_on_request); // may wait for its input
+    // no, because it may have to wait for its input
+    CHECK_FALSE(action_of({"carrom", "run", "-"}).stops_on_request);
     CHECK(action_of({"carrom", "run", "--restart", "kept"}).needs_mpi);
     CHECK(action_of({"carrom", "accuracy", "a.in"}).needs_mpi);
 }

@@ -24,7 +24,7 @@ std::string text_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// While it is there no file grows beyond `size` bytes: a write beyond is an error.
+/// As long as it exists, a write beyond `size` bytes of any file is an error.
 class Limit {
 public:
     explicit Limit(rlim_t size) : before_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -44,7 +44,7 @@ private:
     void (*before_)(int);
 };
 
-/// A file of this test's own, gone before and after.
+/// A file that only this test uses, removed before and afterwards.
 class OwnFile {
 public:
     explicit OwnFile(std::string path) : path_(std::move(path)) { std::filesystem::remove(path_); }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines are compared with what C's printf makes of the same numbers: that is what the course
-// program printed with.
+// Lines of discs compared with the output of C's printf, which the course program uses.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owns a file, by the folder that it is in, and what it holds, by its first bytes.
+// The owner of a file, by the folder that it is in, and the kind of its content, by its first
+// bytes.
 #include <filesystem>
 #include <fstream>
 

@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// A folder that goes away with everything in it.
+/// A folder that is removed at the end with its contents.
 class ScratchFolder {
 public:
     ScratchFolder() { std::filesystem::create_directory(path_); }
@@ -84,7 +84,8 @@ TEST_CASE("a file for data is emptied only when it is opened") {
     CHECK(content(path) == "old\n");
     CHECK(write_problem_of_stream(folder.file(".")).text.find("cannot be written") !=
           std::string::npos);
-    CHECK_FALSE(write_problem_of_stream(folder.file(".")).is_failure); // the place, not the disk
+    // a wrong path is no failure of the disk
+    CHECK_FALSE(write_problem_of_stream(folder.file(".")).is_failure);
     DataOutput output(path);
     output.buffer().append(std::string("new\n"));
     output.flush_if_full();

@@ -14,7 +14,7 @@ namespace {
 
 SceneParameters small_scene() {
     SceneParameters scene;
-    scene.name = "small \xff.toml"; // a file's name need not be UTF-8
+    scene.name = "small \xff.toml"; // a file's name need not be valid UTF-8
     scene.box = 10;
     scene.radius = 1;
     scene.n_discs = 4;
@@ -79,7 +79,7 @@ TEST_CASE("a run of no steps, and one of discs at rest, have rates of zero") {
     result.last_step = 0;
     result.start.kinetic_energy = 0;
     CHECK(ns_per_disc_step(result) == 0);
-    CHECK(std::isnan(energy_drift(result))); // the energy at the end is no share of 0
+    CHECK(std::isnan(energy_drift(result))); // undefined, because the energy was 0 at the start
     CHECK(summary_text(small_scene(), result).find("changed from 0") != std::string::npos);
     result.end = {};
     CHECK(energy_drift(result) == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs sorted by several threads, against the cell of each disc, looked up alone: in order, nearly
-// so, and in none.
+// Discs sorted by several threads, compared with the cell of each disc: for discs in order, nearly
+// in order, and in no order.
 #include "cell_list/cell_grid.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr double box = 200;
 
 std::vector<DiscState> gas(std::mt19937& random, std::size_t n) {
     std::uniform_real_distribution<double> place(-1, box + 1),
-        velocity(-1, 1); // some outside: they belong to border cells
+        velocity(-1, 1); // discs outside of the box belong to border cells
     std::vector<DiscState> discs(n);
     for (std::size_t i = 0; i < n; ++i) {
         discs[i].x = place(random);
@@ -35,8 +35,8 @@ std::vector<DiscState> gas(std::mt19937& random, std::size_t n) {
     return discs;
 }
 
-/// Each disc is in the run of the cell in which it is, once; `before` as they came, for none may be
-/// lost or changed.
+/// Checks that each disc occurs once, in the run of its cell, and is unchanged; `before` has the
+/// discs by id.
 void check_cells(const CellGrid& grid, const std::vector<DiscState>& discs, double time,
                  const std::vector<DiscState>& before) {
     const GridGeometry& geometry = grid.geometry();
@@ -112,7 +112,7 @@ TEST_CASE("side columns and companions go where discs go") {
         return 0.5 * static_cast<double>(disc.id) - 7;
     };
     for (const int n_threads : {1, 3}) {
-        for (const double time : {0.0, 4.0}) { // once in no order, then nearly in order
+        for (const double time : {0.0, 4.0}) { // first in no order, then nearly in order
             for (std::size_t i = 0; i < discs.size(); ++i)
                 columns[carrom::SideColumn::spin][i] = number_of(discs[i]);
             CellGrid grid;
@@ -140,7 +140,8 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
                 const GridGeometry geometry = carrom::make_geometry({0, box, 0, box}, Axis::x,
                                                                     reach, n, 0);
                 CellGrid grid;
-                grid.sort(discs, geometry, time, time, duration, n_threads); // in no order
+                // discs are in no order
+                grid.sort(discs, geometry, time, time, duration, n_threads);
                 check_cells(grid, discs, time, before);
                 check_flights(grid, discs, time, duration);
                 for (DiscState& disc : discs) disc.x += 5 * disc.vx;
@@ -151,13 +152,13 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
                 }
                 before.resize(discs.size());
                 for (const DiscState& disc : discs) before[disc.id] = disc;
-                std::vector<DiscState> twins = discs; // what runs along goes where the discs go
-                // Nearly in order, and some of anywhere behind.
+                std::vector<DiscState> twins = discs; // companions must go where the discs go
+                // Discs are nearly in order, with some new ones anywhere at the end.
                 grid.sort(discs, geometry, time, time, duration, n_threads, {}, {twins, nullptr});
                 check_cells(grid, discs, time, before);
                 check_flights(grid, discs, time, duration);
                 for (std::size_t i = 0; i < discs.size(); ++i) REQUIRE(twins[i].id == discs[i].id);
-                grid.sort_cells(discs, geometry, time, n_threads); // in order
+                grid.sort_cells(discs, geometry, time, n_threads); // discs are in order
                 check_cells(grid, discs, time, before);
             }
         }
@@ -178,13 +179,13 @@ TEST_CASE(
             grid.sort(discs, geometry, time, time, duration, 1);
             for (const DiscState& disc : halo) {
                 discs.push_back(disc);
-                discs.back().x *= 0.3; // most columns have none
+                discs.back().x *= 0.3; // most columns have no halo discs
                 discs.back().id = discs.size() - 1;
             }
             CellGrid by_threads = grid;
             grid.add_halo(std::span<const DiscState>(discs).subspan(1000));
             by_threads.add_halo(std::span<const DiscState>(discs).subspan(1000), 3);
-            bool are_same = true; // slots, so that what a search finds does not depend on threads
+            bool are_same = true; // slots are compared, because searches must not depend on threads
             for (std::uint32_t slot = 0; slot < n; ++slot)
                 are_same = are_same && by_threads.halo_index(slot) == grid.halo_index(slot) &&
                            by_threads.halo_lanes().vy[slot] == grid.halo_lanes().vy[slot];
@@ -235,5 +236,5 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     std::size_t n_listed = 0;
     for (const carrom::SlotRange range : grid.outside({20, 180, -infinity, infinity}))
         n_listed += range.end - range.begin;
-    CHECK(n_listed < 25'000); // those of a fifth of the box, and of the columns at its edge
+    CHECK(n_listed < 25'000); // a fifth of the box, and the columns at its edge
 }

@@ -43,7 +43,7 @@ TEST_CASE("energy: rounding is within the bound, ten times as much is not") {
         const std::vector<SharedEnergy> discs = {{0, 1, 1 + error * 0x1p-53}, {1, 1, 1}};
         CHECK(worst_energy_change(discs, Pairs{{0, 1}}).has_value() == (error > 200));
     }
-    // Reflections from bodies round as collisions do: each disc's own count.
+    // Reflections from obstacles round like collisions, and each disc counts its own.
     const SharedEnergy often{0, 1, 1 + 4000 * 0x1p-53, 0, 90},
         rarely{1, 1, 1 + 4000 * 0x1p-53, 0, 3};
     CHECK(!worst_energy_change(std::vector{often}, {}));

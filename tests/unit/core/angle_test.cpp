@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Directions of angles against the C library's.
+// Directions of angles compared with the C library.
 #include "catch.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of a state that files keep, there and back.
+// The numbers of a state that files contain, written and read back.
 #include "catch.hpp"
 
 #include <cmath>
@@ -30,7 +30,8 @@ DiscState there_and_back(const DiscState& disc) {
 TEST_CASE("disc columns: a collision at the time of a sync is told from the sync") {
     for (const double tau : {0.0, 3.5}) {
         for (const bool has_collided : {true, false}) {
-            if (tau > 0 && !has_collided) continue; // then only stops of the time-stepped method
+            // without a collision tau > 0 only in the time-stepped method, after a stop
+            if (tau > 0 && !has_collided) continue;
             DiscState disc;
             disc.tau = tau;
             disc.has_collided = has_collided;

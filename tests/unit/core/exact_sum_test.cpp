@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sum against Shewchuk's expansions: lists of doubles that hold a sum exactly, whatever its
-// terms.
+// The sum compared with Shewchuk's expansions, which are lists of doubles that contain a sum
+// exactly.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<double> mixed_terms(std::size_t count, int lowest_exponent, std::uin
     return terms;
 }
 
-/// Exact but for the last few additions, of parts that do not overlap.
+/// Exact except for the rounding of the last few additions, whose terms do not overlap.
 double careful_sum(const std::vector<double>& terms) {
     std::vector<double> parts;
     for (double term : terms) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files for reading are plain ones, and nothing else makes an open wait.
+// Only plain files can be opened for reading, and no other kind of file makes an open wait.
 #include <filesystem>
 #include <iterator>
 
@@ -41,7 +41,7 @@ TEST_CASE("plain files are opened, also through links, and nothing else is") {
     CHECK(text_of(open_plain_file((folder / "link").string())) == "a\r\nb");
 
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    CHECK(problem_with(folder / "pipe").is_special); // without a writer: it would wait
+    CHECK(problem_with(folder / "pipe").is_special); // opening a pipe without a writer would wait
     fs::create_symlink("pipe", folder / "to_pipe");
     CHECK(problem_with(folder / "to_pipe").text == "is not a plain file");
     CHECK(problem_with("/dev/null").is_special);

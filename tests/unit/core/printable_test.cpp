@@ -14,7 +14,7 @@ TEST_CASE("control characters are shown as escapes, all other bytes as they are"
     CHECK(printable(std::string("a\0b", 3)) == "a\\x00b");
     CHECK(printable("r\xc3\xa9sum\xc3\xa9 \xff") == "r\xc3\xa9sum\xc3\xa9 \xff");
     CHECK(printable("\xc2\x9b"
-                    "2J\xc2\xa0") == "\\x9b2J\xc2\xa0"); // the second is a space
+                    "2J\xc2\xa0") == "\\x9b2J\xc2\xa0"); // the second one is a space
     CHECK(printable("\xc2") == "\xc2");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sine of the legacy generator, against Taylor's series in quadruple precision.
+// The sine of the legacy generator, compared with Taylor's series in quadruple precision.
 #include "catch.hpp"
 
 #include <cmath>

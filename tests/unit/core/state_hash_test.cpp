@@ -92,8 +92,8 @@ TEST_CASE("the state hash tells exchanged values and exchanged states apart") {
     const StateHash both = hash_of(discs);
     std::swap(discs[0].id, discs[1].id);
     CHECK(!(hash_of(discs) == both));
-    // A sum of hashes that cancelled in pairs, as an exclusive or does, would miss a disc held
-    // twice.
+    // If equal hashes cancelled each other, as in an exclusive or, a disc that occurs twice would
+    // not be noticed.
     const std::vector<DiscState> twice = {discs[0], discs[0]};
     CHECK(!(hash_of(twice) == StateHash{}));
 }
@@ -116,7 +116,8 @@ TEST_CASE("the state hash is carried on from word to word") {
     StateHash sum{~std::uint64_t{0}, 1};
     sum += StateHash{1, 2};
     CHECK(sum.low == 0);
-    CHECK((sum.high == 3 || sum.high == 4)); // two sums or one of 128 bits; either is order-free
+    // two sums of 64 bits, or one of 128 bits: the order matters for neither
+    CHECK((sum.high == 3 || sum.high == 4));
 }
 
 TEST_CASE("a hash prints as 32 digits, the high half first") {

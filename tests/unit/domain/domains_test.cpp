@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains against brute force: every statement is tried on sampled places, with many equal cuts and
-// with groups of any sizes.
+// Domains compared with brute force at sampled positions, with many equal cuts and with groups of
+// any sizes.
 #include "domain/domains.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct Place {
     double along, across;
 };
 
-/// Places where something may go wrong: on the cuts, just beside them, and anywhere.
+/// Positions at which errors are likely: on the cuts, immediately beside them, and anywhere.
 std::vector<Place> probes(std::mt19937& random, const Domains& domains) {
     const auto around = [](std::vector<double>& list, const Strips& strips) {
         for (const double cut : strips.cuts())

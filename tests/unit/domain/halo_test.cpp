@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans of halos against brute force: every image of every disc is tried, for domains in groups, in
-// boxes with walls, with periodic sides, and with rows that slide. A halo that grows gets what a
-// deeper one would have had, and nothing twice.
+// Plans of halos compared with a test of every image of every disc, for domains in groups, in boxes
+// with walls, with periodic sides, and with rows that slide. A halo that grows must get the same
+// discs as a deeper one, each once.
 #include "domain/transfer.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::vector<DiscState> random_discs(std::mt19937& random, std::size_t n) {
     return discs;
 }
 
-/// Receiver, disc, and the image that goes there.
+/// Receiver, disc, and the image that is sent.
 using Sent = std::multiset<std::tuple<int, DiscId, int, int>>;
 
 Sent sent_by(const TransferPlan& plan, const std::vector<DiscState>& own) {
@@ -54,7 +54,7 @@ Sent planned(const Domains& domains, int rank, const std::vector<DiscState>& own
                    own);
 }
 
-/// Whether a place is within `reach` of a domain, which ends where a periodic box does.
+/// Whether a position is within `reach` of a domain, which ends at the sides of a periodic box.
 bool is_near(const Domain& domain, const Periods& periods, Axis axis, double x, double y,
              double reach) {
     const auto [along, across] = turned(axis, x, y);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strips to try, and what lists of ranks that exchange discs must fulfil, of strips and of domains.
+// Random strips, and requirements of lists of ranks that exchange discs, for strips and for
+// domains.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +18,8 @@ namespace carrom::test {
 
 inline constexpr double box = 10;
 
-/// Cuts of the box on a coarse lattice half of the time, so that equal ones, and ones at its ends,
-/// are common.
+/// Cuts of the box. Half of the time they are on a coarse lattice, so that equal cuts and cuts at
+/// the ends are frequent.
 inline Strips random_strips(std::mt19937& random, int n_strips, Axis axis = Axis::x) {
     std::uniform_real_distribution<double> anywhere(0, box);
     const bool coarse = random() % 2 == 0;
@@ -33,8 +34,8 @@ inline bool contains(const std::vector<int>& list, int rank) {
     return std::find(list.begin(), list.end(), rank) != list.end();
 }
 
-/// `lists` by rank: each ascends and does not hold the rank itself, and a lists b if and only if b
-/// lists a.
+/// Checks lists by rank: each ascends and does not contain the rank itself, and a lists b if and
+/// only if b lists a.
 inline void check_lists(const std::vector<std::vector<int>>& lists) {
     for (std::size_t a = 0; a < lists.size(); ++a) {
         REQUIRE(std::is_sorted(lists[a].begin(), lists[a].end()));

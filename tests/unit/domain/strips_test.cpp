@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strips against brute force: every statement is tried on sampled positions, with many equal cuts.
+// Strips compared with brute force at sampled positions, with many equal cuts.
 #include "domain/strips.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// Positions where something may go wrong: on the cuts, just beside them, and anywhere.
+/// Positions at which errors are likely: on the cuts, immediately beside them, and anywhere.
 std::vector<double> probes(std::mt19937& random, const Strips& strips) {
     std::vector<double> xs = {0, box};
     for (const double cut : strips.cuts())
@@ -121,8 +121,8 @@ TEST_CASE("neighbours are symmetric, complete for every sender, and no more than
 }
 
 TEST_CASE("neighbours are complete where x + reach rounds onto a cut") {
-    // The gap between the cuts rounds to more than the reach, yet a disc just below the lower cut
-    // reaches the upper.
+    // The gap between the cuts rounds to more than the reach, but a disc just below the lower cut
+    // reaches the upper one.
     const double lower = 0x1p-52 * (1 + 0x1p-50), upper = 1 + 0x1p-52, reach = 1 - 0x1p-53;
     REQUIRE(upper - lower > reach);
     const Strips strips({lower, upper});
@@ -164,7 +164,7 @@ TEST_CASE("balanced cuts ascend within the box and share the weight evenly") {
             std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
         for (std::size_t k = 0; k < cuts.size(); ++k) {
             REQUIRE((0 <= cuts[k] && cuts[k] <= box));
-            double below = 0; // the weight below the cut, by adding up every bin's part
+            double below = 0; // the weight below the cut, summed over the parts of bins
             for (std::size_t bin = 0; bin < n_bins; ++bin) {
                 const double part = cuts[k] / box * static_cast<double>(n_bins) -
                                     static_cast<double>(bin);

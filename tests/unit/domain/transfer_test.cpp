@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans of who sends which discs to whom, against the definition, for any number of threads.
+// Plans of transfers compared with their definition, for any number of threads.
 #include "domain/transfer.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::vector<DiscState> discs_between(double low, double high, std::size_t n) {
     return discs;
 }
 
-/// Ranges with gaps, of all lengths, so that threads begin and end within them.
+/// Ranges of all lengths, with gaps, so that shares of threads begin and end inside ranges.
 std::vector<PlaceRange> ranges_of(std::size_t n) {
     std::vector<PlaceRange> ranges;
     std::size_t length_of_range = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs on the way to a contact that is known beforehand: how far, how fast, and how near to a
-// graze.
+// Pairs of discs whose contact is known beforehand, by their distance, their speed, and how near
+// the contact is to a graze.
 #pragma once
 
 #include <cmath>
@@ -39,14 +39,14 @@ public:
                 speed * sigma * (-cosine * ey + sine * ex), sigma};
     }
 
-    /// Anything: 1 to 1e6 diameters away, or touching to within some ulp; margins 1e-14 to 1 on
-    /// either side of a graze.
+    /// Any pair: 1 to 1e6 diameters apart, or touching to within some ulp, with margins of 1e-14 to
+    /// 1 on either side of a graze.
     Approach any() {
         const bool is_touching = whole(0, 3) == 0;
         const double distance = is_touching ? 1 + whole(-8, 8) * 0x1p-53 : log_uniform(1, 1e6);
         const double margin = log_uniform(1e-14, 1) * (whole(0, 4) == 0 ? -1 : 1);
-        const double speed = log_uniform(0x1p-7, 0x1p7),
-                     sigma = uniform(0.5, 2); // arguments are drawn in no order
+        // One statement each, because arguments may be evaluated in any order.
+        const double speed = log_uniform(0x1p-7, 0x1p7), sigma = uniform(0.5, 2);
         return make(distance, margin, speed, sigma);
     }
 

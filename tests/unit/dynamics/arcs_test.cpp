@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts with arcs, and boxes made of them: against mirrors, polygons of many edges, and what
-// round billiards keep.
+// Contacts with arcs, and boxes made of arcs, compared with mirrors, polygons of many edges, and
+// conserved quantities of round billiards.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -39,7 +39,7 @@ BodyContact reflect(const FixedBodies& obstacles, DiscState& disc, double radius
     return contact;
 }
 
-/// The least time at which a disc that falls touches a point of the arc, by small steps.
+/// The first time at which a falling disc touches a point of the arc, found with small steps.
 double touch_by_steps(const DiscState& disc, const Acceleration& g, double radius, const Arc& arc,
                       double until) {
     const auto gap = [&](double t) {
@@ -85,10 +85,10 @@ TEST_CASE("arcs: faces are met a radius away from them, from outside and from in
     CHECK(reflect(half, guest, 1).time == 19.5);
     DiscState past = flying(20, 61.5, 2, 0);
     CHECK(!reflect(half, past, 1).exists());
-    DiscState end = flying(20, 60, 2, 0); // head on to the upper end
+    DiscState end = flying(20, 60, 2, 0); // head-on at the upper end
     CHECK(reflect(half, end, 1).time == 14.5);
     CHECK(end.vx == -2);
-    // Larger than the arc, a disc comes to its ends alone.
+    // A disc that is larger than the arc only touches its ends.
     DiscState large = flying(20, 50, 2, 0);
     const FixedBodies small(100, 20, one_arc({50, 50, 10, -90, 90}));
     CHECK(reflect(small, large, 20).time == Approx((30 - std::sqrt(400.0 - 100)) / 2));
@@ -107,7 +107,7 @@ TEST_CASE("arcs: a disc alone in a round box keeps energy, angular momentum and 
         std::uint32_t left = BodyContact::no_body;
         double last = 0;
         for (int n = 0; n < 1000; ++n) {
-            // Times begin anew, as they do at syncs.
+            // Times begin again, as at a sync.
             disc.tau = 0;
             const BodyContact contact = reflect(box, disc, 2, left);
             REQUIRE(contact.exists());
@@ -195,7 +195,7 @@ TEST_CASE("arcs: a drum that turns counterclockwise drags discs along on its inn
     const FixedBodies drum(100, 1, effects);
     DiscState disc = flying(50, 60, 0, -1); // to the lowest place, where the wall goes right
     reflect(drum, disc, 1);
-    CHECK(disc.vx == Approx(0.3)); // the surface of a smooth disc comes to that of the wall
+    CHECK(disc.vx == Approx(0.3)); // the surface of the disc gets part of the wall's velocity
     CHECK(disc.vy == Approx(1));
     effects.fixed_bodies = {};
     effects.fixed_bodies.arcs = {{50, 50, 10}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc that bounces before a wall that oscillates, from sync to sync, held to where the wall is
+// A disc that bounces at an oscillating wall, from sync to sync, compared with the wall's position
 // in long double.
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 using Long = long double;
 constexpr Long two_pi = 2 * std::numbers::pi_v<Long>;
 
-/// A disc that bounces before one wall of a box of 40, from sync to sync.
+/// A disc that bounces at one wall of a box of 40, from sync to sync.
 struct Bouncer {
     Effects effects;
     std::size_t side = 0;
@@ -45,7 +45,8 @@ struct Bouncer {
     }
 };
 
-/// Lies on the wall, falls to it or comes fast; the wall hardly moves or throws it far.
+/// The disc lies on the wall, falls to it or arrives fast; the wall hardly moves or throws the disc
+/// far.
 Bouncer random_bouncer(Numbers& random) {
     Bouncer bouncer;
     bouncer.side = static_cast<std::size_t>(random.index(4));
@@ -76,7 +77,7 @@ Bouncer random_bouncer(Numbers& random) {
 
 } // namespace
 
-// Between its contacts, too, and from sync to sync; and it does not bounce without end.
+// Also between its contacts, and from sync to sync. The number of bounces must be bounded.
 TEST_CASE("oscillation: a disc that bounces is never beyond the wall") {
     Numbers random(75);
     std::uint64_t n_all = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact predicate against quad precision: the bounds of docs/understanding/method.md,
-// section 4.2, on cases made to break them.
+// The contact predicate compared with quad precision, with the bounds of
+// docs/understanding/method.md, section 4.2, in the hardest cases.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -30,8 +30,8 @@ TEST_CASE("contact times are as accurate as promised") {
 }
 
 TEST_CASE("contact times are as accurate as promised near a graze at any distance") {
-    // Far away, one ulp of a velocity moves the line of flight by more than the margin: look
-    // through the neighbours.
+    // Far away, one ulp of a velocity moves the line of flight by more than the margin. So
+    // neighbouring velocities are tried, too.
     Approaches approaches(12);
     Worst worst;
     for (int i = 0; i < 1500; ++i) {
@@ -80,7 +80,7 @@ TEST_CASE("contacts of exact numbers are exact") {
     CHECK(contact_delay(4.0, 0.0, -0.5, 0.0, 2.0, 0.0) == 4);
     CHECK(contact_delay(0.0, -10.0, 0.0, 4.0, 2.0, 0.0) == 2);
     CHECK(contact_delay(5.0, 3.0, -1.0, 0.0, 5.0, 0.0) ==
-          Approx(1).epsilon(1e-15));                         // 3-4-5: in contact at (4, 3)
+          Approx(1).epsilon(1e-15));                         // 3-4-5 triangle: contact at (4, 3)
     CHECK(contact_delay(4.0, 2.0, -1.0, 0.0, 2.0, 0.0) < 0); // an exact graze
     CHECK(contact_delay(4.0, 3.0, -1.0, 0.0, 2.0, 0.0) < 0);
     CHECK(contact_delay(4.0, 0.0, 0.5, 0.0, 2.0, 0.0) < 0);
@@ -107,7 +107,7 @@ TEST_CASE("denormal and tiny velocities give no contact or a true one, never a N
         const double delay = delay_of(c);
         CHECK(!std::isnan(delay));
         if (delay < 0) {
-            CHECK(speed < 1e-140); // where A underflows there is no contact
+            CHECK(speed < 1e-140); // here A underflows, so there is no contact
             continue;
         }
         hits += 1;

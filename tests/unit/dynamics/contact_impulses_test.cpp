@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The impulses of lasting contacts against statics: columns, corners, slopes and three discs in a
-// pile, and against Newton's third law in a heap that moves.
+// The impulses of lasting contacts compared with statics (columns, corners, slopes and three discs
+// in a pile) and with Newton's third law in a moving heap.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,12 +24,12 @@ Effects under_gravity(double gx, double gy) {
     return effects;
 }
 
-/// What a heap does when it is alone: contact dynamics for some syncs.
+/// A heap of discs, for which contact dynamics runs for some syncs.
 struct Heap {
     std::vector<HeapDisc> discs;
     std::vector<KeptImpulse> kept;
     LastingForces forces;
-    std::vector<HeapDisc> start = discs; ///< at first
+    std::vector<HeapDisc> start = discs; ///< the discs at the start
 
     void run(const Effects& effects, const SpeciesTable& species, int n_syncs) {
         const ContactImpulses impulses(Box(100), effects, species, interval);
@@ -54,14 +54,14 @@ struct Heap {
     }
 };
 
-/// The discs after 60 syncs, in which a free disc falls by 144 radii.
+/// The discs after 60 syncs, during which a free disc would fall by 144 radii.
 Heap heap_after(std::vector<HeapDisc> discs, const Effects& effects) {
     Heap heap{std::move(discs), {}, {}};
     heap.run(effects, SpeciesTable(effects.species, r), 60);
     return heap;
 }
 
-/// Two discs that touch on the floor, and one on both.
+/// Two discs that touch each other on the floor, and one on top of both.
 Heap pile(double of_pairs, double of_floor) {
     Effects effects = under_gravity(0, -g);
     effects.contact.friction = of_pairs;
@@ -89,7 +89,7 @@ TEST_CASE("lasting contacts: a column holds itself and presses the floor with it
     const std::vector<HeapDisc> before = heap.discs;
     const std::vector<KeptImpulse> kept = heap.kept;
     heap.run(effects, SpeciesTable(effects.species, r), 7);
-    CHECK(heap.discs == before); // bit by bit
+    CHECK(heap.discs == before); // equal bit by bit
     CHECK(heap.kept == kept);
     CHECK(heap.forces.n_sweeps == 0);
 }
@@ -109,7 +109,8 @@ TEST_CASE("lasting contacts: a disc rolls down a slope as mechanics says, and re
         effects.fixed_bodies.surface = {0, friction, 0};
         Heap heap{{{0, 30 + away, 70 + away}}, {}, {}};
         heap.run(effects, SpeciesTable({}, r), 30);
-        // sin 45 = cos 45. It rolls if friction is a third of the slope's tangent at least.
+        // sin 45 = cos 45. The disc rolls if the friction coefficient is at least a third of the
+        // slope's tangent.
         const double pull = std::sqrt(0.5) * g,
                      expected = friction > 1.0 / 3 ? pull * 2 / 3 : pull * (1 - friction);
         const double time = 30 * interval;
@@ -118,9 +119,9 @@ TEST_CASE("lasting contacts: a disc rolls down a slope as mechanics says, and re
     CHECK(heap_after({{0, 50, 50 + std::sqrt(2) * r}}, effects).count_held() == 1);
 }
 
-// The upper disc's forces go through the points where the lower ones touch the floor, so they are
-// half of 30 degrees from the line of centres: pairs need tan(15 degrees), and the floor a third of
-// that.
+// The forces of the upper disc pass through the points where the lower discs touch the floor. So
+// their angle to the line of centres is half of 30 degrees, and pairs need a coefficient of tan(15
+// degrees), the floor a third of that.
 TEST_CASE("lasting contacts: three discs in a pile need the friction that statics says") {
     const double needed = 2 - std::sqrt(3);
     CHECK(pile(1.1 * needed, 1.1 * needed / 3).count_held() == 3);
@@ -135,8 +136,8 @@ TEST_CASE("lasting contacts: a floor that slides carries a disc as Coulomb says"
     effects.boundaries[2].surface = {0, 0.3, 0.4};
     Heap heap{{{0, 50, r}}, {}, {}};
     heap.run(effects, SpeciesTable({}, r), 10);
-    // It slides, because its surface is slower than the floor's. The first sync finds it at rest in
-    // place of after a fall, and so gives it half.
+    // The disc slides, because its surface is slower than the floor's. It rests at the first sync,
+    // not at the end of a fall, so this sync gives it half the impulse.
     const double time = 9.5 * interval;
     CHECK(heap.discs[0].vx == Approx(0.3 * g * time).epsilon(0.01));
     CHECK(heap.forces.walls[2].along == Approx(0.3 * g * interval).epsilon(0.01));
@@ -227,7 +228,7 @@ TEST_CASE("lasting contacts: a contact has the friction of its pair of species")
     for (DiscId id = 0; id < 4; ++id)
         discs.push_back({id, 20 + 2 * r * static_cast<double>(id), 50});
     const std::vector<double> radii(discs.size(), r);
-    const double expected[] = {0.7, 0, 0.3}; // a smooth pair, and one that no row names
+    const double expected[] = {0.7, 0, 0.3}; // a smooth pair, and a pair without a row
     const auto found = LastingContactFinder(Box(100), effects).find(discs, radii, 0.1 * r);
     REQUIRE(found.size() == 3);
     for (const LastingContact& one : found) CHECK(one.friction == expected[one.a]);

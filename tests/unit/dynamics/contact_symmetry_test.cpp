@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the predicate must not see: the names of the axes, the order of the pair, the unit of
-// length; and, bit for bit, the same predicate written a second time.
+// The predicate must not depend on the names of the axes, the order of the pair and the unit of
+// length. It must also equal, bit by bit, the same predicate written a second time.
 #include "catch.hpp"
 
 #include <bit>
@@ -30,7 +30,7 @@ Approach scaled(const Approach& c, int exponent) {
     return {scale(c.dx), scale(c.dy), scale(c.wx), scale(c.wy), scale(c.sigma)};
 }
 
-/// Two discs in a box of 1000, on the way to each other or not, each with a local time of its own.
+/// Two discs in a box of 1000 that may or may not meet, each with its own local time.
 struct Pair {
     DiscState p, q;
 };
@@ -126,8 +126,8 @@ TEST_CASE("the predicate and its second wording have the same bits") {
 }
 
 TEST_CASE("a local time later than the contact's base moves nothing") {
-    // The same two lines of flight, stored at exact places along them: the same contact, at base +
-    // delay.
+    // The same two lines of flight, stored at other exact positions along them: the contact is the
+    // same, at base + delay.
     const DiscState p{4, 4, 0.5, 0.25, 0, 0}, q{10, 7, -0.25, 0, 0, 1};
     const DiscState p_later{5, 4.5, 0.5, 0.25, 2, 0};
     const PairContact<double> early = pair_contact(p, q, 2.0, 0.0),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What drag leaves of a velocity, against the C library's exponential, and for numbers that no
-// scene has, for which it has to come to an end.
+// Drag compared with the C library's exponential. Also numbers that no scene contains, for which
+// the computation must end.
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Potentials: the spline goes through its numbers, is the one of a second, independent solution,
-// and its force is the derivative.
+// Potentials: the spline passes through its numbers and equals a second, independent solution, and
+// the force is its derivative.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,7 +29,7 @@ double spacing(std::size_t n, bool is_periodic, double length) {
     return length / static_cast<double>(is_periodic ? n : std::max<std::size_t>(1, n - 1));
 }
 
-/// By differences of fourth order, at a place that is far enough from the box's ends.
+/// Compares with differences of fourth order, at a position far enough from the box's ends.
 void check_slopes(const ExternalField& field, double x, double y) {
     constexpr double h = 1e-3;
     const auto at = [&](double dx, double dy) { return field.at(x + dx, y + dy, box).energy; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first contact of a parabola with a disc, held to its own path in quad precision.
+// The first contact of a parabola with a disc, compared with its path in quad precision.
 #include <algorithm>
 #include <cmath>
 
@@ -24,12 +24,12 @@ struct Flight {
     }
     bool falls(double s) const { return gap(s) < gap(s * (1 + 1e-9) + 1e-12); }
     double contact() const { return falling_contact(dx, dy, wx, wy, gx, gy, reach); }
-    /// After this time it is beyond reach for good.
+    /// A time after which the flight stays out of reach.
     double horizon() const {
         const double g = std::hypot(gx, gy), w = std::hypot(wx, wy), d = std::hypot(dx, dy) + reach;
         return 4 * (w / g + std::sqrt(d / g));
     }
-    /// What places and speeds up to a time round to.
+    /// The rounding error of positions and speeds up to a time.
     double rounding(double until) const {
         return 64 * 0x1p-53 *
                (std::hypot(dx, dy) + reach + std::hypot(wx, wy) * until +
@@ -37,7 +37,7 @@ struct Flight {
     }
 };
 
-/// The least gap at `n` places before `until`.
+/// The smallest gap at `n` times before `until`.
 double least_gap(const Flight& flight, double until, int n) {
     double least = flight.gap(0);
     for (int k = 0; k < n; ++k) least = std::min(least, flight.gap(until * k / n));
@@ -60,7 +60,7 @@ TEST_CASE("falling contact: it is on the circle, and nothing comes before") {
         const double g = std::exp2(random.uniform(-12, 2)), angle = random.uniform(0, 6.28);
         flight.gx = k % 3 == 0 ? 0 : g * std::cos(angle);
         flight.gy = k % 3 == 0 ? -g : g * std::sin(angle);
-        if (k % 2 == 0) { // thrown so that it comes near after a while
+        if (k % 2 == 0) { // thrown so that it comes near later
             const double time = random.uniform(0.1, 6);
             flight.wx = (random.uniform(-1, 1) * flight.reach - flight.dx) / time -
                         0.5 * flight.gx * time;
@@ -87,9 +87,9 @@ TEST_CASE("falling contact: a disc that has just been left comes back when its f
                      speed = std::exp2(random.uniform(-20, 1));
         const double nx = std::cos(angle), ny = std::sin(angle);
         Flight flight{reach * nx, reach * ny, speed * nx, speed * ny,
-                      0,          -0.01,      reach}; // touching, to some roundings
+                      0,          -0.01,      reach}; // touches, to within rounding
         const double found = flight.contact();
-        const double first = 2 * speed / (0.01 * ny); // were the disc flat
+        const double first = 2 * speed / (0.01 * ny); // the contact if the disc were a plane
         INFO("case " << k << ", speed " << speed << ", height " << ny << ", contact " << found);
         if (!std::isfinite(found)) {
             CHECK(least_gap(flight, flight.horizon(), 400) > -flight.rounding(flight.horizon()));
@@ -108,12 +108,13 @@ TEST_CASE("falling contact: touching counts while the distance falls") {
     CHECK(falling_contact(0, 1, 0, -0.5, 0, -1, 1) == 0);
     CHECK(falling_contact(0, 0.9999999999999999, 0, -1e-9, 0, -1, 1) == 0);
     CHECK(falling_contact(0, 1, 0, 0.5, 0, -1, 1) == Approx(1).epsilon(1e-15));
-    CHECK(falling_contact(0, 1, 0, 0, 0, 1, 1) == INFINITY); // let go above, and pulled away
+    // starts at rest above, and is pulled away
+    CHECK(falling_contact(0, 1, 0, 0, 0, 1, 1) == INFINITY);
     CHECK(falling_contact(0, -1, 0, 0, 0, -1, 1) == INFINITY);
     CHECK(falling_contact(3, 0, 0, 0, 0, -1, 1) == INFINITY); // falls past
     CHECK(falling_contact(0, 5, 0, 0, 0, -2, 1) == Approx(2).epsilon(1e-15));
     CHECK(falling_contact(0, -5, 0, 4, 0, -2, 1) ==
-          INFINITY); // comes up to it and no further: a graze
+          INFINITY); // reaches the disc with no speed left: a graze
     CHECK(falling_contact(0, -5, 0, 4.5, 0, -2, 1) ==
           Approx((4.5 - std::sqrt(4.25)) / 2).epsilon(1e-15));
 }

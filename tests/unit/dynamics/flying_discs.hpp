@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs in flight, and even random numbers, for tests of obstacles.
+// Discs in flight, and uniform random numbers, for tests of obstacles.
 #pragma once
 
 #include <random>

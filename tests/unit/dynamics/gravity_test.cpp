@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Falling with drag, held to series in long double and to its own path.
+// Falling with drag, compared with series in long double and with the path of a body.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,7 +55,8 @@ TEST_CASE("fall: how far drag lets fall is right to some ulp") {
                                         dragged_fall(rate, clock) / fall_of(rate, clock) - 1)));
         }
     }
-    CHECK(worst < 160 * 0x1p-53); // the rounding of c s grows as 1 / (1 - c s), to 60
+    // the rounding of c s is multiplied by 1 / (1 - c s), which is at most 60
+    CHECK(worst < 160 * 0x1p-53);
     CHECK(dragged_fall(0.1, 0) == 0);
     CHECK(dragged_fall(1e-300, 3) == 4.5);
 }
@@ -100,8 +101,8 @@ TEST_CASE("fall: a disc that has just left a wall comes back after a flight, how
         const double speed = std::exp2(random.uniform(-40, 2)),
                      pull = std::exp2(random.uniform(-10, 2)),
                      rate = std::exp2(random.uniform(-14, -2));
-        for (const double beyond : {0.0, -1e-3 * speed * speed / pull,
-                                    -speed * speed / pull}) { // the last never comes up to it
+        // From the last distance the disc never comes back to the wall.
+        for (const double beyond : {0.0, -1e-3 * speed * speed / pull, -speed * speed / pull}) {
             const Flight flight{beyond, speed, -pull, rate};
             const double found = flight.contact();
             INFO("case " << k << ", from " << beyond);
@@ -112,7 +113,7 @@ TEST_CASE("fall: a disc that has just left a wall comes back after a flight, how
             CHECK(found > 0);
             if (beyond < -0.6 * speed * speed / pull)
                 CHECK(found ==
-                      Approx(speed / (pull + rate * speed)).epsilon(1e-14)); // it turns round there
+                      Approx(speed / (pull + rate * speed)).epsilon(1e-14)); // the body turns there
             else
                 CHECK(std::fabs(flight.height(found)) <= flight.rounding(found));
         }
@@ -126,9 +127,10 @@ TEST_CASE("fall: touching counts while the distance falls, less and less drag is
     CHECK(dragged_fall_delay(0, 0, 1, 0.1) == INFINITY);
     CHECK(dragged_fall_delay(1, 0, 0, 0.1) == INFINITY);
     CHECK(dragged_fall_delay(1, -0.5, 0, 0.1) == 2);
-    CHECK(dragged_fall_delay(1, -0.5, 0.2, 0.1) == INFINITY); // pulled away before it gets there
+    // pulled away before it reaches the wall
+    CHECK(dragged_fall_delay(1, -0.5, 0.2, 0.1) == INFINITY);
     CHECK(dragged_fall_delay(1e9, 0, -1, 0.5) ==
-          INFINITY); // it would come when nothing is left of its first velocity
+          INFINITY); // it would arrive when its first velocity has decayed
     for (const auto& [distance, velocity, pull] :
          {std::array{2.0, -0.5, -0.1}, {2.0, 0.5, -0.1}, {0.0, 0.5, -0.1}, {2.0, -0.8, 0.1}})
         CHECK(dragged_fall_delay(distance, velocity, pull, 1e-15) ==

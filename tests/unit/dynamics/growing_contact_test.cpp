@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The predicate of growing discs against quad precision, where the quadratic in t is solved as it
-// stands: |d + w t| = sigma (1 + g t).
+// The predicate of growing discs compared with quad precision, which solves the original quadratic
+// in t: |d + w t| = sigma (1 + g t).
 #include "catch.hpp"
 
 #include <algorithm>
@@ -48,8 +48,8 @@ struct GrowingContact {
     }
 };
 
-/// What the predicate's error may be: that of constant discs in coordinates that grow with them,
-/// times the growth until then, squared: for du = dt / (1 + g t)^2.
+/// The allowed error of the predicate: that of discs of constant size in coordinates that grow with
+/// them, times the square of the growth, because du = dt / (1 + g t)^2.
 Quad bound_of(const Approach& pair, double g, const GrowingContact& exact) {
     const Quad wx = pair.wx - Quad(g) * pair.dx, wy = pair.wy - Quad(g) * pair.dy;
     const Quad a = wx * wx + wy * wy, cross = Quad(pair.dx) * wy - Quad(pair.dy) * wx;
@@ -70,7 +70,7 @@ TEST_CASE("contacts of growing discs are as accurate as promised") {
     for (int i = 0; i < 200000; ++i) {
         Approach c = approaches.any();
         if (i % 3 == 0) c.wx = -c.wx, c.wy = -c.wy;
-        // Slower and faster than what discs need to meet, or to get away.
+        // Speeds above and below those at which discs meet, or separate.
         const double speed = std::hypot(c.wx, c.wy), distance = std::hypot(c.dx, c.dy);
         const double g = speed / distance * approaches.log_uniform(1e-6, 30);
         const GrowingContact exact(c, g);
@@ -79,8 +79,8 @@ TEST_CASE("contacts of growing discs are as accurate as promised") {
         const bool is_near_graze = absolute(exact.discriminant) < unclear;
         const bool is_touching = absolute(exact.c) < 1e-12 * c.sigma * c.sigma;
         if (is_touching) {
-            // To within rounding they touch: what counts is whether they approach, and not so near
-            // to a graze that a gap of a rounding decides.
+            // They touch to within rounding, so the result depends on whether they approach. Grazes
+            // are left out, because there the rounding of the gap decides.
             const double scale = c.sigma * (speed + c.sigma * g);
             if (exact.b < -1e-7 * scale) missed += delay < 0;
             if (exact.b > 1e-12 * scale && exact.a >= 0) invented += delay >= 0;
@@ -123,8 +123,10 @@ TEST_CASE("growing pairs have the same bits exchanged, mirrored, transposed and 
 TEST_CASE("discs at rest meet when they have grown") {
     CHECK(delay_of({4, 0, 0, 0, 2}, 0.125) == 8); // sigma is 2 (1 + t / 8)
     CHECK(delay_of({0, 3, 0, 0, 2}, 0.25) == Approx(2).epsilon(1e-15));
-    CHECK(delay_of({4, 0, 0.25, 0, 2}, 0.125) < 0); // away as fast as they grow
-    CHECK(delay_of({4, 0, 0.125, 0, 2}, 0.125) == Approx(16).epsilon(1e-15)); // half as fast
-    CHECK(delay_of({2, 0, 0.125, 0, 2}, 0.125) == 0); // they touch, and grow faster
+    CHECK(delay_of({4, 0, 0.25, 0, 2}, 0.125) < 0); // the discs separate as fast as they grow
+    // they separate half as fast as they grow
+    CHECK(delay_of({4, 0, 0.125, 0, 2}, 0.125) == Approx(16).epsilon(1e-15));
+    // they touch, and grow faster than they separate
+    CHECK(delay_of({2, 0, 0.125, 0, 2}, 0.125) == 0);
     CHECK(delay_of({2, 0, 0.5, 0, 2}, 0.125) < 0);
 }

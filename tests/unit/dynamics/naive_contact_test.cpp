@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the school formula loses in single precision, and the stable one does not. The shares were
-// found beforehand by a separate program in quad precision: 20,000 pairs of unit diameter and
+// Hits that the school formula misses in single precision, and the stable one does not. The
+// expected shares come from a separate program in quad precision: 20,000 pairs of unit diameter and
 // relative speed 1 that pass each other at an impact parameter of 1 - eps (0.5 .. 1.5), coordinates
 // rounded to float, missed hits counted per pair.
 //
-// A discriminant that rounds to 0 counts as a hit, in the formula as in the shares: the school
-// formula has a root there, a double one. Were it a miss ("strict"), as it is for the stable
-// formula, whose 0 is a graze, the shares would be two to three times as large: B^2 and 4 A C agree
-// in all their digits for that many more hits.
+// A discriminant that rounds to 0 counts as a hit, in the formula as in the shares, because the
+// school formula has a double root there. If it counted as a miss ("strict"), as for the stable
+// formula, where 0 is a graze, the shares would be two to three times as large: then B^2 and 4 A C
+// agree in all digits for more hits.
 #include "catch.hpp"
 
 #include <cmath>
@@ -54,8 +54,8 @@ template <class Real> Shares missed(double distance, double eps) {
     return shares;
 }
 
-/// Four standard errors of the difference of two such counts, and half of the last digit that the
-/// known share has.
+/// Four standard errors of the difference of two such counts, plus half of the last digit of the
+/// known share.
 double bound(double share) { return 4 * std::sqrt(2 * share * (1 - share) / n_pairs) + 0.005; }
 
 } // namespace
@@ -63,7 +63,7 @@ double bound(double share) { return 4 * std::sqrt(2 * share * (1 - share) / n_pa
 TEST_CASE("the naive formula in single precision misses the known share of grazing hits, the "
           "stable one next to none") {
     struct Known {
-        double distance, eps, share, strict; ///< strict: found by a third program, of 400,000 pairs
+        double distance, eps, share, strict; ///< strict: from a third program with 400,000 pairs
     };
     for (const Known known : {Known{10, 1e-4, 0, 0}, Known{100, 1e-6, 0.21, 0.424},
                               Known{1e3, 1e-2, 0.22, 0.713}, Known{1e3, 1e-10, 0.16, 0.398},
@@ -81,7 +81,7 @@ TEST_CASE("in double precision the naive formula misses grazes at a thousand dia
           "one none") {
     CHECK(missed<double>(1e3, 1e-2).naive == 0);
     CHECK(std::fabs(missed<double>(1e4, 1e-10).naive - 0.41) <
-          bound(0.41) + 0.02); // where the discriminant is but noise
+          bound(0.41) + 0.02); // here the discriminant is only rounding noise
     CHECK(missed<double>(1e4, 1e-10).stable == 0);
     CHECK(missed<double>(1e4, 1e-10).hits == Approx(1));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers for tests, of the same bits with every library.
+// Random numbers for tests, with the same bits for every library.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ public:
     double uniform(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
     }
-    /// As likely to be of any size from low to high.
+    /// Any order of magnitude from low to high is equally probable.
     double of_any_size(double low, double high) {
         return low * std::pow(high / low, uniform(0, 1));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts with obstacles: where mirrors say, and the same however far the flight has to look.
+// Contacts with obstacles compared with mirrors; they must not depend on how a flight is divided
+// into searches.
 #include <cmath>
 #include <random>
 
@@ -76,9 +77,9 @@ TEST_CASE("obstacles: a ball bounces from a slope under gravity where Galileo sa
     // States are stored in a frame that falls from time 0 on.
     DiscState level = flying(20, 36, 0.5, 0);
     CHECK(reflect(obstacles, level).time == Approx(10));
-    CHECK(level.vy + effects.gravity.y * 10 == Approx(5)); // in the box
+    CHECK(level.vy + effects.gravity.y * 10 == Approx(5)); // the velocity in the box
     CHECK(level.vx == 0.5);
-    // sqrt(2) above a point of the slope, 16 lower than it starts
+    // sqrt(2) above a point of the slope, 16 below its start
     DiscState slope = flying(75, 75 + std::sqrt(2.0) + 16, 0, 0);
     CHECK(reflect(obstacles, slope).time == Approx(8));
     CHECK(slope.vx == Approx(-4));

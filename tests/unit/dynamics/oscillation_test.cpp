@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sine, and when a disc meets a wall that oscillates: held to a search in long double that
-// samples the distance densely and halves brackets, and knows nothing of its derivatives.
+// The sine, and the contact of a disc with an oscillating wall, compared with a search in long
+// double that samples the distance densely and uses bisection, without derivatives.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,10 +22,10 @@ using Long = long double;
 constexpr Long long_two_pi = 2 * std::numbers::pi_v<Long>;
 constexpr Long none = std::numeric_limits<Long>::infinity();
 
-/// A disc before a wall; `pull` is that of gravity, and all is towards the inside.
+/// A disc near a wall; `pull` comes from gravity. Towards the inside is positive.
 struct Flight {
     double amplitude = 1, period = 1, phase = 0, pull = 0, sign = 1;
-    double distance = 0, rate = 0; ///< from the line, at `time`
+    double distance = 0, rate = 0; ///< distance from the wall's line at `time`
     double sync = 0, time = 0;
 
     Oscillation wall() const {
@@ -48,13 +48,13 @@ struct Flight {
         return rate + pull * s -
                sign * amplitude * long_two_pi / period * std::cos(long_two_pi * turns(s) + phase);
     }
-    /// What places round to until then, in double precision.
+    /// The rounding error of positions up to then, in double precision.
     Long rounding(Long s) const {
         const Long speed = long_two_pi * amplitude / period;
         return 0x1p-50 * (std::fabs(distance) + amplitude + std::fabs(rate) * s +
                           std::fabs(pull) * s * s + speed * (Long(sync) + time + s));
     }
-    /// The last time at which the disc may be where the wall goes.
+    /// The last time at which the disc may be in the range of the wall.
     Long last_time() const {
         const Long room = distance - amplitude;
         const Long square = Long(rate) * rate - 2 * pull * room;
@@ -70,7 +70,7 @@ struct Flight {
     }
 };
 
-/// The least gap from `from` to `to`, which hold one minimum, by thirds.
+/// The time of the smallest gap between `from` and `to`, where there is one minimum, by trisection.
 Long time_of_least_gap(const Flight& flight, Long from, Long to) {
     for (int k = 0; k < 200; ++k) {
         const Long third = (to - from) / 3;
@@ -92,10 +92,10 @@ Long root_between(const Flight& flight, Long above, Long below) {
 
 struct Found {
     Long time = none;
-    Long least = none; ///< the least gap before, at local minima
+    Long least = none; ///< the smallest gap so far, at local minima
 };
 
-/// The first time after `from` at which the gap comes down to 0.
+/// The first time after `from` at which the gap decreases to 0.
 Found search(const Flight& flight, Long from, Long until) {
     const Long step = flight.period / Long{300};
     Found found;
@@ -122,7 +122,7 @@ Found search(const Flight& flight, Long from, Long until) {
     return found;
 }
 
-/// Before the wall, wherever it may go.
+/// A flight that starts at some distance from the wall, or in its range.
 Flight random_flight(Numbers& random) {
     Flight flight;
     flight.amplitude = random.of_any_size(1e-3, 10);
@@ -138,7 +138,7 @@ Flight random_flight(Numbers& random) {
     flight.sync = random.index(1000);
     flight.time = random.uniform(0, 64);
     flight.distance = flight.amplitude * (1 + random.of_any_size(1e-3, 3));
-    if (random.index(2) == 0) { // nearer than the wall's highest place
+    if (random.index(2) == 0) { // in the range of the wall
         const Long wall = flight.sign * flight.amplitude *
                           std::sin(long_two_pi * flight.turns(0) + Long(flight.phase));
         flight.distance = static_cast<double>(wall) +
@@ -147,7 +147,7 @@ Flight random_flight(Numbers& random) {
     return flight;
 }
 
-/// Holds the contact to the search; returns whether there is one.
+/// Compares the contact with the search; returns whether there is one.
 bool hold(const Flight& flight, Long from = 0) {
     const auto contact = static_cast<Long>(flight.contact());
     const Found found = search(flight, from, flight.last_time());
@@ -160,7 +160,7 @@ bool hold(const Flight& flight, Long from = 0) {
     const Long end = std::min({contact, found.time, flight.last_time() + flight.period});
     const Long rounding = flight.rounding(end) + 2 * flight.slack();
     if (contact == none || found.time == none) {
-        // Both, or else it is a graze: as deep as a rounding.
+        // Both find none, or one finds a graze that is only as deep as a rounding error.
         if (contact == found.time) return false;
         const Long touch = std::min(contact, found.time);
         const Long depth = flight.gap(time_of_least_gap(flight, touch, touch + flight.period / 8));
@@ -168,7 +168,7 @@ bool hold(const Flight& flight, Long from = 0) {
         return false;
     }
     CHECK(std::fabs(flight.gap(contact)) <= rounding);
-    // As near to the root as the gap is flat there, or else a graze came before.
+    // The times differ by at most the rounding error over the slope, or there was a graze before.
     const Long slope = std::fabs(flight.slope(found.time));
     const bool is_near = std::fabs(contact - found.time) <=
                          2 * rounding / slope + 0x1p-50 * (flight.time + contact);
@@ -213,7 +213,7 @@ TEST_CASE("oscillation: contacts are those of a dense search, thousands of them"
     CHECK(n_none > 200);
 }
 
-// The wall's highest place, or the disc's lowest, is a hair's breadth from touching.
+// The smallest gap is almost 0.
 TEST_CASE("oscillation: a graze is a contact from where it is deeper than rounding") {
     Numbers random(73);
     int n_grazes = 0;
@@ -221,11 +221,12 @@ TEST_CASE("oscillation: a graze is a contact from where it is deeper than roundi
         Flight flight = random_flight(random);
         flight.time = 0;
         if (flight.pull == 0 || flight.rate == 0) continue;
-        flight.pull = std::fabs(flight.pull); // comes down and leaves again
+        flight.pull = std::fabs(flight.pull); // the disc approaches and leaves again
         flight.rate = -std::fabs(flight.rate);
         const Long until = -2 * flight.rate / flight.pull + 2 * flight.period;
         if (until > 60 * Long(flight.period)) continue;
-        // Lifted until nothing touches, and let down to the least gap of all.
+        // Moves the disc up until it touches nothing, finds the time of the smallest gap, and then
+        // moves the disc down by this gap.
         const Long step = flight.period / Long{2000};
         Long least = none, at = 0;
         flight.distance += 4 * flight.amplitude;
@@ -249,7 +250,7 @@ TEST_CASE("oscillation: a graze is a contact from where it is deeper than roundi
     CHECK(n_grazes > 200);
 }
 
-// A disc that has just left, with a speed that is small against the wall's.
+// A disc that has just left the wall, with a speed that is small compared with the wall's.
 TEST_CASE("oscillation: a disc that the wall has caught is met again when it should be") {
     Numbers random(74);
     int n_again = 0;
@@ -260,11 +261,13 @@ TEST_CASE("oscillation: a disc that the wall has caught is met again when it sho
         const Oscillation wall = flight.wall();
         const double speed = wall.largest_speed();
         const double away = speed * random.of_any_size(1e-7, 1e-2);
-        flight.distance = flight.sign * wall.at(0).place; // touches, to within a rounding
+        flight.distance = flight.sign * wall.at(0).place; // touches the wall, to within rounding
         flight.rate = flight.sign * wall.at(0).velocity + away;
         if (flight.last_time() > 60 * Long(flight.period)) continue;
-        // It has left at the latest when it has flown for a hundredth of what would bring it back.
-        const Long pressure = speed * long_two_pi / flight.period - flight.pull; // at most
+        // By then the disc has left the wall: it has flown for a hundredth of the time after which
+        // it would be back.
+        // the largest possible one
+        const Long pressure = speed * long_two_pi / flight.period - flight.pull;
         const Long start = away / pressure / 100;
         const Long gap = flight.gap(start);
         if (gap < 100 * flight.rounding(start)) continue;
@@ -279,15 +282,15 @@ TEST_CASE("oscillation: what touches and comes nearer is met at once") {
     const double speed = 2 * std::numbers::pi / 10;
     flight.rate = speed - 1e-9;
     CHECK(flight.contact() == 0);
-    flight.rate = speed + 1e-3; // leaves, and the wall slows down
+    flight.rate = speed + 1e-3; // the disc leaves, and the wall slows down
     CHECK(flight.contact() == std::numeric_limits<double>::infinity());
-    flight.pull = -0.01; // falls back
+    flight.pull = -0.01; // the disc falls back
     CHECK(flight.contact() > 5);
-    flight.distance = -1e-3; // beyond, and comes up first
+    flight.distance = -1e-3; // beyond the wall: the disc must come back first
     CHECK(flight.contact() > 5);
 }
 
-// Discs at rest where the wall just comes to, and far beyond any sync.
+// Discs at rest, at the highest position of the wall or far above it.
 TEST_CASE("oscillation: a search ends where there is nothing to find") {
     Flight flight;
     flight.distance = 1;
@@ -304,6 +307,6 @@ TEST_CASE("oscillation: a search ends where there is nothing to find") {
     }
     flight.distance = 1e6;
     flight.period = 1;
-    flight.rate = -1e-4; // comes within reach after 1e10 periods
+    flight.rate = -1e-4; // reaches the wall after 1e10 periods
     CHECK(flight.contact() == Approx((1e6 - 1) / 1e-4).epsilon(1e-6));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gravity that changes in time: its frame, the contacts with walls in it, and integrals over
-// flights. All are held to closed forms, dense searches and sums in long double, which know nothing
-// of series and brackets.
+// Gravity that changes in time: its frame, contacts with walls, and integrals over flights. All are
+// compared with closed forms, dense searches and sums in long double, without series and brackets.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,7 +31,7 @@ Acceleration random_gravity(Numbers& random) {
     return gravity;
 }
 
-/// A disc before a wall, at `time` after the sync; all is towards the inside.
+/// A disc near a wall, at `time` after the sync. Towards the inside is positive.
 struct Flight {
     Acceleration gravity;
     double distance = 0, rate = 0, pull = 0, sign = 1, sync = 0, time = 0;
@@ -54,7 +53,7 @@ struct Flight {
     Long end() const { return Long(gravity.period) / 8 - time; }
 };
 
-/// The first root after which the gap is negative, in steps of a thousandth.
+/// The first root after which the gap is negative, with steps of a thousandth.
 Long first_root(const Flight& flight, Long& least) {
     const Long step = flight.end() / 2000;
     least = std::numeric_limits<Long>::infinity();
@@ -101,10 +100,10 @@ TEST_CASE("sway: a frame at rest at a sync falls by the double integral of a sin
         const Long speed = a / w * (std::cos(first) - std::cos(last)),
                    way = a / w * std::cos(first) * time -
                          a / (w * w) * (std::sin(last) - std::sin(first));
-        // Phases are known to a rounding of the turns since the start.
+        // Phases have the rounding error of the number of turns since the start.
         const Long blur = 0x1p-50 * (1 + Long(sync) / g.period + std::fabs(g.phase_y));
         CHECK(std::fabs(y.speed - speed) <= blur * a * time);
-        // It subtracts like numbers, of phases that are rounded.
+        // The reference subtracts nearly equal numbers, computed from rounded phases.
         const Long of_reference = 0x1p-61L * (1 + std::fabs(first)) * a / (w * w);
         CHECK(std::fabs(y.way - way) <= blur * a * time * time + of_reference);
         CHECK(std::fabs(y.acceleration - a * std::sin(last)) <= 4 * blur * a);
@@ -133,7 +132,7 @@ TEST_CASE("sway: contacts with walls are the first roots, and none is missed") {
             CHECK(std::fabs(flight.gap(found)) <= blur);
             CHECK(found <= expected + flight.end() * 1e-3L);
         } else if (std::isfinite(found) && found <= flight.end()) {
-            CHECK(std::fabs(flight.gap(found)) <= blur); // a graze between steps of the search
+            CHECK(std::fabs(flight.gap(found)) <= blur); // a graze between two steps of the search
         } else {
             ++n_free;
             CHECK(least >= -blur);
@@ -146,11 +145,11 @@ TEST_CASE("sway: contacts with walls are the first roots, and none is missed") {
 TEST_CASE("sway: a disc at a wall leaves it, and comes back when it is pressed") {
     Acceleration g;
     g.amplitude_y = 0.01, g.period = 80;
-    Sway sway(g);                                        // pulls up for half a period
-    CHECK(sway.contact_delay(1, 1, 0, -0.1, 0, 0) == 0); // it comes nearer
-    CHECK(sway.contact_delay(1, 1, 0, 0.1, 0, 0) > 10);  // it flies up
+    Sway sway(g); // the acceleration is upwards for half a period
+    CHECK(sway.contact_delay(1, 1, 0, -0.1, 0, 0) == 0); // the disc approaches
+    CHECK(sway.contact_delay(1, 1, 0, 0.1, 0, 0) > 10);  // the disc moves away
     CHECK(sway.contact_delay(1, 1, -1e-17, 1e-3, -0.02, 0) > 0.09);
-    sway.begin_interval(40); // and down for the other half
+    sway.begin_interval(40); // downwards in the other half
     const double back = sway.contact_delay(1, 1, 0, 1e-3, 0, 0);
     CHECK(back > 0);
     CHECK(back < 10.01);

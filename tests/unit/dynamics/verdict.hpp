@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the predicate stands to its bounds, judged in quad precision.
+// The error of the predicate relative to its bounds, computed in quad precision.
 //
-// The discriminant's, 10 u (1 + A sigma^2/disc), is what its roundings can add up to: sqrt(A) sigma
-// has a relative error of 3 u (two of A, halved by the root, the root's own, the product's), the
-// cross product of 2 u. Near a graze their difference is exact and their sum is twice either: (3 +
-// 2) x 2. Random cases come to 8.9.
+// The bound for the discriminant, 10 u (1 + A sigma^2/disc), is the sum of its rounding errors:
+// sqrt(A) sigma has a relative error of 3 u (two in A, halved by the root, then the root itself and
+// the product), the cross product one of 2 u. Near a graze their difference is exact and their sum
+// is twice either: (3 + 2) x 2. Random cases reach 8.9.
 #pragma once
 
 #include "catch.hpp"
@@ -19,7 +19,8 @@
 namespace carrom::test {
 
 inline constexpr double u = 0x1p-53;
-inline constexpr double deepest = 1e-12; // in diameters; the cases overlap by a few ulp only
+// in diameters, because the cases overlap by a few ulp only
+inline constexpr double deepest = 1e-12;
 
 inline double delay_of(const Approach& c) {
     return contact_delay(c.dx, c.dy, c.wx, c.wy, c.sigma, deepest * c.sigma);
@@ -31,7 +32,7 @@ inline double discriminant_of(const Approach& c) {
     return (reach - x) * (reach + x);
 }
 
-/// How a case stands to the bounds; a ratio above 1 breaks one.
+/// The errors of a case divided by their bounds; a ratio above 1 is a failure.
 struct Verdict {
     double delay_ratio = 0, discriminant_ratio = 0, cross_ratio = 0;
     bool is_hit = false, is_missed = false, is_invented = false;
@@ -43,8 +44,7 @@ inline Verdict judge(const Approach& c) {
     const Quad reach_square = exact.a * c.sigma * c.sigma;
     Verdict verdict;
     verdict.is_hit = delay >= 0;
-    // Of a pair that overlaps by some ulp and moves along the tangent, not even the sign of b can
-    // be told.
+    // If a pair overlaps by some ulp and moves along the tangent, even the sign of b is uncertain.
     const bool b_is_unclear = exact.distance < c.sigma &&
                               -exact.b < 2 * u * exact.distance * square_root(exact.a);
     verdict.is_missed = exact.delay >= 0 && exact.discriminant > 16 * u * reach_square &&

@@ -14,7 +14,7 @@ using namespace carrom;
 
 namespace {
 
-/// Counts of discs in cells, column by column, which a grid would have.
+/// Counts of discs in cells, column by column, in the place of a grid.
 struct Counts {
     int n_columns = 0, n_rows = 0;
     std::vector<std::uint64_t> of_cell;
@@ -31,7 +31,7 @@ struct Counts {
     CellSums sums() {
         CellSums filled;
         filled.fill(all(), 2, {1, 0}, [this](int column, int row) {
-            const std::uint64_t more = 1000; // the discs of columns before
+            const std::uint64_t more = 1000; // the number of discs in earlier columns
             return static_cast<std::uint32_t>(more + in({column, column + 1, 0, row}));
         });
         return filled;
@@ -39,7 +39,8 @@ struct Counts {
     CellBlock all() const { return {0, n_columns, 0, n_rows}; }
 };
 
-/// One disc in each cell, and `crowd` in those of the lower left tenth of both sides.
+/// One disc in each cell, and `crowd` discs in each cell of the lower left corner, a tenth of both
+/// sides.
 Counts crowded(int n_columns, int n_rows, std::uint64_t crowd) {
     Counts counts{n_columns, n_rows, {}};
     counts.of_cell.assign(static_cast<std::size_t>(n_columns * n_rows), 1);
@@ -48,7 +49,7 @@ Counts crowded(int n_columns, int n_rows, std::uint64_t crowd) {
     return counts;
 }
 
-/// Each cell lies in just one block, and block_of finds that.
+/// Each cell lies in exactly one block, which block_of finds.
 void check_cover(const BlockCuts& cuts, const CellBlock& cells) {
     std::vector<int> n_times(static_cast<std::size_t>(cells.end_column * cells.end_row), 0);
     for (std::size_t k = 0; k < cuts.blocks().size(); ++k) {
@@ -86,7 +87,7 @@ TEST_CASE("block cuts: where discs crowd, no block sees much more work than the 
     const CellSums sums = counts.sums();
     const int halo = 2;
     BlockCuts cuts;
-    for (const std::size_t n_blocks : {7u, 16u, 32u}) { // of several cells along each side
+    for (const std::size_t n_blocks : {7u, 16u, 32u}) { // blocks have several cells along each side
         cuts.cut_by_work(counts.all(), {n_blocks, halo, counts.all()}, sums);
         CHECK(cuts.blocks().size() == n_blocks);
         check_cover(cuts, counts.all());
@@ -102,7 +103,7 @@ TEST_CASE("block cuts: where discs crowd, no block sees much more work than the 
 }
 
 TEST_CASE("block cuts: halos of other strips count as much as own cells") {
-    Counts counts = crowded(96, 96, 1); // the same work in all cells
+    Counts counts = crowded(96, 96, 1); // counts with the same work in all cells
     const CellSums sums = counts.sums();
     BlockCuts cuts;
     cuts.cut_by_work(counts.all(), {9, 8, {-8, 104, -8, 104}}, sums);
@@ -127,7 +128,7 @@ TEST_CASE("block cuts: there are no more blocks than cells, and one where there 
 }
 
 TEST_CASE("block cuts: sums hold the work of any rectangle, and where in it there is any") {
-    Counts counts = crowded(90, 150, 7); // more rows than a thread takes at once
+    Counts counts = crowded(90, 150, 7); // more rows than one thread handles at once
     for (std::size_t k = 0; k < counts.of_cell.size(); ++k) counts.of_cell[k] += k * k % 11;
     const CellSums sums = counts.sums();
     for (const CellBlock& part : {counts.all(), CellBlock{4, 5, 3, 4}, CellBlock{10, 60, 63, 68},

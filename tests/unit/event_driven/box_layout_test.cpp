@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of the whole box and the ghosts beyond its sides against all pairs of discs and images.
+// Cells of the whole box and the ghosts beyond its sides, compared with all pairs of discs and
+// images.
 #include "event_driven/box_layout.hpp"
 
 #include <cmath>
@@ -13,7 +14,7 @@ using namespace carrom;
 namespace {
 
 struct Case {
-    double x, y; // of the box
+    double x, y; // sides of the box
     bool round_x, round_y;
     double reach;
     std::size_t n_discs;
@@ -23,7 +24,7 @@ struct Case {
 Periods periods_of(const Case& of) { return {of.round_x ? of.x : 0, of.round_y ? of.y : 0}; }
 
 /// Own discs, some of which have flown out of the box since they were stored, with the images that
-/// are in the box. Then each other disc twice, as other ranks show them.
+/// are in the box. Then two copies of each other disc, as other ranks send them.
 std::vector<DiscState> discs_of(const Case& of, double time) {
     std::mt19937 random(7);
     const auto below = [&](double limit) {
@@ -53,7 +54,7 @@ double at_home(double place, double period) {
     return period > 0 ? place - period * std::floor(place / period) : place;
 }
 
-/// A disc in a slot, and the cell of it.
+/// A disc in a slot, and its cell.
 struct Seen {
     DiscId id;
     Image image;

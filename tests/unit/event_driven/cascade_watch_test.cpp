@@ -7,8 +7,8 @@ using namespace carrom;
 
 namespace {
 
-/// Collisions of ten discs, so many micro-steps apart, until the watch ends them or for ten
-/// million.
+/// The number of collisions of ten discs, `apart` micro-steps from each other, until the watch ends
+/// them; at most ten million.
 std::uint64_t collisions_until_end(double apart) {
     CascadeWatch watch;
     std::uint64_t n = 0;
@@ -22,7 +22,7 @@ TEST_CASE("collisions at one time, or without end in a slot, are seen, and frequ
     CHECK(collisions_until_end(0) == 110000);
     // A disc of speed 0.01 in a slot that is 2e-15 wider than itself.
     CHECK(collisions_until_end(2e-13) == 5500000);
-    // A million collisions in a micro-step take a second of time and end.
+    // A million collisions in a micro-step take a second, and end.
     CHECK(collisions_until_end(1e-6) == 10000000);
     CHECK(collisions_until_end(1e-11) == 10000000);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The queue of predicted collisions against a sorted list of all of them, with predictions that go
-// stale.
+// The queue of predicted collisions compared with a sorted list of all of them, with predictions
+// that become void.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ TEST_CASE("millions of predictions that go stale take the memory of those that d
     for (Event first; n_happened < 500'000 && queue.pop(first, 1e300, before, is_current);
          ++n_happened) {
         predictions.happen(first);
-        // One soon, as of two discs without room, others later in the same bucket and in later
+        // One event soon, as if discs had no room, and others later in the same bucket and in later
         // ones.
         queue.push(predictions.draw(first.time + 1e-9, 0, 1), before);
         for (int k = 0; k < 3; ++k) queue.push(predictions.draw(0.05, 0.01, 90), before);

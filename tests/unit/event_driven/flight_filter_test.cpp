@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The filter of flights against all pairs in double precision: it finds all that touch, once, and
-// none that keep clearly apart.
+// The filter of flights compared with all pairs in double precision: it finds every pair that
+// touches, once, and none that stays clearly apart.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ using namespace carrom;
 
 namespace {
 
-constexpr double diameter = 0.4; // in cells
-constexpr double margin = 1e-3;  // by which the filter's own diameter is longer
+constexpr double diameter = 0.4; // diameter in cells
+constexpr double margin = 1e-3;  // the filter's diameter is larger by this share
 constexpr int n_columns = 7, n_rows = 9;
 const auto touching_squared = static_cast<float>((diameter + margin) * (diameter + margin));
 
-/// Discs in cells, by column and row, some of them at rest.
+/// Discs sorted into cells, by column and row, some of them at rest.
 struct Flights {
     explicit Flights(unsigned seed) {
         std::mt19937 random(seed);
@@ -54,7 +54,7 @@ struct Flights {
         return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
     }
 
-    /// The least distance of two discs from `now` to the window's end.
+    /// The smallest distance of two discs from `now` to the window's end.
     double least_distance(std::uint32_t p, std::uint32_t q, double now) const {
         const double wx = double{vx[q]} - vx[p], wy = double{vy[q]} - vy[p];
         const double dx = double{x[q]} - x[p], dy = double{y[q]} - y[p];
@@ -64,7 +64,7 @@ struct Flights {
         return std::hypot(dx + wx * time, dy + wy * time);
     }
 
-    /// Whether `found` are the discs of `range` that come to touch `p`, but for `left_out`.
+    /// Whether `found` contains the discs of `range` that will touch `p`, except `left_out`.
     bool are_partners(std::vector<std::uint32_t> found, SlotRange range, std::uint32_t p,
                       std::vector<std::uint32_t> left_out, double now) const {
         for (std::uint32_t slot = range.begin; slot < range.end; ++slot) {

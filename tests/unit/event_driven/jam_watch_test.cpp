@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jams are found from frequencies of collisions that follow the law of a jam, and not from others.
+// Jams are detected if collision rates follow the law of a jam, and not otherwise.
 #include "event_driven/jam_watch.hpp"
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Ending {
     double safe = 0;
 };
 
-/// Goes to the end or to a jam. `before(t)` is how many collisions come before the time t. The
+/// Runs to the end or to a jam. `before(t)` is the number of collisions before the time t. The
 /// windows cut each bin into `n_windows`.
 template <class Before>
 Ending watch(const JamWatch::Setting& growth, double start, int n_windows, const Before& before) {
@@ -38,7 +38,7 @@ Ending watch(const JamWatch::Setting& growth, double start, int n_windows, const
     return {};
 }
 
-/// Collisions as frequent as a / (t_J - t)^2.
+/// Collisions at the rate a / (t_J - t)^2.
 auto jam_at(double jam, double a) {
     return [=](double t) { return t < jam ? a / (jam - t) : 1e300; };
 }
@@ -63,7 +63,8 @@ TEST_CASE("runs that end before the jam, and gases in which collisions are frequ
     const JamWatch::Setting growth{0.001, 64, 700, 200};
     CHECK(watch(growth, 0, 1, jam_at(708.6, 1e8)).sign == JamWatch::Sign::none);
     CHECK(watch(growth, 0, 1, [](double t) { return 1e8 * t; }).sign == JamWatch::Sign::none);
-    // A fluid that would jam at 400 freezes at 300. Collisions become rarer, and it has room.
+    // A fluid that would jam at 400 freezes at 300. Then collisions become rarer, and there is more
+    // room.
     const auto freezing = [](double t) {
         return t < 300 ? 1e8 * t / (400 - t) : 3e8 + 1e6 * (t - 300) * (1 + 0.001 * t);
     };

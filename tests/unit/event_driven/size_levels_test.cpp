@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sizes share a level of cells.
+// The sizes that share a level of cells.
 #include "event_driven/size_levels.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<SizeLevel> levels_of(const std::vector<Species>& species) {
     return choose_size_levels(species, 0, n, area_of(species, 0.4));
 }
 
-/// Half of the area in discs `ratio` times as large as the others.
+/// Two species that cover equal areas; discs of one are `ratio` times as large.
 std::vector<Species> mixture(double ratio) {
     const double n_large = std::max(1.0, std::round(10000 / (ratio * ratio + 1)));
     return {{static_cast<std::uint64_t>(n_large), ratio, 1},
@@ -55,7 +55,7 @@ TEST_CASE("size levels: large discs among small ones have their own, and each ra
         CHECK(level_of(ratio, levels) == 1);
         CHECK(equivalent_radius(levels) < 2);
     }
-    std::vector<Species> wide; // seven octaves
+    std::vector<Species> wide; // radii over seven octaves
     for (int k = 0; k < 128; ++k) wide.push_back({std::uint64_t{1} << (14 - k / 9), 1.0 + k, 1});
     for (const bool is_each_octave : {false, true}) {
         const std::vector<SizeLevel> levels = choose_size_levels(wide, 0, 1e5, 1e8, is_each_octave);

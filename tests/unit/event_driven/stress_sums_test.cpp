@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The virial of many collisions at once, against each term as a 128-bit integer of its own.
+// The virial of many collisions at once, compared with a separate 128-bit integer for each term.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Impulse {
     Separation to;
 };
 
-/// Sizes spread evenly over powers of two from `least` to `most`.
+/// Sizes are spread evenly over the powers of two from `least` to `most`.
 std::vector<Impulse> impulses(std::size_t count, int least, int most, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     const auto number = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
@@ -46,7 +46,8 @@ std::array<double, 3> values_of(const StressSums& virial) {
     return {virial.xx.value(), virial.xy.value(), virial.yy.value()};
 }
 
-/// To the nearest unit, as whole numbers of more bits than either sum has.
+/// The expected sums: terms rounded to the nearest unit, and added as whole numbers with more bits
+/// than StressSums has.
 std::array<double, 3> expected_of(const std::vector<Impulse>& impulses, double bound) {
     const double unit = std::ldexp(bound, -125);
     std::array<long double, 3> sums{};
@@ -64,8 +65,9 @@ std::array<double, 3> expected_of(const std::vector<Impulse>& impulses, double b
 } // namespace
 
 TEST_CASE("virials have the same bits in any order and any split") {
-    const double bound = 0x1p79;           // a unit of 2^-45
-    for (const int largest : {1, 5, 40}) { // in vectors; some terms; most terms one by one
+    const double bound = 0x1p79; // a unit of 2^-45
+    // all in vectors; some terms separately; most terms separately
+    for (const int largest : {1, 5, 40}) {
         std::vector<Impulse> all = impulses(1000, -10, largest, 5);
         const std::array<double, 3> expected = values_of(virial_of(all, bound, 0));
         std::mt19937_64 engine(6);

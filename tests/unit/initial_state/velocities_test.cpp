@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities of generated discs against the distributions they are said to have.
+// Velocities of generated discs compared with their distributions.
 #include "catch.hpp"
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST_CASE("Maxwell velocities: speeds, components and moments") {
               sample.speed, [rms](double v) { return 1 - std::exp(-v * v / (rms * rms)); }) < 1.95);
     const auto normal = [rms](double v) {
         return 0.5 * (1 + std::erf(v / rms));
-    }; // standard deviation rms / sqrt(2)
+    }; // cumulative distribution for the standard deviation rms / sqrt(2)
     CHECK(kolmogorov_smirnov(sample.vx, normal) < 1.95);
     CHECK(kolmogorov_smirnov(sample.vy, normal) < 1.95);
     CHECK(std::fabs(mean(sample.vx)) < 4 * rms / std::sqrt(2) / root_n);
@@ -67,7 +67,7 @@ TEST_CASE("uniform velocities: speeds up to sqrt(3) times their root mean square
 }
 
 TEST_CASE("the default seed's velocities stay what they are") {
-    // A seed names its discs for ever: these are the bits of the first release.
+    // A seed must always give the same discs: these are the bits of the first release.
     for (const auto& [kind, bits] :
          {std::pair{VelocityKind::maxwell, "c74526b503958107f3be3495a260f322"},
           std::pair{VelocityKind::uniform, "8688534e85de909de50fcf9ee869d5f5"}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lattices: every disc in the box, none overlapping, shaken or not, up to a packing of 0.9.
+// Lattices: all discs are in the box and none overlap, shaken or not, up to a packing of 0.9.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The least distance of two points, by a sweep along x.
+/// The smallest distance of two points, by a sweep along x.
 double nearest(std::vector<Point> points, double at_most) {
     std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
     double least = at_most;
@@ -102,8 +102,8 @@ TEST_CASE("shaking fills the free radius evenly") {
     }
     CHECK(std::fabs(x) < 4 * 0.5 / 100);
     CHECK(std::fabs(y) < 4 * 0.5 / 100);
-    CHECK(std::fabs(square - 0.5) <
-          4 * std::sqrt(1.0 / 12) / 100); // uniform in the unit disc: the square is uniform
+    // The squared distance is uniform if points are uniform in a disc.
+    CHECK(std::fabs(square - 0.5) < 4 * std::sqrt(1.0 / 12) / 100);
 }
 
 TEST_CASE("the default seed's lattice stays what it is") {

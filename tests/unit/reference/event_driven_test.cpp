@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method's oracle against scenes worked out by hand, the laws of mechanics, and
-// the time-stepped method where they meet.
+// The reference of the event-driven method compared with scenes solved by hand, the laws of
+// mechanics, and the time-stepped method where both agree.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -37,8 +37,8 @@ TEST_CASE("all: a touching cradle passes its blow on at one time, generation by 
         {32, 1, 1, 64},
         std::vector<InputDisc>{{0, 4, 8, 1, 0}, {3, 7, 8}, {1, 9, 8}, {2, 11, 8}, {4, 14, 8}});
     run.run_micro_steps(1);
-    // The contact at 1 sits on the end of the micro-step: it belongs to it, and so does all that
-    // follows from it.
+    // The contact at time 1 is at the end of the micro-step, so it belongs to this micro-step, and
+    // so do all collisions that follow from it.
     CHECK(run.log() == std::vector<Event>{pair_event(1, 0, 0, 3), pair_event(1, 1, 1, 3),
                                           pair_event(1, 2, 1, 2)});
     CHECK(run.discs()[2].vx == 1);
@@ -49,8 +49,8 @@ TEST_CASE("all: a touching cradle passes its blow on at one time, generation by 
 }
 
 TEST_CASE("all: two blows at one time are taken by id, then by generation") {
-    // Discs 0 and 2 reach the still disc 1 from both sides at t = 1. (1,g0,0,1) comes first: 1 then
-    // meets 2 at once.
+    // Discs 0 and 2 reach disc 1, which rests, from both sides at t = 1. (1,g0,0,1) comes first,
+    // and then 1 meets 2 at once.
     EventDrivenReference run(
         {32, 1, 1, 64}, std::vector<InputDisc>{{0, 13, 8, 1, 0}, {1, 16, 8}, {2, 19, 8, -1, 0}});
     run.run_micro_steps(2);
@@ -70,7 +70,7 @@ TEST_CASE("all: a corner is two wall collisions, x before y, and no disc ever wa
     CHECK(run.discs()[0].wall_collisions == 2);
     EventDrivenReference fast({4, 1, 1, 64}, std::vector<InputDisc>{{0, 2, 1.5, -64, 0}});
     fast.run_micro_steps(1);
-    // Room of 2 at speed 64: walls at 1/64, 3/64, ... 63/64.
+    // A free length of 2 at speed 64: walls are hit at 1/64, 3/64, ... 63/64.
     CHECK(fast.wall_collisions() == 32);
     CHECK(fast.discs()[0].tau == 63.0 / 64);
 }
@@ -153,7 +153,7 @@ TEST_CASE("all: agrees with the time-stepped method while no disc is due twice i
             if (one.counters().rejected_candidates > 0) break;
             const std::uint64_t done = one.log().size();
             if (done > scene.discs.size() || done != all.log().size())
-                break; // chaos, or a second collision on the way
+                break; // trajectories diverge, or a disc has collided twice
             double gap = 0;
             for (std::size_t i = 0; i < scene.discs.size(); ++i) {
                 gap = std::max(gap, std::fabs(one.discs()[i].x - all.discs()[i].x));

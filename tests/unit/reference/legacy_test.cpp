@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two programs of the time-stepped method that share no formula: equal where numbers are exact, and
-// to rounding until chaos.
+// Two programs for the time-stepped method that share no formula. They agree exactly if numbers are
+// exact, and otherwise to within rounding, until trajectories diverge.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -40,12 +40,12 @@ template <class Run> std::vector<DiscState> where_now(const Run& run, double clo
 }
 
 struct Agreement {
-    std::uint64_t collisions = 0; ///< until the horizon
-    double gap = 0;               ///< largest until the horizon, in box sizes
+    std::uint64_t collisions = 0; ///< number until the horizon
+    double gap = 0;               ///< largest one until the horizon, in box sizes
 };
 
-/// Runs until discs displaced by 1e-12 box sizes at the start are off by 1e-8: beyond that nothing
-/// can be compared.
+/// Runs until discs that were displaced by 1e-12 box sizes at the start differ by 1e-8. Beyond that
+/// nothing can be compared.
 Agreement compare_until_horizon(const TestScene& scene) {
     TestScene displaced = scene;
     const double size = scene.setting.box_size, radius = scene.setting.radius;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shared scenes are what their names say: legal, all different, alive, and none of their known
-// contacts lost.
+// The shared scenes are valid, all different, have collisions, and lose none of their known
+// contacts.
 #include "catch.hpp"
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference itself against small scenes worked out by hand, in numbers that are exact in
-// binary.
+// The reference compared with small scenes solved by hand, in numbers that are exact in binary.
 #include "catch.hpp"
 
 #include "time_stepped.hpp"
@@ -44,8 +43,8 @@ TEST_CASE("velocities are divided by the micro-steps") {
 }
 
 TEST_CASE("a pair meets head on and swaps velocities") {
-    // Gap 2 closed at 0.5 a step: contact at 4, the end of micro-step 3 and the start of 4; the
-    // earlier one takes it.
+    // A gap of 2 closes at 0.5 a step. The contact at 4 is the end of micro-step 3 and the start of
+    // 4; it belongs to the earlier one.
     const std::vector<InputDisc> discs = {{0, 4, 8, 0.5, 0}, {1, 8, 8, 0, 0}};
     CHECK(after(3, {16, 1, 1, 64}, discs).log().empty());
     const TimeSteppedReference run = after(5, {16, 1, 1, 64}, discs);
@@ -77,7 +76,8 @@ TEST_CASE("a graze and equal velocities are no contact") {
 }
 
 TEST_CASE("a wall sends a disc back, once per micro-step") {
-    // Low wall centre at 1; from 2 at -4 a step: t = 1/4, then 3 units to go back, no stop.
+    // The wall for centres is at 1. From 2 at -4 a step the disc is there at t = 1/4, and then
+    // flies 3 units back without a stop.
     const TimeSteppedReference run = after(1, {16, 1, 1, 64}, {{0, 2, 8, -4, 0}});
     check_state(run.discs()[0], 1, 8, 4, 0, 0.25);
     CHECK(run.log()[0] == Collision{0, 0.25, 0, Collision::wall});
@@ -90,7 +90,8 @@ TEST_CASE("a disc that would leave by the other wall waits there") {
     const TimeSteppedReference run = after(1, {16, 1, 1, 64}, {{0, 2, 8, -8, 1}});
     check_state(run.discs()[0], 1, 8.125, 8, 1, 0.125);
     const TimeSteppedReference fast = after(1, {16, 1, 1, 64}, {{0, 2, 8, -32, 1}});
-    // t = 1/32, then 14 units to the high wall at 32 a step: ts = 7/16, y = 8 + 1/32 + 7/16.
+    // The bounce is at t = 1/32; then 14 units to the high wall at 32 a step: ts = 7/16, y = 8 +
+    // 1/32 + 7/16.
     check_state(fast.discs()[0], 15, 8.46875, 32, 1, 1);
     CHECK(fast.counters() == Counters{1, 0, 1, 0});
     const TimeSteppedReference next = after(2, {16, 1, 1, 64}, {{0, 2, 8, -32, 1}});
@@ -102,11 +103,10 @@ TEST_CASE("a corner counts once and turns both axes") {
     const TimeSteppedReference run = after(1, {16, 1, 1, 64}, {{0, 2, 2, -2, -2}});
     check_state(run.discs()[0], 1, 1, 2, 2, 0.5);
     CHECK(run.counters().wall_collisions == 1);
-    // Off by less than the band of 1e-8 on the later axis: still one corner.
+    // The later axis is off by less than the band of 1e-8: still one corner.
     const TimeSteppedReference near = after(1, {16, 1, 1, 64}, {{0, 2, 2 + 0x1p-28, -2, -2}});
     check_state(near.discs()[0], 1, 1 + 0x1p-28, 2, 2, 0.5);
-    // Off by more: the other wall has to wait for the next micro-step, and the disc waits for it
-    // there.
+    // Off by more: the disc stops at the other wall, and bounces there in the next micro-step.
     const TimeSteppedReference off = after(1, {16, 1, 1, 64}, {{0, 2, 2 + 0x1p-20, -2, -2}});
     check_state(off.discs()[0], 1 + 0x1p-20, 1, 2, -2, 1);
 }
@@ -119,28 +119,29 @@ TEST_CASE("a slow disc inside the band bounces at the end without touching") {
 }
 
 TEST_CASE("walls come before pairs at the same time and disc") {
-    // At t = 1/2 disc 0 touches the wall and disc 1 touches disc 0: (1/2, 0, wall) is first and
+    // At t = 1/2 disc 0 touches the wall and disc 1 touches disc 0. (1/2, 0, wall) comes first and
     // takes disc 0.
     const std::vector<InputDisc> discs = {{0, 2, 8, -2, 0}, {1, 4.5, 8, -3, 0}};
     const TimeSteppedReference run = after(1, {16, 1, 1, 64}, discs);
     REQUIRE(run.log().size() == 1);
     CHECK(run.log()[0] == Collision{0, 0.5, 0, Collision::wall});
     CHECK(run.counters() == Counters{2, 1, 1, 0});
-    // Contact was at 1/2 of micro-step 0, and the predicate now starts from tau = 1/2: touching,
+    // The contact was at 1/2 of micro-step 0. The next prediction starts from tau = 1/2: touching,
     // approaching, t = -1/2.
     const TimeSteppedReference later = after(2, {16, 1, 1, 64}, discs);
     CHECK(later.counters().pair_collisions == 0);
 }
 
 TEST_CASE("the lower id wins a tie, whatever the place in the list") {
-    // Three in a row, both gaps close at t = 1/2.
+    // Three discs in a row; both gaps close at t = 1/2.
     const std::vector<InputDisc> in_order = {{0, 4, 8, 1, 0}, {1, 6.5, 8, 0, 0}, {2, 9, 8, -1, 0}};
     CHECK(after(1, {16, 1, 1, 64}, in_order).log()[0] == Collision{0, 0.5, 0, 1});
     const std::vector<InputDisc> reversed = {{2, 4, 8, 1, 0}, {1, 6.5, 8, 0, 0}, {0, 9, 8, -1, 0}};
     const TimeSteppedReference run = after(1, {16, 1, 1, 64}, reversed);
     CHECK(run.log()[0] == Collision{0, 0.5, 0, 1});
     CHECK(run.counters() == Counters{2, 1, 0, 1});
-    // The loser passes through: next micro-step its contact lies in the past.
+    // The rejected pair passes through each other: in the next micro-step its contact is in the
+    // past.
     CHECK(after(2, {16, 1, 1, 64}, reversed).counters().pair_collisions == 1);
 }
 

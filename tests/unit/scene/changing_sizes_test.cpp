@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Oscillating walls and growing discs in a scene: what is read, and what is refused.
+// Oscillating walls and growing discs in a scene: values that are read, and errors.
 #include "catch.hpp"
 
 #include <cmath>
@@ -33,7 +33,7 @@ TEST_CASE("oscillating walls are read, and refused where they leave no room") {
     const auto problems = [&](const Texts& more) { return problems_with(with(more)); };
     const SceneParameters scene = read_scene(good, "s.toml", with({"box.bottom.phase=3.5"}));
     CHECK(scene.effects.boundaries[2] == Boundary{BoundaryKind::oscillating, 1, 0, 0, 2, 10, 3.5});
-    CHECK(scene.effects.contact.contact_time == 0); // a length takes its place
+    CHECK(scene.effects.contact.contact_time == 0); // 0, because a length is used instead
     CHECK(problems({}).empty());
     CHECK(has(problems_with({"box.bottom.kind=oscillating"}), "'box.bottom.amplitude' is missing"));
     CHECK(has(problems_with({"box.bottom.kind=oscillating"}), "'box.bottom.period' is missing"));
@@ -58,7 +58,7 @@ TEST_CASE("oscillating walls are read, and refused where they leave no room") {
     CHECK(has(problems({"box.bottom.kind=periodic"}), "no meaning without box.bottom.kind"));
 }
 
-// A disc may stand where the wall is not at the start, and not where it is.
+// A listed disc must be inside the wall's position at the start, not inside its line.
 TEST_CASE("listed discs begin before oscillating walls") {
     const std::string one = "[box]\nsize = 100\n[discs]\nradius = 1\n[time]\nsteps = 10\n"
                             "[box.bottom]\nkind = 'oscillating'\namplitude = 2\nperiod = 10\n";
@@ -89,7 +89,7 @@ TEST_CASE("discs that grow need room until the last step") {
         has(problems_with({"effects.growth.rate=1"}),
             "after 10 steps discs of radius 11 would cover 1.901 times the box; there is room for "
             "them up to step 6"));
-    // Two discs that are wider than a periodic box allows, long before they cover it.
+    // Two discs reach half of a periodic box long before they cover it.
     const Texts two{"discs.count=2", "box.left.kind=periodic", "box.right.kind=periodic"};
     const auto two_growing = [&](const char* rate) {
         Texts texts = two;
@@ -98,7 +98,8 @@ TEST_CASE("discs that grow need room until the last step") {
     };
     CHECK(two_growing("effects.growth.rate=2.3").empty());
     CHECK(has(two_growing("effects.growth.rate=2.5"), "room for them up to step 9"));
-    // Between walls there is room up to the width, along the periodic axis up to half the length.
+    // Between walls discs have room up to the width, and along the periodic axis up to half the
+    // length.
     const auto in_strip = [&](const char* rate) {
         Texts texts = two;
         texts.emplace_back("box.size=[100, 3]");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A restart may change how long a run goes on and what it writes, and nothing that has a say in the
-// bits.
+// A restart may change how long a run is and what it writes, but no setting that affects the bits.
 #include "scene/compare.hpp"
 
 #include "catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Radii, masses and spins of each disc: from the file of discs, from rows of the list, from
+// Radii, masses and spins of each disc, from the file of discs, from rows of the list, and from
 // species.
 #include "catch.hpp"
 
@@ -37,7 +37,7 @@ DiscColumns columns_of(const std::string& lines, const SceneParameters& scene) {
     return read_disc_columns(stream, scene);
 }
 
-/// As the program does it: the scene, the columns it asks for, and the scene again.
+/// Reads a scene as the program does: the scene, the columns that it names, and the scene again.
 SceneParameters scene_with(const std::string& text, const std::string& lines) {
     const SceneParameters first = read_scene(SceneText{"s.toml", text, 0, false, {}});
     return read_scene(SceneText{"s.toml", text, 0, false, columns_of(lines, first)});
@@ -68,7 +68,7 @@ TEST_CASE(
                        {2, 50, 50, 0, 1}, {0, 10, 10, 1, 0}, {3, 80, 80, 0, 0}, {1, 20, 20, 0, 0}});
 
     const SceneParameters other = scene_with(from_file("[\"mass\", \"radius\"]"),
-                                             four_lines); // in the order that is named
+                                             four_lines); // numbers are in the order of the columns
     CHECK(other.effects.species == std::vector<Species>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
     const SceneParameters light = scene_with(from_file("[\"radius\"]", 2),
                                              "1 20 20 0 0 2\n0 10 10 1 0 4\n");
@@ -155,7 +155,7 @@ TEST_CASE("lines with wrong columns are told by their number, with all else that
     std::vector<Problem> none;
     const SceneParameters checked = read_scene(SceneText{"s.toml", text, 0, false, columns}, {},
                                                none);
-    CHECK(none.empty()); // the reader of lines has the words
+    CHECK(none.empty()); // the reader of lines reports the error
     std::istringstream stream(lines);
     const std::vector<Problem> problems = disc_line_problems(stream, checked);
     CHECK(places_of(problems) ==

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts of species by shares, groups in the order of ids, and scenes without their frozen discs.
+// Counts of species from shares, groups in the order of ids, and scenes without their frozen discs.
 #include "catch.hpp"
 
 #include <string>
@@ -38,7 +38,8 @@ TEST_CASE("shares give whole numbers of the right sum, to the largest rest") {
                                   ", radius = 1}, {share = " + b + ", radius = 2}, {share = " + c +
                                   ", radius = 3}]"));
     };
-    CHECK(shares("count = 10", "0.5", "0.25", "0.25") == Counts{5, 3, 2});  // 2.5 twice: the first
+    // two shares of 2.5: the first one is rounded up
+    CHECK(shares("count = 10", "0.5", "0.25", "0.25") == Counts{5, 3, 2});
     CHECK(shares("count = 10", "0.52", "0.24", "0.24") == Counts{5, 3, 2}); // 5.2, 2.4, 2.4
     CHECK(shares("count = 7", "0.2", "0.2", "0.6") == Counts{2, 1, 4});     // 1.4, 1.4, 4.2
     CHECK(shares("count = 101", "0.1", "0.1", "0.8") == Counts{10, 10, 81});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of discs: round trips, chunks, and each way for a line to be wrong.
+// Lines of discs: written and read back, in chunks, and with each kind of error.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ struct Outcome {
     std::vector<Problem> problems;
 };
 
-/// Three parts in the wrong order, as threads may take them.
+/// Calls the parts in the wrong order, as threads may do.
 void in_three_parts(std::size_t n, const std::function<void(std::size_t, std::size_t)>& work) {
     for (std::size_t k = 3; k-- > 0;) work(n * k / 3, n * (k + 1) / 3);
 }
@@ -82,20 +82,20 @@ TEST_CASE("discs come back bit for bit, in any order of ids and any chunks") {
 }
 
 TEST_CASE("each wrong line is one problem, and the good ones are still read") {
-    const std::string text = "0 5 5 0 0\n"                        // 6
-                             "1 5 5 0\n"                          // 7 short
-                             "2 5 5 0 0 7\n"                      // 8 trailing rubbish
-                             "3 5 five 0 0\n"                     // 9
-                             "4 nan 5 0 0\n"                      // 10
-                             "5 5 5 inf 0\n"                      // 11
-                             "0 5 5 0 0\n"                        // 12 twice
-                             "99 5 5 0 0\n"                       // 13 out of range
-                             "-1 5 5 0 0\n"                       // 14
-                             "x 5 5 0 0\n"                        // 15
-                             "6 0.999 5 0 0\n"                    // 16 outside
-                             "7 5 9.001 0 0\n"                    // 17 outside
-                             "1.0 5 5 0 0\n"                      // 18
-                             "8 5 5 1e100 0\n"                    // 19 too fast
+    const std::string text = "0 5 5 0 0\n"     // 6
+                             "1 5 5 0\n"       // line 7: too few numbers
+                             "2 5 5 0 0 7\n"   // line 8: a word too many
+                             "3 5 five 0 0\n"  // 9
+                             "4 nan 5 0 0\n"   // 10
+                             "5 5 5 inf 0\n"   // 11
+                             "0 5 5 0 0\n"     // line 12: an id that occurs twice
+                             "99 5 5 0 0\n"    // line 13: an id out of range
+                             "-1 5 5 0 0\n"    // 14
+                             "x 5 5 0 0\n"     // 15
+                             "6 0.999 5 0 0\n" // line 16: outside of the box
+                             "7 5 9.001 0 0\n" // line 17: outside of the box
+                             "1.0 5 5 0 0\n"   // 18
+                             "8 5 5 1e100 0\n" // line 19: too fast
                              "99999999999999999999999 5 5 0 0\n"; // 20
     const Outcome outcome = read_all(text, scene_of(12));
     CHECK(outcome.discs == std::vector<InputDisc>{{0, 5, 5, 0, 0}});
@@ -253,11 +253,11 @@ TEST_CASE("lines of a scene that is wrong itself are looked at as far as it is k
     SceneParameters scene = scene_of(5);
     CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:9", "t.in:10", "t.in:11",
                                        "t.in:12", "t.in:13", "t.in"});
-    scene.n_discs = 0; // ids are all that fit, none is missing
+    scene.n_discs = 0; // with an unknown number of discs, no id is missing
     CHECK(places(text, scene) ==
           Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
     scene.box = {};
-    scene.radius = 0; // any finite place
+    scene.radius = 0; // without a valid box, any finite position is accepted
     CHECK(places(text, scene) == Texts{"t.in:6", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
     CHECK(places("1 4 4 0 0\n0 3 3 0 0\n", scene).empty());
 }

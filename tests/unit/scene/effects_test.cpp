@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Effects in a scene: what is read, and what is refused for which reason.
+// Effects in a scene: values that are read, and error messages.
 #include "catch.hpp"
 
 #include <cmath>
@@ -140,8 +140,8 @@ TEST_CASE("gravity is read, and refused where the falling frame would leave the 
         "time.sync_every = 10 or less will do"));
     CHECK(problems_with({"effects.gravity.x=1", "time.method=event-driven", "time.sync_every=10"})
               .empty());
-    // By default syncs follow each other as gravity needs it: 8 steps fall 32, and half the box is
-    // 50.
+    // By default syncs are as frequent as gravity requires. In 8 steps discs fall by 32, which is
+    // less than half the box, 50.
     const auto sync_every = [](const Texts& texts) {
         return read_scene(good, "s.toml", texts).sync_every;
     };
@@ -168,7 +168,7 @@ TEST_CASE("drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.gravity.x=0.03", "time.sync_every=64", all}),
               "time.sync_every = 57 or less"));
     CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all})
-              .empty()); // falls 42 from sync to sync instead of 61
+              .empty()); // with drag a disc falls in a sync interval by 42 instead of 61
 }
 
 TEST_CASE("rough discs are read, and refused beside what does not go with them yet") {
@@ -239,7 +239,7 @@ TEST_CASE("classes of discs are read, by table and by list") {
               "cannot have several species together with effects.contact.kind = \"none\""));
     CHECK(has(problems(two, {"time.precision=single"}), "together with effects"));
     CHECK(has(problems(two, {"discs.generator=legacy"}), "has no meaning") ==
-          false); // the override takes the species away
+          false); // the override removes the species
     CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = -2\n"),
               "row 1 of 'discs.species': the radius must be"));
     CHECK(has(problems("[[discs.species]]\ncount = 3.5\nradius = 2\n"),
@@ -273,7 +273,7 @@ TEST_CASE("periodic sides are read, in pairs, where they make sense") {
          "bottom = {kind = \"sheared\"}, top = {kind = \"sheared\"}}",
          "effects.shear.rate=0.1", "effects.gravity.y=-0.01"});
     CHECK(has(in_flow, "nothing stops discs in a flow without walls"));
-    CHECK_FALSE(has(in_flow, "would fall for ever")); // what is to be taken there is no help here
+    CHECK_FALSE(has(in_flow, "would fall for ever")); // the first message is enough
     CHECK(has(problems_with({"box.left.kind=periodic"}),
               "box.left.kind and box.right.kind must both be \"periodic\", or neither"));
     CHECK(has(problems_with({"box.top.kind=periodic"}),
@@ -300,10 +300,10 @@ TEST_CASE("periodic sides are read, in pairs, where they make sense") {
     }
     CHECK(has(with({"effects.gravity.y=-0.01", "time.method=event-driven",
                     "box.right.tangential_restitution=1"}),
-              "would fall for ever")); // nothing takes the energy
+              "would fall for ever")); // nothing takes energy
     CHECK(has(with({"effects.gravity.y=-0.01", "time.method=event-driven",
                     "effects.obstacles.discs=[[5, 5, 1]]"}),
-              "would fall for ever")); // bodies reflect discs, and nothing takes the energy
+              "would fall for ever")); // obstacles reflect discs, but nothing takes energy
     CHECK(with({"effects.obstacles.discs=[[0,100,40]]"}).empty());
     CHECK(has(with({"effects.obstacles.discs=[[50,50,5], [50,50,99]]"}),
               "row 2 of 'effects.obstacles.discs': the radius must be at most 98, not 99"));
@@ -350,7 +350,7 @@ TEST_CASE("periodic sides bound what can be measured, and the sizes of discs") {
         CHECK(found.empty() == is_all_round);
         if (!is_all_round) CHECK(has(found.front().text, "needs a box that is periodic all round"));
     }
-    const auto small = mixed_in("7.9"); // of the largest disc four radii
+    const auto small = mixed_in("7.9"); // the box must have four radii of the largest disc
     CHECK(std::any_of(small.begin(), small.end(), [](const Problem& problem) {
         return problem.text.find("too small to be periodic") != std::string::npos;
     }));

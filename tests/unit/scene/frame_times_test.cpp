@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps that have frames, against lists that are written out.
+// The steps that have frames, compared with lists written by hand.
 #include <limits>
 #include <vector>
 
@@ -33,7 +33,7 @@ TEST_CASE("frames: regular steps, or steps that grow by a factor") {
           std::vector<std::int64_t>{0, 1, 10, 100, 1000, 10000});
     // 3 times 10^(k/4): 3, 5.33, 9.49, 16.9, 30, 53.3, 94.9
     CHECK(frames_up_to(frames(3, 4), 100) == std::vector<std::int64_t>{0, 3, 5, 9, 17, 30, 53, 95});
-    // 10^(k/10) is 1, 1.26, 1.58, 2.0 ...: steps that come twice have one frame
+    // 10^(k/10) is 1, 1.26, 1.58, 2.0 ...; a step that occurs twice has one frame
     CHECK(frames_up_to(frames(1, 10), 11) == std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 8, 10});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of keys: every key says what it takes, and what is written of a scene reads as the same
-// scene, over scenes drawn at random from the table itself.
+// The table of keys: a scene that is written and read back is the same scene, for random scenes
+// drawn from the table itself.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::vector<Problem> problems_in(const std::string& text, const Texts& overrides
     return problems_of([&] { read_scene(text, "s.toml", overrides); });
 }
 
-/// Names of all keys that are not the same in both scenes.
+/// Names of all keys that differ between the two scenes.
 Texts keys_that_differ(const SceneParameters& a, const SceneParameters& b) {
     Texts names;
     for (const Key& key : keys()) {
@@ -98,8 +98,8 @@ TEST_CASE("what is written of a scene reads as the same scene, whatever it names
             if (!known(key)) others.push_back(&key);
         return others;
     };
-    // Some keys have a meaning in few scenes, so there are more scenes until each has been there.
-    // Each of these scenes asks for one of the keys that are missing.
+    // Some keys have a meaning only in few scenes. So further scenes are drawn, each with one of
+    // the keys that have not occurred, until all have.
     std::vector<const Key*> missing;
     constexpr int enough = 1500;
     for (int i = 0; i < 30000 || (i < 300000 && (!missing.empty() || n_read <= enough)); ++i) {
@@ -107,7 +107,7 @@ TEST_CASE("what is written of a scene reads as the same scene, whatever it names
         const std::size_t turn = static_cast<std::size_t>(i);
         Texts overrides = random_overrides(draw, missing.empty() ? nullptr
                                                                  : missing[turn % missing.size()]);
-        // One wrong key in a scene is left out; the rest may be right.
+        // If one key of a scene is wrong, it is left out, because the others may be right.
         std::vector<Problem> problems = problems_in(box, overrides);
         for (int round = 0; round < 8 && !problems.empty(); ++round) {
             for (const Problem& problem : problems)
@@ -119,7 +119,8 @@ TEST_CASE("what is written of a scene reads as the same scene, whatever it names
         }
         if (!problems.empty()) continue;
         const SceneParameters scene = read_scene(box, "s.toml", overrides);
-        if (scene.radius == 0) continue; // the lines of a file give it, with the number of discs
+        // then the lines of a file give the radius and the number of discs
+        if (scene.radius == 0) continue;
         const std::string text = scene_text(scene);
         CAPTURE(overrides, text);
         const auto faults = problems_in(text);
@@ -134,7 +135,7 @@ TEST_CASE("what is written of a scene reads as the same scene, whatever it names
             written.insert(override.substr(0, override.find('=')));
     }
     CHECK(n_read > enough);
-    for (const Key& key : keys()) { // each has been there
+    for (const Key& key : keys()) { // every key has occurred
         CAPTURE(key.name);
         CHECK(is_written(key));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The legacy text format: its header, what follows it, and each way to be wrong.
+// The legacy text format: its header, the lines after it, and each kind of error.
 #include "catch.hpp"
 
 #include <sstream>

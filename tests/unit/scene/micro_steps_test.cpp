@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of effects in micro-steps against formulas written out here, and energies of discs
-// against those of mechanics.
+// The numbers of effects in micro-steps compared with formulas, and energies of discs compared with
+// mechanics.
 #include <cmath>
 
 #include "catch.hpp"
@@ -83,18 +83,18 @@ TEST_CASE("effects know the energy of a disc") {
             sum += one.of_disc(disc, effects, box);
         return sum;
     };
-    effects.gravity = {0, -0.25}; // down: m g h above the bottom
+    effects.gravity = {0, -0.25}; // downwards: m g h above the bottom
     CHECK(energy() == Approx(3 * 0.25 * 7).epsilon(1e-15));
-    effects.gravity = {0.5, 0}; // to the right: above the right side
+    effects.gravity = {0.5, 0}; // gravity to the right: the height is counted from the right side
     CHECK(energy() == Approx(3 * 0.5 * (30 - 4)).epsilon(1e-15));
     effects.gravity = {};
     effects.contact.kind = ContactKind::rough;
     effects.contact.inertia = 0.4; // of m r^2
     CHECK(energy() == Approx(0.5 * 0.4 * 3 * 1.5 * 1.5 * 0.5 * 0.5).epsilon(1e-15));
-    // What drag and growth do to energies.
+    // The effect of drag and growth on energies.
     effects.drag = 0.1;
     CHECK(energy_left_by(effects, 7) == Approx(std::exp(-1.4)).epsilon(1e-15));
-    effects.gravity = {0, 1}; // then the loss depends on the flight
+    effects.gravity = {0, 1}; // with gravity the loss by drag depends on the flight
     CHECK(energy_left_by(effects, 7) == 1);
     effects.growth = 0.01;
     CHECK(work_in_collision(effects, 2, 3) == Approx(2 * 0.01 * 3).epsilon(1e-15));

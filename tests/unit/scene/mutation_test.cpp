@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thousands of damaged inputs: each gives a scene or an InputError, never anything else.
+// Thousands of damaged inputs: each gives a scene or an InputError.
 #include "catch.hpp"
 
 #include <random>
@@ -40,8 +40,8 @@ private:
         case 1: return text.erase(at, 1 + below(8));
         case 2: return text.insert(at, pieces[below(pieces.size())]);
         case 3: {
-            const std::string copy = text.substr(
-                at, 1 + below(30)); // drawn first: arguments have no order
+            // A separate statement, because arguments may be evaluated in any order.
+            const std::string copy = text.substr(at, 1 + below(30));
             return text.insert(below(text.size()), copy);
         }
         case 4:

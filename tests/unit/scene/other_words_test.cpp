@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words that other programs have for sides, contacts and thermostats are errors that name what
-// there is instead. Tables on the command line mean what they mean in scenes, and a temperature
-// that a flow does not keep is a warning.
+// Words of other programs for sides, contacts and thermostats are errors that name the right word.
+// Tables on the command line have the same meaning as in scenes, and a temperature that a flow does
+// not keep is a warning.
 #include <string>
 #include <utility>
 
@@ -68,14 +68,15 @@ TEST_CASE("a word of the command line drops what the scene's other word needed")
                    {"effects.thermostat={kind = \"langevin\", rate = 0.01, temperature = 1}"})
             .effects.thermostat;
     CHECK(other.kind == ThermostatKind::langevin);
-    CHECK(other.seed == 5); // it has a meaning, so it stays
+    CHECK(other.seed == 5); // the key has a meaning for this kind, so it stays
     const Effects plain = read_scene(scene, "s.toml",
                                      {"box.bottom.kind=wall", "effects.contact.kind=elastic",
                                       "effects.thermostat.kind=none"})
                               .effects;
     CHECK(plain.boundaries[2].kind == BoundaryKind::wall);
     CHECK(!plain.are_any());
-    // What had no meaning in the scene itself is still an error, and so is what is given beside it.
+    // Keys that have no meaning in the scene itself are still errors, and so are keys on the
+    // command line.
     std::string wrong = scene;
     wrong.replace(wrong.find("seed = 5"), 8, "rate = 5");
     CHECK(mentions(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which numbers of scenes are places, and how they go to and fro between the coordinates of users
-// and those of the computation.
+// The numbers of scenes that are places, and their conversion between the coordinates of users and
+// those of the computation.
 #include "catch.hpp"
 
 #include <cmath>
@@ -115,7 +115,7 @@ TEST_CASE("To and fro, a place is rounded once and stays as it is then") {
     for (int i = 0; i < 100'000; ++i) {
         const double origin = origins(random), first = places(random);
         const double second = moved(moved(first, -origin), origin);
-        CHECK_FALSE(std::fabs(second - first) > 0x1p-48); // an ulp of 60
+        CHECK_FALSE(std::fabs(second - first) > 0x1p-48); // one ulp of a number near 60
         const double third = moved(moved(second, -origin), origin);
         if (second != third) FAIL(first << " from " << origin);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a reader has against an input, in a form that a test can write down.
+// The problems of an input, in a form that tests can compare.
 #pragma once
 
 #include <string>
@@ -37,11 +37,11 @@ inline bool mentions(const std::vector<Problem>& problems, const std::string& te
     return false;
 }
 
-/// A scene to which tests add what they are about.
+/// A valid scene, to which tests add lines.
 inline const std::string good_scene =
     "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n";
 
-/// The texts of all problems of that scene with overrides, one a line.
+/// The texts of all problems of that scene with overrides, one on each line.
 inline std::string problems_with(const std::vector<std::string>& overrides) {
     std::string text;
     for (const Problem& problem : problems_of([&] { read_scene(good_scene, "s.toml", overrides); }))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes know the quantities of programs that measure. Naming the list links it to this test.
+// Declares the quantities of programs that measure. Naming the list links it to this test.
 #include "measure/measurement.hpp"
 
 namespace carrom::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes drawn at random from the table of keys, as settings on top of an empty box.
+// Random scenes drawn from the table of keys, as settings on top of an empty box.
 #pragma once
 
 #include <algorithm>
@@ -85,7 +85,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// A scene is whole once the file is read, or discs that freeze are found.
+/// Some scenes are complete only when a file has been read, or when frozen discs are known.
 inline bool is_found_later(const Key& key) {
     return key.name.starts_with("discs.from") || key.name == "discs.frozen";
 }
@@ -95,7 +95,7 @@ inline const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
 inline const std::string two_species =
     "discs.species=[{count = 2, radius = 1}, {count = 3, radius = 0.5}]";
 
-/// Fields, and discs that exchange sizes: keys that go with each other, in some scenes.
+/// Adds, to some scenes, fields or discs that exchange sizes: keys that are only allowed together.
 inline void add_fields(Draw& draw, Texts& texts) {
     if (draw.below(8) == 0)
         texts.insert(texts.end(), {"effects.gravity.amplitude_y=0.01", "effects.gravity.period=50",
@@ -109,7 +109,7 @@ inline void add_fields(Draw& draw, Texts& texts) {
     if (draw.below(8) == 0) texts.insert(texts.end(), {two_species, "effects.swap.rounds=2"});
 }
 
-/// Inlets, and what needs several species, in some scenes.
+/// Adds inlets and effects that need several species to some scenes.
 inline void add_mixtures(Draw& draw, Texts& texts) {
     if (draw.below(8) == 0) {
         const std::string side = std::string("box.") + boundary_names[draw.below(4)];
@@ -128,27 +128,28 @@ inline void add_mixtures(Draw& draw, Texts& texts) {
                       "output.measurements.profile_species=1"});
 }
 
-/// Quantities that keys belong to, and periodic and sheared sides, in some scenes.
+/// Adds quantities, with the keys that belong to them, and periodic and sheared sides to some
+/// scenes.
 inline void add_quantities_and_periods(Draw& draw, Texts& texts) {
-    if (draw.below(8) == 0) // with keys that need these quantities, and periodic sides
+    if (draw.below(8) == 0) // with keys of these quantities, and with periodic sides
         texts.insert(texts.end(), {"box.left.kind=periodic", "box.right.kind=periodic",
                                    "box.bottom.kind=periodic", "box.top.kind=periodic",
                                    "output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"structure_factor\", "
                                    "\"diffusion\", \"correlations\"]",
                                    "output.measurements.correlation_points=8"});
-    if (draw.below(8) == 0) // without quantities that few scenes may have
+    if (draw.below(8) == 0) // without quantities that are allowed only in few scenes
         texts.insert(texts.end(), {"output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"profiles\"]"});
-    if (draw.below(8) == 0) // both sides, and the flow goes through the others
+    if (draw.below(8) == 0) // both sides are sheared; the flow goes through the other two
         texts.insert(texts.end(),
                      {"box.left.kind=periodic", "box.right.kind=periodic",
                       "box.bottom.kind=sheared", "box.top.kind=sheared", "effects.shear.rate=0.1"});
 }
 
-/// A short scene that has a key which few of the others may have; empty for other keys.
+/// A short scene with a key that only few scenes may have; empty for other keys.
 inline Texts scene_with(Draw& draw, const Key& key) {
-    if (key.name.starts_with("time.") && !key.has_rows()) // without effects
+    if (key.name.starts_with("time.") && !key.has_rows()) // a scene without effects
         return {"discs.count=20", "discs.radius=1",
                 draw.below(2) == 0 ? "time.arithmetic=naive" : "time.method=time-stepped",
                 key.name + '=' + draw.value(key)};
@@ -159,8 +160,8 @@ inline Texts scene_with(Draw& draw, const Key& key) {
             side + ".inlet.temperature=0.01", key.name + "=1"};
 }
 
-/// Discs in one of the ways there are, features that need several keys, and about one other key in
-/// eight; most are right or nearly so.
+/// Settings with one of the ways to make discs, features that need several keys, and about one
+/// other key in eight. Most values are valid or nearly so.
 inline Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
     if (Texts texts = wanted ? scene_with(draw, *wanted) : Texts(); !texts.empty()) return texts;
     Texts texts = {"time.method=event-driven"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes whose box is a rectangle: what their text says, what is wrong with it, their lattices.
+// Scenes whose box is a rectangle: their text, their errors, their lattices.
 #include "toml_scenes.hpp"
 
 #include <numbers>
@@ -14,8 +14,8 @@ using namespace carrom::test;
 
 namespace {
 
-/// The text of the only problem; what is else wrong, where there is another number, or it stands
-/// elsewhere. No CHECK in here: it is called within one.
+/// The text of the problem if there is exactly one, at the right place; otherwise the number of
+/// problems or the wrong place. It contains no CHECK, because it is called within one.
 std::string problem_of_size(const std::string& value, const Texts& overrides = {}) {
     const std::vector<Problem> problems = problems_in(with_line(2, "size = " + value), overrides);
     if (problems.size() != 1) return std::to_string(problems.size()) + " problems";
@@ -109,7 +109,7 @@ TEST_CASE("lattices in rectangles keep their gaps to walls and to each other") {
             }
             CHECK(nearest_distance(sites) >= 2 * (radius + s) - 1e-9);
             const bool is_bound_by_discs = radius + s < box.shortest() / 2 - 1e-9;
-            if (n > 1 && lattice->n_sites() == n && is_bound_by_discs) // as wide as it can be
+            if (n > 1 && lattice->n_sites() == n && is_bound_by_discs) // no lattice has a wider gap
                 CHECK(nearest_distance(sites) < 2 * (radius + s) + 1e-6);
             const auto turned_over = widest_lattice(n, {box.y, box.x}, radius);
             for (std::uint64_t id = 0; id < n; ++id) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls and obstacles that rub, in a scene: what is read, and what is an error for which reason.
+// Walls and obstacles that rub, in a scene: values that are read, and error messages.
 #include "catch.hpp"
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Radii that follow a distribution, against the C library's error function and logarithm.
+// Radii that follow a distribution, compared with the C library's error function and logarithm.
 #include "toml_scenes.hpp"
 
 #include <numbers>
@@ -20,7 +20,7 @@ SizeDistribution distribution(SizeKind kind, double polydispersity) {
     return sizes;
 }
 
-/// The probability of smaller radii, without limits.
+/// The probability of a smaller radius, without limits.
 double probability_below(const SizeDistribution& sizes, double radius) {
     const double s = sizes.polydispersity;
     if (sizes.kind == SizeKind::uniform) return (radius - 1) / (2 * std::sqrt(3.0) * s) + 0.5;
@@ -100,7 +100,7 @@ TEST_CASE("any deviation gives finite radii that rise from limit to limit") {
 
 TEST_CASE("the share of a distribution between limits is that of the error function") {
     SizeDistribution sizes = distribution(SizeKind::normal, 0.01);
-    sizes.smallest = 1.05; // five deviations above the mean, and six below 1.06
+    sizes.smallest = 1.05; // five deviations above the mean; 1.06 is six
     sizes.largest = 1.06;
     CHECK(share_within_limits(sizes) == Approx(2.8665157e-7 - 9.8658765e-10).epsilon(1e-6));
     sizes.smallest = 0.94;
@@ -112,7 +112,7 @@ TEST_CASE("the share of a distribution between limits is that of the error funct
     sizes = distribution(SizeKind::uniform, 0.1);
     sizes.largest = 1;
     CHECK(share_within_limits(sizes) == Approx(0.5));
-    sizes = distribution(SizeKind::normal, 0); // all of it is at 1
+    sizes = distribution(SizeKind::normal, 0); // all radii are 1
     CHECK(share_within_limits(sizes) == 1);
     sizes.smallest = 1.5;
     sizes.largest = 2;

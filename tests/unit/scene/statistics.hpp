@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a sample is from the distribution it should have.
+// The distance of a sample from its expected distribution.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace carrom::test {
 
 /// Kolmogorov and Smirnov's largest distance of the sample's distribution from `cumulative`, times
-/// sqrt(n). A true sample exceeds 1.95 once in a thousand.
+/// sqrt(n). A sample of this distribution exceeds 1.95 once in a thousand.
 template <class Cumulative>
 double kolmogorov_smirnov(std::vector<double> sample, const Cumulative& cumulative) {
     std::sort(sample.begin(), sample.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Swap moves on discs that stay where they are: each round is its own inverse, and all ways to deal
-// radii out that do not overlap come equally often. Neighbours are found by brute force.
+// Swap moves of discs that do not move. Each round is its own inverse, and all assignments of radii
+// without overlaps are equally frequent. Neighbours are found by brute force.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,13 +25,13 @@ struct Centre {
     double x = 0, y = 0;
 };
 
-/// What may be around the discs: walls of the box, and a disc that does not move.
+/// The surroundings of the discs: walls of the box, and an obstacle.
 struct Around {
     bool has_walls = false;
     std::optional<FixedDisc> disc = {};
 };
 
-/// Discs of one rank that effects act on, in a box of 12 x 12.
+/// Discs of one rank on which effects act, in a box of 12 x 12.
 class Fixed {
 public:
     Fixed(const std::vector<Centre>& places, const std::vector<double>& radii, std::int64_t rounds,
@@ -109,7 +109,7 @@ private:
     SyncEffects effects_;
 };
 
-/// Radii of 0.7 to 1.05 around the points of a square lattice that is moved a little.
+/// Radii of 0.7 to 1.05 at the points of a square lattice with small random shifts.
 Fixed lattice(std::int64_t rounds) {
     std::mt19937_64 random(3);
     const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
@@ -137,7 +137,7 @@ TEST_CASE("A round of swaps is its own inverse, and no discs overlap after it") 
         CHECK_FALSE(discs.do_overlap(after));
         discs.act(sync);
         CHECK(discs.radii() == before);
-        discs.act(sync); // goes on from there
+        discs.act(sync); // continues from the stored numbers
         for (std::size_t i = 0; i < before.size(); ++i) n_moved += before[i] != after[i];
         CHECK(std::multiset<double>(after.begin(), after.end()) ==
               std::multiset<double>(before.begin(), before.end()));
@@ -149,8 +149,8 @@ namespace {
 
 const std::vector<double> five_radii{0.6, 1.1, 0.8, 1.41, 0.89};
 
-/// Five discs that stay: of 30,000 states, far enough apart to forget each other, each way to deal
-/// their radii out has its share, and every way that does not overlap is found.
+/// Five discs that do not move. In 30,000 nearly independent states each assignment of their radii
+/// is equally frequent, and every assignment without overlaps occurs.
 void check_all_ways(const std::vector<Centre>& places, const Around& around,
                     std::size_t n_expected) {
     Fixed discs(places, five_radii, 120, around);
@@ -180,14 +180,14 @@ void check_all_ways(const std::vector<Centre>& places, const Around& around,
 
 } // namespace
 
-// Discs in a row have so little room that 60 of the 120 ways are left.
+// Discs in a row have so little room that only 60 of the 120 assignments are possible.
 TEST_CASE("All ways to deal out radii that do not overlap come equally often") {
     check_all_ways({{1, 6}, {3.02, 6}, {5.04, 6}, {7.56, 6}, {10.08, 6}}, {}, 60);
 }
 
 TEST_CASE("Walls and obstacles leave discs room or none") {
-    // The first disc has a room of 1 at the wall, the last one 1 at the corner and the third 1.2
-    // at the obstacle. Places are so far apart that discs do not meet.
+    // The first disc has a room of 1 because of the wall, the last one 1 because of the corner, and
+    // the third 1.2 because of the obstacle. Positions are so far apart that discs do not touch.
     const std::vector<Centre> places{{1, 3}, {4, 3}, {8, 3}, {4, 7}, {11, 11}};
     check_all_ways(places, {true, {}}, 36);
     check_all_ways(places, {true, FixedDisc{8, 5.2, 1}}, 24);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts of scenes: overrides, bounds, discs and streams that are listed.
+// Texts of scenes: overrides, bounds, listed discs and streams.
 #include "toml_scenes.hpp"
 
 using namespace carrom;
@@ -46,7 +46,7 @@ TEST_CASE("discs listed in the scene must lie in the box and move") {
     const std::string head = "[box]\nsize = 10\n[discs]\nradius = 1\nlist = [\n";
     const std::string tail = "]\n[time]\nsteps = 1\n";
     CHECK(problems_in(head + "[1, 9, 0, 0],\n[1, 9, 0, 0]\n" + tail)
-              .empty()); // at two walls, and overlapping
+              .empty()); // discs at two walls that overlap each other
     CHECK(
         places_of(problems_in(
             head +
@@ -58,7 +58,8 @@ TEST_CASE("discs listed in the scene must lie in the box and move") {
     const auto inline_rows = problems_in(
         good, {"discs.list=[[1, 2, 3], [5, 5, inf, nan], [0, nan, 1, 0], [5, 5, 0, 0]]",
                "discs.count=4"});
-    CHECK(inline_rows.size() == 3); // they have no lines of their own
+    // rows of an override have no lines, so there is one problem each
+    CHECK(inline_rows.size() == 3);
     CHECK(mentions(inline_rows, "row 1 of 'discs.list': three numbers; it takes [x, y]"));
     CHECK(mentions(
         inline_rows,
@@ -152,7 +153,7 @@ TEST_CASE("a run too short for a window of diffusion is warned of, with what wou
                     "output.measurements.from_step=2"})
               .size() == 1);
     CHECK(warnings({"time.steps=192"}).empty());
-    CHECK(warnings({"time.steps=0"}).empty()); // shows the start
+    CHECK(warnings({"time.steps=0"}).empty()); // allowed: such a run prints the start
     const auto too_short = warnings({"time.steps=5"});
     REQUIRE(too_short.size() == 1);
     CHECK(too_short[0].ends_with("try: output.measurements.every_steps = 2 or less"));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TOML scenes: what a good one says, and each way to be wrong with the number and the lines of its
-// problems.
+// TOML scenes: a valid one, and each kind of error with the number and the lines of its problems.
 #include "toml_scenes.hpp"
 
 using namespace carrom;
@@ -201,8 +200,8 @@ TEST_CASE("one wrong further value is one problem at its line") {
                        "\nspeed = 1"};
     for (const std::string& addition : all) {
         CAPTURE(addition);
-        // Tables may not be opened twice: what is added takes the place of the header of its own
-        // table.
+        // TOML does not allow a second header of a table, so the addition replaces the header of
+        // its table.
         const std::string table = addition.substr(0, addition.find('\n'));
         const std::string key = addition.substr(addition.find('\n') + 1);
         std::string text = good;

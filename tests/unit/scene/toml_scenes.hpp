@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that is right, and the problems of scenes that are not.
+// A valid scene, and the problems of invalid ones.
 #pragma once
 
 #include "catch.hpp"
@@ -25,7 +25,7 @@ inline std::vector<Problem> problems_in(const std::string& text, const Texts& ov
     return problems_of([&] { read_scene(text, "s.toml", overrides); });
 }
 
-/// The good scene with line `number` replaced.
+/// The valid scene with line `number` replaced.
 inline std::string with_line(int number, const std::string& line) {
     std::string text;
     std::size_t begin = 0;

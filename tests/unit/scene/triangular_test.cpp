@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangular lattice of a periodic box: six nearest neighbours for each site, through the seams
-// too; boxes that no such lattice fits, and the scene that a message names instead.
+// The triangular lattice of a periodic box: six nearest neighbours of each site, also through the
+// seams; boxes without such a lattice, and the scene that a message suggests instead.
 #include "toml_scenes.hpp"
 
 #include <numbers>
@@ -25,7 +25,7 @@ std::string periodic_scene(std::uint64_t n, const std::string& size, double radi
     return text;
 }
 
-/// How many sites lie within 1.01 of the spacing of each, images counted: the fewest and the most.
+/// The smallest and the largest number of sites within 1.01 spacings of a site, images included.
 std::pair<int, int> neighbours_of(const TriangularLattice& lattice, const Box& box) {
     const std::uint64_t n = lattice.columns * lattice.rows;
     std::pair<int, int> range{1000, 0};

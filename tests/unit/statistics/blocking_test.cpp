@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Claimed errors against the scatter between many series whose correlation is known: x' = a x +
-// noise has the variance 1 and the correlation time 1 / log(1 / a).
+// Reported errors compared with the scatter between many series whose correlation is known: x' = a
+// x + noise has the variance 1 and the correlation time 1 / log(1 / a).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 std::vector<double> series(std::size_t n, double correlation_time, std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    // Sums of twelve numbers are as good as Gaussian, and the same with every library.
+    // Sums of twelve numbers are nearly Gaussian, and have the same bits with every library.
     const auto gaussian = [&random] {
         double sum = -6;
         for (int k = 0; k < 12; ++k) sum += std::ldexp(static_cast<double>(random() >> 11), -53);
@@ -118,9 +118,9 @@ TEST_CASE("the error of a sum allows for values that vary together") {
         square += x * x / static_cast<double>(noise.size());
         blocks.add(std::vector{(1000 + x) * (1000 + x), 1000 + x});
     }
-    // Squares about the mean forget at twice the rate: their mean has the error of the variance
-    // times sqrt(2 (1 + a^2) / (1 - a^2) / n) with a = 1 / e. The mean of squares alone has an
-    // error that is some 2000 times the root of the variance over n.
+    // The correlation of squares relative to the mean decays twice as fast. So the error of their
+    // mean is the variance times sqrt(2 (1 + a^2) / (1 - a^2) / n) with a = 1 / e. The mean of
+    // squares alone has an error that is some 2000 times the root of the variance over n.
     const SampledMean variance = blocks.weighted_mean(std::array{1.0, -2 * mean});
     CHECK(variance.value + mean * mean == Approx(square).epsilon(0.01));
     const double squared_a = std::exp(-2),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The set of discs against the standard library's.
+// The set of discs compared with the standard library's set.
 #include "catch.hpp"
 
 #include <random>
@@ -16,7 +16,8 @@ TEST_CASE("sets of discs hold what was put in since they were emptied") {
         set.clear();
         std::set<LocalIndex> expected;
         const LocalIndex n_discs = 1u << (random() % 14), first = random() % 2 == 0 ? 0 : 0u - 9000;
-        const LocalIndex stride = random() % 3 == 0 ? 4096 : 1; // as far apart as slots may be
+        // the largest distance that slots may have
+        const LocalIndex stride = random() % 3 == 0 ? 4096 : 1;
         bool agree = true;
         for (unsigned k = random() % 3000; k > 0; --k) {
             const LocalIndex disc = first + stride * (random() % n_discs);

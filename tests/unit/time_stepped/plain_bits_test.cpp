@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dynamics against each other, bit for bit, on random discs near contact and near walls: an effect
-// whose parameters make it none gives the plain bits, and so do the study's settings that runs use.
+// Dynamics compared with each other, bit by bit, on random discs near contact and near walls. An
+// effect whose parameters switch it off gives the plain bits, and so do the settings of the
+// accuracy study that runs use.
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double box_size = 64, radius = 0.5;
 
-/// Answers nothing but its size.
+/// Has a size and no other function.
 struct Silent {
     double largest() const { return 1; }
     static constexpr double slack() { return 0; }
@@ -25,7 +26,7 @@ static_assert(!Bodies<Silent> && !Space<Silent> && !Bodies<WalledSpace> && !Spac
 
 class Discs {
 public:
-    /// A disc anywhere in the box, one of four at a wall.
+    /// A disc anywhere in the box; one disc in four is at a wall.
     DiscState anywhere() {
         DiscState disc;
         disc.x = place();
@@ -36,7 +37,7 @@ public:
         disc.id = next_id_++;
         return disc;
     }
-    /// Some diameters from `p`.
+    /// A disc at a distance of some diameters from `p`.
     DiscState near(const DiscState& p) {
         DiscState disc = anywhere();
         const double angle = uniform(0, 6.28), distance = uniform(0.9, 3) * 2 * radius;
@@ -60,7 +61,8 @@ private:
 };
 
 bool are_same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-/// All that the hash has: only dynamics that may lose energy keep `has_collided`.
+/// Compares the members that the hash contains; only dynamics that may lose energy use
+/// `has_collided`.
 bool are_same(DiscState a, DiscState b) {
     a.has_collided = b.has_collided = 0;
     return std::memcmp(&a, &b, sizeof a) == 0;
@@ -76,7 +78,8 @@ struct Counts {
     int contacts = 0, bounces = 0, differences = 0;
 };
 
-/// Asks both dynamics the same of many discs, and carries out what the first one finds.
+/// Compares the results of both dynamics for many discs, and carries out the collisions that the
+/// first one finds.
 template <class A, class B> Counts compare(const A& a, const B& b, bool with_contact_times = true) {
     Discs discs;
     Counts counts;
@@ -138,7 +141,7 @@ TEST_CASE("parts that change nothing give the plain bits") {
     check_alike(compare(plain, Dynamics<WalledSpace, GrowingBodies>(box_size, radius, Effects{})));
 }
 
-// Nor do parts that change something: each combination differs where its part acts.
+// Neither do combinations with effects that do act: each differs only where its effect acts.
 TEST_CASE("discs that grow touch earlier, and part faster") {
     Effects effects;
     effects.growth = 1e-3;
@@ -153,7 +156,7 @@ TEST_CASE("discs that grow touch earlier, and part faster") {
         CHECK(now.delay < then.delay);
         growing.collide(p, q, now.base + now.delay, never);
         const double dx = q.x - p.x, dy = q.y - p.y, distance = std::hypot(dx, dy);
-        // Surfaces part at the least: centres do so by what both radii grow.
+        // The centres must separate at least as fast as both radii grow.
         CHECK(((q.vx - p.vx) * dx + (q.vy - p.vy) * dy) / distance >=
               2 * radius * effects.growth * (1 - 1e-12));
         ++n_contacts;
@@ -170,7 +173,7 @@ TEST_CASE("an effect that loses energy does not give the plain bits") {
 }
 
 TEST_CASE("in double precision the study's walls and collisions have the plain bits") {
-    // A contact that rounding puts beyond touching does not count in the study.
+    // In the study a contact does not count if rounding places it beyond touching.
     const bool with_contact_times = false;
     for (const ContactFormula formula :
          {ContactFormula::stable, ContactFormula::naive, ContactFormula::naive_contracted})
@@ -196,7 +199,7 @@ TEST_CASE("the study's states in single precision are floats near the plain ones
         plain.collide(p, q, expected.base + expected.delay, never);
         for (const double number : {p1.x, p1.y, p1.vx, p1.vy, p1.tau, q1.x, q1.vx})
             REQUIRE(static_cast<double>(static_cast<float>(number)) == number);
-        // A graze amplifies the rounding of places, 2^-18, by up to its inverse root.
+        // A graze amplifies the rounding of positions, 2^-18, by at most its inverse root.
         CHECK(std::fabs(p1.x - p.x) < 0.02);
         CHECK(std::fabs(q1.vy - q.vy) < 0.05);
         ++n_contacts;
