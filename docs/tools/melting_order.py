@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far order reaches in 128^2 discs, from liquid to solid: a table of exponents and a picture.
 
-  docs/tools/melting_order.py CARROM RUNS TABLE PICTURE     some 8 core-minutes; needs the package, scipy and matplotlib
+  docs/tools/melting_order.py CARROM RUNS TABLE PICTURE     some 12 core-minutes; needs the package, scipy and matplotlib
 
 Runs begin from a crystal and are kept in the folder RUNS, so that a second call only draws.
 docs/data/validation/melting_order.csv and docs/pictures/melting_order.png are made by it.
@@ -19,9 +19,10 @@ import plot_style
 from carrom import melting
 
 ROWS = 128
-PACKINGS = {0.69: "liquid", 0.72: "where a solid melts", 0.73: "solid"}
+PACKINGS = {0.69: "liquid", 0.718: "hexatic", 0.72: "where a solid melts", 0.73: "solid"}
 # Steps, those before averages begin, and those from frame to frame. A liquid forgets its start sooner.
-LENGTHS = {0.69: (10_000, 5_000, 250), 0.72: (32_000, 20_000, 500), 0.73: (32_000, 20_000, 500)}
+LENGTHS = {0.69: (10_000, 5_000, 250)} | dict.fromkeys((0.718, 0.72, 0.73), (32_000, 20_000, 500))
+DRAWN = (0.69, 0.72, 0.73)
 SIDES = ("left", "right", "bottom", "top")
 BETWEEN = (4.0, 24.0)  # diameters, over which powers are fitted
 
@@ -96,6 +97,8 @@ def draw(found, path):
     plot_style.use()
     figure, ((bonds, waves), (peak, local)) = plt.subplots(2, 2, figsize=(11, 9))
     for packing, (frames, r, *curves) in found.items():
+        if packing not in DRAWN:
+            continue
         label = f"{packing:g}, {PACKINGS[packing]}"
         for ax, curve in zip((bonds, waves), curves):
             ax.plot(r, curve.mean(axis=0), label=label, marker=".")

@@ -52,11 +52,31 @@ struct StoredPlaces {
 /// Positions of images in a box that repeats itself at rest. It is a type of its own, so that such
 /// boxes do not pay for images that move.
 struct PlacesAtRest {
-    const Periods& periods;
+    Periods periods;
 
     double x_of(const DiscState& disc, double time) const { return periods.x_at_rest(disc, time); }
     double y_of(const DiscState& disc, double time) const { return periods.y_of(disc, time); }
     static double vx_of(const DiscState& disc) { return disc.vx; }
+};
+
+/// Finds a disc's cell. It holds copies, so a compiler keeps them in registers while it stores
+/// cells.
+template <class Places> struct CellFinder {
+    Places places;
+    GridGeometry geometry;
+    double anchor = 0;
+
+    CellGrid::Cell cell_of(const DiscState& disc) const {
+        const auto [along, across] = turned(geometry.axis, places.x_of(disc, anchor),
+                                            places.y_of(disc, anchor));
+        return {geometry.column_of(along), geometry.row_of(across)};
+    }
+    std::uint32_t operator()(const DiscState& disc) const {
+        const CellGrid::Cell cell = cell_of(disc);
+        return static_cast<std::uint32_t>(cell.column) *
+                   static_cast<std::uint32_t>(geometry.n_rows) +
+               static_cast<std::uint32_t>(cell.row);
+    }
 };
 
 /// Calls `work` with the type that computes positions of discs in this kind of box.
@@ -105,14 +125,13 @@ GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
 
 template <class Places>
 CellGrid::Cell CellGrid::cell_at(const Places& places, const DiscState& disc) const {
-    const auto [along, across] = turned(geometry_.axis, places.x_of(disc, anchor_),
-                                        places.y_of(disc, anchor_));
-    return {geometry_.column_of(along), geometry_.row_of(across)};
+    return CellFinder<Places>{places, geometry_, anchor_}.cell_of(disc);
 }
 
 template <class Places>
-void CellGrid::place(const Places& places, float* flight, std::size_t length,
-                     const DiscState& disc) const {
+[[gnu::always_inline]] inline void CellGrid::place(const Places& places, float* flight,
+                                                   std::size_t length,
+                                                   const DiscState& disc) const {
     const double cells = geometry_.cells_per_length();
     const auto [x, y] = turned(geometry_.axis, places.x_of(disc, time_), places.y_of(disc, time_));
     const auto [vx, vy] = turned(geometry_.axis, places.vx_of(disc), disc.vy);
@@ -154,11 +173,7 @@ void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& c
     n_own_ = own.size();
     lane_length_ = n_own_ + filter_padding;
     resize_close(cell_start_, static_cast<std::size_t>(geometry_.n_columns) * rows() + 1);
-    // Several threads count in the memory behind the second lane. It is allocated at once, because
-    // growing later would copy the lanes.
-    const std::size_t n_counts = n_threads > 1 ? cell_start_.size() + cell_start_.size() / 8 : 0;
-    resize_close(lanes_, std::max<std::size_t>(has_flights_ ? 4 * lane_length_ : 0,
-                                               2 * lane_length_ + n_counts));
+    resize_close(lanes_, (has_flights_ ? 4 : 2) * lane_length_);
     with_places(periods_, [&](const auto& places) { sort(places, own, n_threads, companions); });
 }
 
@@ -183,14 +198,9 @@ template <class Places>
 void CellGrid::sort(const Places& places, std::span<DiscState> own, int n_threads,
                     const Companions& companions) {
     const SortMemory memory{lanes_, lane_length_};
-    sorter_.find_order(
-        own,
-        [&](const DiscState& disc) {
-            const Cell cell = cell_at(places, disc);
-            return static_cast<std::uint32_t>(cell.column) * rows() +
-                   static_cast<std::uint32_t>(cell.row);
-        },
-        static_cast<std::size_t>(geometry_.n_columns), n_threads, cell_start_, memory);
+    sorter_.find_order(own, CellFinder<Places>{places, geometry_, anchor_},
+                       static_cast<std::size_t>(geometry_.n_columns), n_threads, cell_start_,
+                       memory);
     if (companions.columns) sort_columns(*companions.columns, memory.order(), n_threads);
     const auto place_flight = [&](std::size_t i) {
         if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "cell_list/shared_work.hpp"
 
@@ -17,110 +18,96 @@ void DiscSorter::begin(std::size_t n_discs, std::size_t n_columns, int n_threads
     most_travellers_ = 4096 + n_discs_ / (64 * static_cast<std::size_t>(n_threads));
     are_in_disorder_ = false;
     n_threads_ = n_threads;
+    sorters_.resize(static_cast<std::size_t>(n_threads));
     carriers_.resize(static_cast<std::size_t>(n_threads));
     for (Carrier& carrier : carriers_) carrier.sent.clear();
 }
 
-void DiscSorter::share_out(std::size_t n_discs, std::size_t n_sorters) {
-    sorters_.resize(n_sorters);
-    for (std::size_t k = 0; k < n_sorters; ++k) {
-        sorters_[k].first_disc = share(n_discs, k, n_sorters);
-        sorters_[k].end_disc = share(n_discs, k + 1, n_sorters);
+void DiscSorter::share_out_equally(std::uint32_t n_cells) {
+    const std::size_t n_shares = sorters_.size();
+    for (std::size_t k = 0; k < n_shares; ++k) {
+        sorters_[k].first_cell = static_cast<std::uint32_t>(share(n_cells, k, n_shares));
+        sorters_[k].end_cell = static_cast<std::uint32_t>(share(n_cells, k + 1, n_shares));
     }
 }
 
-bool DiscSorter::make_room_for_counts(std::size_t n_cells, SortMemory memory) {
-    constexpr std::size_t most_counting_all = 4;
-    const auto lay_out = [this] {
-        std::size_t n_counts = 0;
-        for (Sorter& sorter : sorters_) {
-            sorter.counts = n_counts;
-            n_counts += sorter.end_cell - sorter.first_cell;
-        }
-        return n_counts;
-    };
-    std::size_t n_counts = lay_out();
-    const bool are_too_many = n_counts > most_counting_all * n_cells;
-    if (are_too_many) {
-        share_out(n_discs_, most_counting_all);
-        for (Sorter& sorter : sorters_) {
-            sorter.first_cell = 0;
-            sorter.end_cell = static_cast<std::uint32_t>(n_cells);
-        }
-        n_counts = lay_out();
-    }
-    const std::size_t needed = 2 * memory.lane_length + n_counts;
-    if (memory.lanes.size() < needed) memory.lanes.resize(needed);
-    return !are_too_many;
-}
-
-/// Calls visit(cell, index of the count) for the counts of all sorters in the cells begin .. end,
-/// cell by cell.
+/// Calls visit(disc, cell) for the discs of the share `home` that lie in the cells of `mine`,
+/// ascending.
 template <class Visit>
-void DiscSorter::for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const {
-    std::vector<Sorter> here;
-    for (const Sorter& sorter : sorters_)
-        if (sorter.first_cell < end && sorter.end_cell > begin) here.push_back(sorter);
-    const auto counts_in = [](const Sorter& sorter, std::size_t cell) {
-        return sorter.first_cell <= cell && cell < sorter.end_cell;
-    };
-    for (std::size_t cell = begin;
-         // Up to the cell where another sorter begins or ends; most cells have one sorter
-         cell < end;) {
-        std::size_t stretch_end = end;
-        const Sorter* one = nullptr;
-        std::size_t n_here = 0;
-        for (const Sorter& sorter : here) {
-            if (sorter.first_cell > cell)
-                stretch_end = std::min<std::size_t>(stretch_end, sorter.first_cell);
-            if (sorter.end_cell > cell)
-                stretch_end = std::min<std::size_t>(stretch_end, sorter.end_cell);
-            if (!counts_in(sorter, cell)) continue;
-            one = &sorter;
-            ++n_here;
-        }
-        if (n_here == 1) {
-            for (std::size_t count = one->counts + (cell - one->first_cell); cell < stretch_end;
-                 ++cell, ++count)
-                visit(cell, count);
-        }
-        for (; cell < stretch_end; ++cell) {
-            for (const Sorter& sorter : here)
-                if (counts_in(sorter, cell))
-                    visit(cell, sorter.counts + (cell - sorter.first_cell));
-        }
+[[gnu::noinline]] void DiscSorter::visit_discs(const Sorter& mine, const Sorter& home,
+                                               const Lent cell_of, Visit visit) const {
+    const std::size_t end = home.end_disc;
+    if (&home == &mine && home.strays.empty() && !are_in_disorder_) {
+        for (std::size_t disc = home.first_disc; disc < end; ++disc)
+            visit(static_cast<LocalIndex>(disc), cell_of[disc]);
+        return;
     }
+    const std::uint32_t first_cell = mine.first_cell, n_cells = mine.end_cell - first_cell;
+    const auto visit_one = [&](std::size_t disc) {
+        const std::uint32_t cell = cell_of[disc];
+        if (cell - first_cell < n_cells) visit(static_cast<LocalIndex>(disc), cell);
+    };
+    if (&home == &mine || are_in_disorder_)
+        for (std::size_t disc = home.first_disc; disc < end; ++disc) visit_one(disc);
+    else
+        for (const LocalIndex disc : home.strays) visit_one(disc);
 }
 
-/// Replaces the sorters' counts by the places of their next discs.
-void DiscSorter::turn_into_places(RawVector<std::uint32_t>& cell_start, Lent all_counts) {
-    const std::size_t n_cells = cell_start.size() - 1;
-    const auto n_shares = static_cast<std::size_t>(n_threads_);
-    std::vector<std::uint32_t> starts(n_shares + 1, 0); // the first cells of the shares
+/// Counts the discs that `count_share` has not, and returns the number of all discs in the cells of
+/// `mine`.
+std::uint32_t DiscSorter::count_rest(const Sorter& mine, std::uint32_t* counts,
+                                     Lent cell_of) const {
+    std::size_t n_discs = 0;
+    if (are_in_disorder_)
+        std::fill(counts + mine.first_cell, counts + mine.end_cell, 0u);
+    else
+        n_discs = mine.end_disc - mine.first_disc - mine.strays.size();
+    for (const Sorter& home : sorters_) {
+        if (&home == &mine && !are_in_disorder_) continue;
+        visit_discs(mine, home, cell_of, [&](LocalIndex, std::uint32_t cell) {
+            ++counts[cell];
+            ++n_discs;
+        });
+    }
+    return static_cast<std::uint32_t>(n_discs);
+}
+
+/// Returns what gives a disc of the share `home` the next place of its cell. It lists discs whose
+/// new place belongs to another thread, or that have left the ring buffer by then.
+auto DiscSorter::place_giver(const Sorter& home, Carrier& carrier, std::uint32_t* counts,
+                             SortMemory memory) const {
+    const std::size_t first = home.first_disc, n_near = home.end_disc - first, n_passed = n_passed_;
+    return
+        [=, this, &carrier, order = memory.order()](LocalIndex disc, std::uint32_t cell) mutable {
+            const std::uint32_t place = counts[cell]++;
+            order.set(place, disc);
+            if (place - first >= n_near || place >= disc + n_passed) [[unlikely]]
+                record(carrier.sent, place);
+        };
+}
+
+/// Replaces each cell's count by its end, and writes the order of the discs.
+void DiscSorter::find_places(std::uint32_t* counts, SortMemory memory) {
+    const Lent cell_of = memory.cells();
+    const std::size_t n_shares = sorters_.size();
+    std::vector<std::uint32_t> starts(n_shares + 1, 0); // the first places of the shares of cells
 #pragma omp parallel num_threads(n_threads_)
     {
 #pragma omp for schedule(static, 1)
-        for (std::size_t k = 0; k < n_shares; ++k) {
-            std::uint32_t n_discs = 0;
-            for_each_count(share(n_cells, k, n_shares), share(n_cells, k + 1, n_shares),
-                           [&](std::size_t, std::size_t count) { n_discs += all_counts[count]; });
-            starts[k + 1] = n_discs;
-        }
+        for (std::size_t k = 0; k < n_shares; ++k)
+            starts[k + 1] = count_rest(sorters_[k], counts, cell_of);
 #pragma omp single
         for (std::size_t k = 0; k < n_shares; ++k) starts[k + 1] += starts[k];
 #pragma omp for schedule(static, 1)
         for (std::size_t k = 0; k < n_shares; ++k) {
+            const Sorter& mine = sorters_[k];
             std::uint32_t start = starts[k];
-            const std::size_t begin = share(n_cells, k, n_shares),
-                              end = share(n_cells, k + 1, n_shares);
-            std::size_t next = begin;
-            for_each_count(begin, end, [&](std::size_t cell, std::size_t count) {
-                while (next <= cell) cell_start[next++] = start;
-                const std::uint32_t n = all_counts[count];
-                all_counts.set(count, start);
-                start += n;
-            });
-            while (next < end) cell_start[next++] = start;
+            for (std::uint32_t cell = mine.first_cell; cell < mine.end_cell; ++cell) {
+                const std::uint32_t n_discs = std::exchange(counts[cell], start);
+                start += n_discs;
+            }
+            for (const Sorter& home : sorters_)
+                visit_discs(mine, home, cell_of, place_giver(home, carriers_[k], counts, memory));
         }
     }
 }

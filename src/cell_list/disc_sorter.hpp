@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Brings discs into the order of their cells, in place.
 //
-// A counting sort finds which disc goes where. Then one pass over the discs moves them: nearly all
-// come from a place a little ahead or a little behind. The few that come from farther away are
-// copied beforehand. Price: two passes. The sorter works in the memory of the flights, which are
-// written afterwards, so it needs no memory of its own.
+// A counting sort finds which disc goes where. Each thread counts the discs of its share in cells
+// of its own, and lists the few that lie in those of others. Then one pass over the discs moves
+// them: nearly all come from a place a little ahead or a little behind. The few that come from
+// farther away are copied beforehand. Price: two passes. The sorter works in the memory of the
+// flights, which are written afterwards, so it needs no memory of its own.
 #pragma once
 
 #include <cstdint>
@@ -35,14 +36,13 @@ private:
 };
 
 /// The memory that sorting borrows: lanes of `lane_length` numbers. The first lane
-/// holds each disc's cell, the second the order, and the rest holds counts.
+/// holds each disc's cell, the second the order.
 struct SortMemory {
     RawVector<float>& lanes;
     std::size_t lane_length = 0;
 
     Lent cells() const { return Lent(lanes.data()); }
     Lent order() const { return Lent(lanes.data() + lane_length); }
-    Lent counts() const { return Lent(lanes.data() + 2 * lane_length); }
 };
 
 class DiscSorter {
@@ -53,13 +53,7 @@ public:
     template <class CellOf>
     void find_order(std::span<const DiscState> discs, const CellOf& find_cell,
                     std::size_t n_columns, int n_threads, RawVector<std::uint32_t>& cell_start,
-                    SortMemory memory) {
-        begin(discs.size(), n_columns, n_threads);
-        if (n_threads == 1)
-            order_alone(discs, find_cell, cell_start, memory);
-        else
-            order_together(discs, find_cell, cell_start, memory);
-    }
+                    SortMemory memory);
 
     /// Gives each thread the travellers among its places. Returns false if there are many: then the
     /// discs are not nearly sorted, and `rearrange` is faster.
@@ -75,12 +69,11 @@ public:
     void rearrange(std::initializer_list<std::span<DiscState>> arrays, SortMemory memory);
 
 private:
-    /// A share of the discs, which lie in the cells first .. end, and where its counts
-    /// begin.
+    /// What a thread sorts: a share of the discs, and the cells in which nearly all of them lie.
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
-        std::size_t counts = 0;
+        std::vector<LocalIndex> strays; ///< discs of the share in other cells, ascending
     };
     /// The state of a thread while it brings its share of the places into order.
     struct Carrier {
@@ -93,22 +86,21 @@ private:
 
     void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);
     template <class CellOf>
-    void order_alone(std::span<const DiscState> discs, const CellOf& find_cell,
-                     RawVector<std::uint32_t>& cell_start, SortMemory memory);
+    void share_out(std::span<const DiscState> discs, const CellOf& find_cell,
+                   std::uint32_t n_cells);
+    void share_out_equally(std::uint32_t n_cells);
     template <class CellOf>
-    void order_together(std::span<const DiscState> discs, const CellOf& find_cell,
-                        RawVector<std::uint32_t>& cell_start, SortMemory memory);
-    template <class CellOf>
-    void find_cells(std::span<const DiscState> discs, const CellOf& find_cell, SortMemory memory);
-    void turn_into_places(RawVector<std::uint32_t>& cell_start, Lent all_counts);
-    void share_out(std::size_t n_discs, std::size_t n_sorters);
-    bool make_room_for_counts(std::size_t n_cells, SortMemory memory);
+    void count_share(Sorter& mine, std::span<const DiscState> discs, CellOf find_cell,
+                     std::uint32_t* counts, Lent cell_of);
+    std::uint32_t count_rest(const Sorter& mine, std::uint32_t* counts, Lent cell_of) const;
+    void find_places(std::uint32_t* counts, SortMemory memory);
     template <class Visit>
-    void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
-    /// Records a disc whose new place belongs to another thread, or whose disc has already left the
-    /// ring buffer.
-    void record_traveller(Carrier& carrier, std::uint32_t place) const {
-        if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
+    void visit_discs(const Sorter& mine, const Sorter& home, Lent cell_of, Visit visit) const;
+    auto place_giver(const Sorter& home, Carrier& carrier, std::uint32_t* counts,
+                     SortMemory memory) const;
+    /// Adds to a list of the few discs that have gone far, unless they are many.
+    [[gnu::noinline]] void record(std::vector<LocalIndex>& few, std::size_t index) const {
+        if (few.size() <= most_travellers_) few.push_back(static_cast<LocalIndex>(index));
     }
     void set_travellers_aside(std::span<const DiscState> discs, SortMemory memory);
     template <class Placed>
@@ -116,7 +108,7 @@ private:
 
     int n_threads_ = 1;
     std::size_t n_discs_ = 0;
-    std::vector<Sorter> sorters_;     ///< scratch memory for several threads
+    std::vector<Sorter> sorters_;     ///< by thread
     std::vector<Carrier> carriers_;   ///< by thread
     std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
     std::size_t most_travellers_ = 0; ///< limit for each thread's share

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "cell_list/disc_sorter.hpp"
 #include "cell_list/shared_work.hpp"
@@ -17,91 +18,72 @@ inline void prefetch(const DiscState& disc) {
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
 }
 
-/// Counting sort by one thread. It reads states in the order in which they lie in memory.
+/// Gives each thread a share of the discs, and the cells from where its discs begin to where the
+/// next share's discs begin. A single disc may have gone far, so the cell in the middle of five
+/// counts.
 template <class CellOf>
-void DiscSorter::order_alone(std::span<const DiscState> discs, const CellOf& find_cell,
-                             RawVector<std::uint32_t>& cell_start, SortMemory memory) {
-    Lent cell_of = memory.cells(), order = memory.order();
-    std::fill(cell_start.begin(), cell_start.end(), 0u);
-    std::uint32_t* next = cell_start.data() + 1; // for each cell the number of its discs, later the
-                                                 // place of its next disc
-    for (std::size_t i = 0; i < discs.size(); ++i) {
+void DiscSorter::share_out(std::span<const DiscState> discs, const CellOf& find_cell,
+                           std::uint32_t n_cells) {
+    const std::size_t n_shares = sorters_.size();
+    for (std::size_t k = 0; k < n_shares; ++k) {
+        sorters_[k].strays.clear();
+        sorters_[k].first_disc = share(n_discs_, k, n_shares);
+        sorters_[k].end_disc = share(n_discs_, k + 1, n_shares);
+    }
+    sorters_[0].first_cell = 0;
+    sorters_[n_shares - 1].end_cell = n_cells;
+    for (std::size_t k = 1; k < n_shares; ++k) {
+        std::array<std::uint32_t, 5> cells;
+        cells.fill(n_cells);
+        const auto first = discs.subspan(sorters_[k].first_disc);
+        for (std::size_t i = 0; i < std::min(cells.size(), first.size()); ++i)
+            cells[i] = find_cell(first[i]);
+        std::ranges::sort(cells);
+        sorters_[k].first_cell = std::max(sorters_[k - 1].first_cell, cells[2]);
+        sorters_[k - 1].end_cell = sorters_[k].first_cell;
+    }
+}
+
+/// Stores each disc's cell, and counts those in cells of the same share.
+template <class CellOf>
+void DiscSorter::count_share(Sorter& mine, std::span<const DiscState> discs, const CellOf find_cell,
+                             std::uint32_t* counts, Lent cell_of) {
+    const std::uint32_t first = mine.first_cell, n_cells = mine.end_cell - first;
+    const std::size_t end = mine.end_disc;
+    std::fill_n(counts + first, n_cells, 0u);
+    for (std::size_t i = mine.first_disc; i < end; ++i) {
         prefetch(discs[i]);
         const std::uint32_t cell = find_cell(discs[i]);
         cell_of.set(i, cell);
-        ++next[cell];
-    }
-    std::uint32_t start = 0;
-    for (std::size_t cell = 0; cell + 1 < cell_start.size(); ++cell) {
-        const std::uint32_t count = next[cell];
-        next[cell] = start;
-        start += count;
-    }
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-        const std::uint32_t place = next[cell_of[i]]++;
-        order.set(place, static_cast<std::uint32_t>(i));
-        if (i + n_passed_ <= place) record_traveller(carriers_[0], place);
+        if (cell - first < n_cells) [[likely]]
+            ++counts[cell];
+        else
+            record(mine.strays, i);
     }
 }
 
-/// Stores each disc's cell, and records which cells each sorter meets.
 template <class CellOf>
-void DiscSorter::find_cells(std::span<const DiscState> discs, const CellOf& find_cell,
-                            SortMemory memory) {
-    Lent cell_of = memory.cells();
-    share_out(discs.size(), static_cast<std::size_t>(n_threads_));
-#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
-    for (std::size_t k = 0; k < sorters_.size(); ++k) {
-        Sorter& sorter = sorters_[k];
-        std::uint32_t first = ~std::uint32_t{0}, last = 0;
-        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
-            prefetch(discs[i]);
-            const std::uint32_t cell = find_cell(discs[i]);
-            cell_of.set(i, cell);
-            first = std::min(first, cell);
-            last = std::max(last, cell);
-        }
-        sorter.first_cell = std::min(first, last);
-        sorter.end_cell = last + 1;
+void DiscSorter::find_order(std::span<const DiscState> discs, const CellOf& find_cell,
+                            std::size_t n_columns, int n_threads,
+                            RawVector<std::uint32_t>& cell_start, SortMemory memory) {
+    begin(discs.size(), n_columns, n_threads);
+    const auto n_cells = static_cast<std::uint32_t>(cell_start.size() - 1);
+    // A cell's count becomes the place of its next disc, and so at last the place where the next
+    // cell begins.
+    std::uint32_t* const counts = cell_start.data() + 1;
+    cell_start.front() = 0;
+    share_out(discs, find_cell, n_cells);
+    if (n_threads == 1) {
+        count_share(sorters_[0], discs, find_cell, counts, memory.cells());
+    } else {
+#pragma omp parallel for num_threads(n_threads) schedule(static, 1)
+        for (std::size_t k = 0; k < sorters_.size(); ++k)
+            count_share(sorters_[k], discs, find_cell, counts, memory.cells());
     }
-}
-
-/// Counting sort by several threads. Each sorter counts only between the first and the
-/// last cell of its share of the discs. Shares are nearly in the order of their cells,
-/// so all counts together are hardly more than the cells.
-template <class CellOf>
-void DiscSorter::order_together(std::span<const DiscState> discs, const CellOf& find_cell,
-                                RawVector<std::uint32_t>& cell_start, SortMemory memory) {
-    find_cells(discs, find_cell, memory);
-    are_in_disorder_ = !make_room_for_counts(cell_start.size() - 1, memory);
-    const Lent cell_of = memory.cells(), all_counts = memory.counts();
-    Lent order = memory.order();
-#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
-    for (std::size_t k = 0; k < sorters_.size(); ++k) {
-        const Sorter& sorter = sorters_[k];
-        Lent counts = all_counts.from(sorter.counts);
-        for (std::uint32_t cell = sorter.first_cell; cell < sorter.end_cell; ++cell)
-            counts.set(cell - sorter.first_cell, 0);
-        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
-            const std::uint32_t place = cell_of[i] - sorter.first_cell;
-            counts.set(place, counts[place] + 1);
-        }
-    }
-    turn_into_places(cell_start, all_counts);
-#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
-    for (std::size_t k = 0; k < sorters_.size(); ++k) {
-        const Sorter& sorter = sorters_[k];
-        Lent next = all_counts.from(sorter.counts);
-        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
-            const std::uint32_t cell = cell_of[i] - sorter.first_cell, place = next[cell];
-            next.set(cell, place + 1);
-            order.set(place, static_cast<std::uint32_t>(i));
-            const bool is_near = place >= sorter.first_disc && place < sorter.end_disc &&
-                                 place < i + n_passed_;
-            if (!is_near && !are_in_disorder_) record_traveller(carriers_[k], place);
-        }
-    }
-    cell_start.back() = static_cast<std::uint32_t>(discs.size());
+    for (const Sorter& sorter : sorters_)
+        are_in_disorder_ = are_in_disorder_ || sorter.strays.size() > most_travellers_;
+    if (are_in_disorder_) share_out_equally(n_cells);
+    find_places(counts, memory);
 }
 
 template <class Placed>

@@ -301,7 +301,7 @@ double StateCheck::energy_of(std::span<const DiscState> own, bool in_swaying_fra
     }
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;
     const auto unit = static_cast<double>(scene_.micro_steps);
-    measure_motion(own, species_table, unit, communicator_, totals);
+    measure_motion(own, species_table, unit, communicator_, 1, totals);
     measure_other_energies(energies_, seen, spins, species_, {scene_.effects, scene_.box, unit},
                            communicator_, totals);
     return totals.energy();

@@ -49,4 +49,16 @@ private:
     double scale_ = 1; ///< 2^exponent_, or infinite
 };
 
+/// An empty sum with the same bound.
+inline ExactSum emptied(ExactSum sum) {
+    sum.clear();
+    return sum;
+}
+
+#ifdef _OPENMP
+// Threads sum parts, as they do with numbers.
+#pragma omp declare reduction(+ : ExactSum : omp_out += omp_in)                                    \
+    initializer(omp_priv = emptied(omp_orig))
+#endif
+
 } // namespace carrom

@@ -21,4 +21,9 @@ StateHash hash_of(std::span<const DiscState> discs);
 /// What a disc's number in a side column adds to the hash, if the run has that column.
 StateHash hash_of(SideColumn column, DiscId id, double number);
 
+#ifdef _OPENMP
+// Threads add parts, as they do with numbers.
+#pragma omp declare reduction(+ : StateHash : omp_out += omp_in)
+#endif
+
 } // namespace carrom

@@ -16,13 +16,15 @@
 namespace carrom {
 
 void measure_collisions(std::span<const DiscState> own, const SideSpans& columns,
-                        const Communicator& communicator, Totals& totals) {
+                        const Communicator& communicator, int n_threads, Totals& totals) {
     std::uint64_t walls = 0, pairs = 0;
-    for (const DiscState& disc : own) {
-        walls += disc.wall_collisions;
-        pairs += disc.pair_collisions;
+    StateHash hash;
+#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : walls, pairs, hash)
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        walls += own[i].wall_collisions;
+        pairs += own[i].pair_collisions;
+        hash += hash_of(own[i]);
     }
-    StateHash hash = hash_of(own);
     for (std::size_t k = 0; k < n_side_columns; ++k)
         for (std::size_t i = 0; i < columns.values[k].size(); ++i)
             hash += hash_of(static_cast<SideColumn>(k), own[i].id, columns.values[k][i]);
@@ -73,18 +75,22 @@ double largest_mass(std::span<const DiscState> own, const SpeciesTable* species_
 } // namespace
 
 void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
-                    double velocity_unit, const Communicator& communicator, Totals& totals) {
+                    double velocity_unit, const Communicator& communicator, int n_threads,
+                    Totals& totals) {
     double largest = 0; // the largest component of a velocity
-    for (const DiscState& disc : own)
-        largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(max : largest)
+    for (std::size_t i = 0; i < own.size(); ++i)
+        largest = std::max({largest, std::fabs(own[i].vx), std::fabs(own[i].vy)});
     largest = communicator.max(largest) * velocity_unit;
     const double n = static_cast<double>(totals.n_discs),
                  heaviest = largest_mass(own, species_table, communicator);
     ExactSum energy(n * heaviest * largest * largest), momentum_x(n * heaviest * largest),
         momentum_y(n * heaviest * largest);
-    for (const DiscState& disc : own) {
-        const double vx = disc.vx * velocity_unit, vy = disc.vy * velocity_unit;
-        const double mass = mass_of(disc, species_table);
+#pragma omp parallel for num_threads(n_threads) schedule(static)                                   \
+    reduction(+ : energy, momentum_x, momentum_y)
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const double vx = own[i].vx * velocity_unit, vy = own[i].vy * velocity_unit;
+        const double mass = mass_of(own[i], species_table);
         energy.add(0.5 * mass * (vx * vx + vy * vy));
         momentum_x.add(mass * vx);
         momentum_y.add(mass * vy);

@@ -19,7 +19,7 @@ namespace carrom {
 /// Fills in the collision counts and the state hash; `columns` run along the discs.
 /// **Collective.**
 void measure_collisions(std::span<const DiscState> own, const SideSpans& columns,
-                        const Communicator& communicator, Totals& totals);
+                        const Communicator& communicator, int n_threads, Totals& totals);
 
 /// Fills in how many discs have left through which side. **Collective.**
 void measure_departures(std::span<const DiscState> own, const Box& box,
@@ -28,7 +28,8 @@ void measure_departures(std::span<const DiscState> own, const Box& box,
 /// Fills in energy and momentum. `velocity_unit` converts stored velocities to velocities per step.
 /// `species_table` is null if all masses are 1. **Collective.**
 void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
-                    double velocity_unit, const Communicator& communicator, Totals& totals);
+                    double velocity_unit, const Communicator& communicator, int n_threads,
+                    Totals& totals);
 
 /// Returns the discs themselves, or, if `effects` open sides, copies in `kept` of
 /// those whose centres are in the box at `time`.

@@ -57,7 +57,8 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     // dynamics the run itself may have made discs overlap.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
-                        touching_of(dynamics_, time_, discs_.periods()), communicator_, scene.name);
+                        touching_of(dynamics_, time_, discs_.periods()), communicator_,
+                        tuning_.threads, scene.name);
     discs_.forget_images();
     phases_ = {};
 }

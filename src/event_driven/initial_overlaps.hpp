@@ -16,7 +16,7 @@ namespace carrom {
 /// at `time` by more than twice the tolerance. The grid holds the population at that time and
 /// partners within a diameter. **Collective.**
 void refuse_overlaps(const Population& population, const CellGrid& grid, double time,
-                     const Touching& touching, const Communicator& communicator,
+                     const Touching& touching, const Communicator& communicator, int n_threads,
                      const std::string& scene_name);
 
 } // namespace carrom

@@ -143,10 +143,10 @@ std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream
 }
 
 void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                           const Communicator& communicator) {
+                           const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::legacy) return add_streams(scene, discs);
     if (scene.generator != Generator::file || scene.draws_velocities)
-        give_velocities(scene, discs, communicator);
+        give_velocities(scene, discs, communicator, n_threads);
     if (scene.velocities == VelocityKind::reversed)
         for (InputDisc& disc : discs) disc.vx = -disc.vx, disc.vy = -disc.vy;
 }
@@ -154,7 +154,7 @@ void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>&
 std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
                                      const Communicator& communicator, int n_threads) {
     std::vector<InputDisc> discs = initial_places(scene, lines, communicator, n_threads);
-    give_first_velocities(scene, discs, communicator);
+    give_first_velocities(scene, discs, communicator, n_threads);
     return discs;
 }
 

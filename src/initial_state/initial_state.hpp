@@ -22,7 +22,7 @@ std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream
 
 /// Gives the discs the velocities that initial_places leaves out. **Collective.**
 void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                           const Communicator& communicator);
+                           const Communicator& communicator, int n_threads);
 
 /// Throws InputError if discs overlap obstacles; the message names the first few. **Collective.**
 void refuse_in_obstacles(const SceneParameters& scene, const std::vector<InputDisc>& discs,

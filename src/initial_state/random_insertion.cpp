@@ -149,6 +149,7 @@ private:
     void judge() {
         const auto n_shares = static_cast<std::size_t>(n_threads_);
         std::vector<std::vector<std::uint32_t>> refused(n_shares);
+        std::vector<std::span<const Notice>> found(n_shares);
         const auto share_of = [&](std::size_t k) {
             const auto [first, last] = slab_of_rank(static_cast<int>(k), proposals_.size(),
                                                     n_threads_);
@@ -168,14 +169,18 @@ private:
             }
         }
         proposal_grid_->clear(proposals_, n_threads_);
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+        for (std::size_t k = 0; k < n_shares; ++k) {
+            const std::span<Notice> share = share_of(k);
+            found[k] = {share.begin(),
+                        std::partition(share.begin(), share.end(),
+                                       [](const Notice& n) { return n.is_placed(); })};
+        }
         unplaced_.clear();
         for (std::size_t k = 0; k < n_shares; ++k) {
             unplaced_.insert(unplaced_.end(), refused[k].begin(), refused[k].end());
-            const std::span<Notice> share = share_of(k);
-            const auto end = std::partition(share.begin(), share.end(),
-                                            [](const Notice& n) { return n.is_placed(); });
-            placed_.add({share.begin(), end});
-            if (communicator_.size() > 1) record_updates({share.begin(), end});
+            placed_.add(found[k]);
+            if (communicator_.size() > 1) record_updates(found[k]);
         }
     }
 

@@ -51,8 +51,8 @@ namespace {
 class Motion {
 public:
     Motion(const SceneParameters& scene, const std::vector<InputDisc>& discs,
-           const Communicator& ranks)
-        : ranks_(ranks), n_discs_(static_cast<double>(scene.n_discs)),
+           const Communicator& ranks, int n_threads)
+        : ranks_(ranks), n_threads_(n_threads), n_discs_(static_cast<double>(scene.n_discs)),
           species_(scene.effects.species, scene.radius) {
         double heaviest = 0;
         for (const InputDisc& disc : discs) heaviest = std::max(heaviest, mass_of(disc));
@@ -93,8 +93,9 @@ private:
 
     double largest_component(const std::vector<InputDisc>& discs) const {
         double largest = 0;
-        for (const InputDisc& disc : discs)
-            largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+#pragma omp parallel for num_threads(n_threads_) schedule(static) reduction(max : largest)
+        for (std::size_t i = 0; i < discs.size(); ++i)
+            largest = std::max({largest, std::fabs(discs[i].vx), std::fabs(discs[i].vy)});
         return ranks_.max(largest);
     }
 
@@ -103,12 +104,14 @@ private:
     double sum_over(const std::vector<InputDisc>& discs, double largest, const Term& term) const {
         if (largest == 0) return 0;
         ExactSum sum(n_discs_ * largest);
-        for (const InputDisc& disc : discs) sum.add(term(disc));
+#pragma omp parallel for num_threads(n_threads_) schedule(static) reduction(+ : sum)
+        for (std::size_t i = 0; i < discs.size(); ++i) sum.add(term(discs[i]));
         ranks_.sum(sum);
         return sum.value();
     }
 
     const Communicator& ranks_;
+    int n_threads_;
     double n_discs_;
     SpeciesTable species_;
     double heaviest_ = 1, total_ = 0;
@@ -144,9 +147,11 @@ namespace {
 
 /// Gives drawn velocities to all discs together.
 void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                 const Communicator& communicator) {
-    const Motion motion(scene, discs, communicator);
-    for (InputDisc& disc : discs) {
+                 const Communicator& communicator, int n_threads) {
+    const Motion motion(scene, discs, communicator, n_threads);
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        InputDisc& disc = discs[i];
         const Velocity drawn = drawn_velocity(scene, disc.id);
         const double factor = scene.temperature ? std::sqrt(1 / motion.share_of(disc)) : 1;
         disc.vx = factor * drawn.x;
@@ -162,7 +167,7 @@ void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
 
 /// Gives the discs of each group its own temperature or speed.
 void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                          const Communicator& communicator) {
+                          const Communicator& communicator, int n_threads) {
     std::ranges::sort(discs, {}, &InputDisc::id);
     SceneParameters of_group = scene;
     std::vector<InputDisc> part;
@@ -177,7 +182,7 @@ void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& 
         if (group.temperature) of_group.temperature = group.temperature;
         if (group.speed) of_group.temperature.reset();
         part.assign(first, last);
-        give_motion(of_group, part, communicator);
+        give_motion(of_group, part, communicator, n_threads);
         std::ranges::copy(part, first);
     }
 }
@@ -185,11 +190,11 @@ void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& 
 } // namespace
 
 void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                     const Communicator& communicator) {
+                     const Communicator& communicator, int n_threads) {
     if (scene.groups.empty())
-        give_motion(scene, discs, communicator);
+        give_motion(scene, discs, communicator, n_threads);
     else
-        give_motion_by_group(scene, discs, communicator);
+        give_motion_by_group(scene, discs, communicator, n_threads);
     add_streams(scene, discs);
 }
 

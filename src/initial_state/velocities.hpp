@@ -45,6 +45,6 @@ void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs);
 /// corrected for each group of `discs.groups` separately, with its own temperature or speed.
 /// Streams are added last. **Collective.**
 void give_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
-                     const Communicator& communicator);
+                     const Communicator& communicator, int n_threads);
 
 } // namespace carrom

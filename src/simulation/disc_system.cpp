@@ -248,7 +248,7 @@ void DiscSystem::log_to(std::vector<Collision>* log) {
 
 Totals DiscSystem::totals() const {
     Totals totals = energies();
-    measure_collisions(discs(), side_columns(), communicator_, totals);
+    measure_collisions(discs(), side_columns(), communicator_, n_threads_, totals);
     measure_departures(discs(), box_, communicator_, totals);
     engine_->add_to(totals);
     return totals;
@@ -263,7 +263,8 @@ const SpeciesTable* DiscSystem::species_if_mixed() const {
 Totals DiscSystem::energies() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    measure_motion(in_motion(), species_if_mixed(), velocity_unit_, communicator_, totals);
+    measure_motion(in_motion(), species_if_mixed(), velocity_unit_, communicator_, n_threads_,
+                   totals);
     if (const std::vector<OtherEnergy> others = other_energies_of(effects_); !others.empty())
         measure_other_energies(others, shown(), spins(), species_table(),
                                {effects_, box_, velocity_unit_, sync_interval_}, communicator_,

@@ -89,7 +89,7 @@ std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* f
                                    const Communicator& communicator, const Tuning& tuning) {
     ensure(!scene.freezes(), "discs that freeze change the scene");
     std::vector<InputDisc> discs = first_places(scene, following, communicator, tuning);
-    give_first_velocities(scene, discs, communicator);
+    give_first_velocities(scene, discs, communicator, tuning.threads);
     return discs;
 }
 
@@ -102,7 +102,7 @@ std::vector<InputDisc> first_discs_and_frozen(SceneParameters& scene, std::istre
                            "out, and discs freeze by 'discs.freeze' or groups"}});
     std::vector<InputDisc> discs = first_places(scene, following, communicator, tuning);
     if (scene.awaits_frozen()) freeze_discs(scene, discs, communicator);
-    give_first_velocities(scene, discs, communicator);
+    give_first_velocities(scene, discs, communicator, tuning.threads);
     return discs;
 }
 

@@ -9,22 +9,28 @@ free        mean square displacements and diffusion of discs that do not meet, w
 swim        the pressure of active discs on walls, against the exact one of discs that do not meet
 separation  how much densities differ from place to place on both sides of the critical point of
             active Brownian discs
+coexistence packings of the gas and of the dense phase beside it, from two mean packings
 
 Citations: Cates and Tailleur, EPL 101, 20010 (2013), for diffusion by turns and tumbles; Takatori,
 Yan and Brady, Phys. Rev. Lett. 113, 028103 (2014), and Solon and others, Phys. Rev. Lett. 114,
 198301 (2015), for the swim pressure; Siebert and others, Phys. Rev. E 98, 030601 (2018), for the
 critical point at the Peclet number 40(2) and the packing 0.597(3), of discs that repel each other
-softly.
+softly; Redner, Hagan and Baskaran, Phys. Rev. Lett. 110, 055701 (2013), for phases whose packings
+depend on the activity alone.
 
 Discs have the mass 1. Exit codes and errors are those of tests/physics/literature.py: a number is
 held to four joint standard errors.
 """
+import cmath
+import collections
 import math
 import statistics
 
 import literature
 from driven_studies import EVENTS, PERIODIC, box_of, run
 
+CELLS, CELL = (24, 6), 6 # cells of a band's box, and their side
+CRITICAL = 0.597 # packing of the critical point
 BETWEEN = 2 # variance over mean of homogeneous discs and of two phases
 LANGEVIN = {"effects.thermostat.kind": '"langevin"'}
 ALONG_Y = {f"box.{side}.kind": '"periodic"' for side in ("bottom", "top")}
@@ -151,9 +157,77 @@ def separation(program, is_short):
                "variance_over_mean_above": BETWEEN if peclet > 40 else ""}
 
 
+def band(program, peclet, packing, steps, seed=1):
+    """Packings of cells of a long box, one list for each sample, row by row. Discs begin as a dense
+    band across it, with the rest around them."""
+    length, width = (CELL * count for count in CELLS)
+    dense, gas, diffusion, gamma = 0.8, 0.25, 1e-3, 0.25
+    share = (packing - gas) / (dense - gas)
+    edges = [length * (1 - share) / 2, 0, length * (1 + share) / 2, width]
+    thermal = diffusion / 3
+    groups = [f'{{packing = {dense}, generator = "lattice", region = {edges}}}',
+              f"{{count = {round(gas * (1 - share) * length * width * 4 / math.pi)}}}"]
+    report = run(program, PERIODIC | EVENTS | LANGEVIN | {
+        "box.size": [length, width], "discs.radius": 0.5, "discs.groups": f"[{', '.join(groups)}]",
+        "discs.temperature": gamma * thermal, "discs.seed": seed, "time.steps": steps,
+        "time.sync_every": 1, "effects.thermostat.rate": gamma,
+        "effects.thermostat.temperature": gamma * thermal, "effects.thermostat.seed": seed,
+        "effects.activity.speed": peclet * thermal, "effects.activity.seed": seed,
+        "effects.activity.rotational_diffusion": diffusion,
+        "output.measurements.quantities": '["profiles"]', "output.measurements.every_steps": 100,
+        "output.measurements.from_step": steps // 3,
+        "output.measurements.profile_columns": CELLS[0],
+        "output.measurements.profile_rows": CELLS[1], "output.measurements.profile_samples": 1})
+    table, n_cells = report["measurements"]["profiles"], CELLS[0] * CELLS[1]
+    packings = [count * math.pi / 4 / CELL ** 2 for count in table["count"]]
+    return [packings[k:k + n_cells] for k in range(0, len(packings) - n_cells + 1, n_cells)]
+
+
+def gas_beside(sample):
+    """The mean packing of the quarter of the box that is furthest from the band's middle."""
+    columns = [statistics.fmean(sample[k::CELLS[0]]) for k in range(CELLS[0])]
+    mode = sum(value * cmath.exp(2j * math.pi * k / CELLS[0]) for k, value in enumerate(columns))
+    opposite = round(cmath.phase(mode) / (2 * math.pi) * CELLS[0]) + CELLS[0] // 2
+    far = CELLS[0] // 8
+    return statistics.fmean(columns[(opposite + k) % CELLS[0]] for k in range(-far, far))
+
+
+def upper_peak(packings, wide=0.03):
+    """Where the histogram of cells is highest among dense ones: gas comes and goes within a band,
+    so that the mean of its cells is less."""
+    dense = [value for value in packings if value > CRITICAL]
+    counts = collections.Counter(round(value / wide) for value in dense)
+    peak = wide * max(counts, key=counts.get)
+    return statistics.fmean(value for value in dense if abs(value - peak) < 2.5 * wide)
+
+
+def phases_of(samples):
+    return (statistics.fmean(map(gas_beside, samples)),
+            upper_peak([value for sample in samples for value in sample]))
+
+
+def coexistence(program, is_short):
+    """From the second mean packing the band is wider, and both phases have to be those of the
+    first. A third of each run comes before averages. Errors are from the scatter of quarters."""
+    steps = 1_500 if is_short else 30_000
+    first = {}
+    for packing in (0.4, 0.55):
+        samples = band(program, 100, packing, steps)
+        quarters = [phases_of(samples[k * len(samples) // 4:(k + 1) * len(samples) // 4])
+                    for k in range(4)]
+        row = {"peclet": 100, "packing": packing, "steps": steps}
+        for name, value, parts in zip(("gas", "dense"), phases_of(samples), zip(*quarters)):
+            row[name], row[f"{name}_error"] = value, literature.mean(parts)[1]
+            row[f"{name}_known"], row[f"{name}_known_error"] = first.get(name, ("", ""))
+        if not is_short: # short runs remember how they began
+            first = {name: (row[name], row[f"{name}_error"]) for name in ("gas", "dense")}
+        yield row | {"gas_below": CRITICAL, "dense_above": CRITICAL}
+
+
 # What makes the rows; the largest errors, over what is known, of a short and of the whole study.
 STUDIES = {"free": (free, 0.05, 0.01), "swim": (swim, 0.05, 0.02),
-           "separation": (separation, math.inf, math.inf)}
+           "separation": (separation, math.inf, math.inf),
+           "coexistence": (coexistence, math.inf, 0.2)}
 
 if __name__ == "__main__":
     literature.main(__doc__, STUDIES)

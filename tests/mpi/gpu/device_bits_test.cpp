@@ -53,7 +53,7 @@ Sums run(Engine& engine, std::int64_t last_step, std::int64_t micro_steps) {
     StressSums stress(0x1p40);
     engine.add_stress_to(&stress);
     while (engine.micro_steps_done() < last_step * micro_steps) engine.advance_towards(last_step);
-    measure_collisions(engine.own(), engine.side_columns(), Communicator::world(), sums.totals);
+    measure_collisions(engine.own(), engine.side_columns(), Communicator::world(), 1, sums.totals);
     engine.add_to(sums.totals);
     for (std::size_t k = 0; k < 4; ++k) sums.stress[k] = stress.parts()[k]->value();
     engine.add_stress_to(nullptr);
